@@ -2,10 +2,10 @@
 // Cost of the contour room in the control cycle: foot point and governor, over varied paths.
 //
 // Each benchmark replays recorded cycles and times every call. Counters: mean (of processor time,
-// the clock's two calls included), median, p99.9 and worst in ns; `worst_cycle`, the most expensive
-// cycle by the least of its repetitions, which is the algorithm's own worst case without what the
-// operating system adds; and `real_time`, the control's time over the time that the calls took. The
-// baseline of the same run is `EmptyCall`: what the clock itself costs.
+// including the clock's two calls), median, p99.9 and worst in ns; `worst_cycle`, the most
+// expensive cycle by the least of its repetitions: the algorithm's own worst case without the
+// operating system's share; and `real_time`, the control's time over the time of the calls. The
+// baseline of the same run is `EmptyCall`, the cost of the clock itself.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -72,8 +72,7 @@ std::vector<PathSegment> make_path(int kind) {
   return path.limited(2000.0, 5.0);
 }
 
-/// Frames with what the envelope had let through when they were recorded: the governor decides by
-/// both.
+/// Frames with the envelope's output at the time of recording: the governor decides by both.
 struct Recording {
   Machine machine;
   std::vector<PathSegment> path;
@@ -97,8 +96,8 @@ Recording record(int kind, double period_s) {
 
 using Clock = std::chrono::steady_clock;
 
-/// `least` is each frame's best time over the iterations. A cycle is deterministic, so what it
-/// takes at best is the algorithm's; the rest is the operating system's.
+/// `least` is each frame's best time over the iterations. A cycle is deterministic, so its best
+/// time is the algorithm's; the rest is the operating system's.
 template <class Call>
 void time_calls(benchmark::State& state, const Recording& recording, Call&& call) {
   std::vector<double> ns;
@@ -145,8 +144,8 @@ void FootPoint(benchmark::State& state) {
 }
 BENCHMARK(FootPoint)->DenseRange(0, kPathKinds - 1)->Iterations(8);
 
-/// Without the path the error comes from following errors and the estimated curvature alone, the
-/// mode of controls that show no path.
+/// Without the path the error comes only from following errors and the estimated curvature, as with
+/// controls that show no path.
 void FootPointWithoutPath(benchmark::State& state) {
   const Recording recording = record(static_cast<int>(state.range(0)), 0.001);
   ContourError error = ContourError::make({}).value();

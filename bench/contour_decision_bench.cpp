@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a decision of the feed governor takes on linuxcnc-mill, whose feed override has 201 steps:
-// the search as it is, bounded, beside the exhaustive one of the same run.
+// Cost of a decision of the feed governor on linuxcnc-mill, whose feed override has 201 steps: the
+// actual, bounded search against the exhaustive one in the same run.
 //
 // The rib pocket (and the path that `doctor` measures on) is cut on the simulated machine with the
 // layer acting. Each frame goes to two more governors, and their calls are timed in the cycles in
-// which they decide. The cut is the same in every round, so each decision counts with the least of
-// its times: what is left is the governor's own. Counters: p50, p99.9 and worst in µs; `forecasts`
-// of a decision at p99.9; `ratio` of the exhaustive search to the bounded one at p99.9.
+// which they decide. The cut is the same in every round, so each decision counts with its least
+// time: the governor's own. Counters: p50, p99.9 and worst in µs; `forecasts` of a decision at
+// p99.9; `ratio` of the exhaustive search to the bounded one at p99.9.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading a machine file whose encoder has a table of lines: time per file over the table's length,
 // with the file without a table as the baseline. A table of a hundred thousand lines is the largest
-// thing that a machine file holds.
+// item in a machine file.
 #include <cmath>
 #include <string>
 

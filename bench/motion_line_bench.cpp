@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cost of the line table per edge: learning, and looking up alone, on a sine with line errors.
+// Cost of the line table per edge: learning, and only looking up, on a sine with line errors.
 // `Lookup` is the baseline. Time is per edge (see items_per_second).
 #include <benchmark/benchmark.h>
 

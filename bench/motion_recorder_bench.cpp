@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost of the recorder: per A/B sample, per latched read, per edge handed to an estimator, and of
-// the cycle monitor per tick. Inputs are recorded walks, so branches are as unforeseeable as on a
+// the cycle monitor per tick. Inputs are recorded walks, so branches are as unpredictable as on a
 // machine; `Empty` replays the same walk without a decoder. Time is per item (see
 // items_per_second).
 #include <cstdint>
@@ -41,7 +41,7 @@ std::vector<Sample> levels(unsigned spacing) {
   return out;
 }
 
-/// The walk without a decoder: what the loop and the reading of a sample cost.
+/// The walk without a decoder: the cost of the loop and of reading a sample.
 void Empty(benchmark::State& state) {
   const auto samples = levels(static_cast<unsigned>(state.range(0)));
   for ([[maybe_unused]] auto _ : state) {
@@ -127,7 +127,7 @@ void EventsToEdges(benchmark::State& state) {
 void MonitoredTicks(benchmark::State& state) {
   auto monitor = CycleMonitor::make({.nominal_period_s = 1e-3}).value();
   std::mt19937 random(3);
-  // 2 µs of jitter on 1 ms, as a tuned PREEMPT_RT kernel has it.
+  // 2 µs of jitter on 1 ms, as on a tuned PREEMPT_RT kernel.
   std::normal_distribution<double> jitter(0.0, 2e-6);
   std::vector<double> wander(kItems);
   for (double& w : wander) {

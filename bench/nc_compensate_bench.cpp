@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compensating (read, write, prove): lines per second of CPU time on one core, beside LinuxCNC's
-// `rs274 -g` on the same file in the same run. CPU time, so that a loaded machine shows little.
+// Compensating (read, write, prove): lines per second of CPU time on one core, compared with
+// LinuxCNC's `rs274 -g` on the same file in the same run. CPU time, so that other load matters
+// little.
 //
 //   steadyrest_nc_compensate_bench [REPEATS]
 //
-// The programs are two of the shared data, REPEATS times one after the other; what no control
-// reads (E words, M82, M84) is left out of the second. The first line says the modes that these
-// programs leave to the control, without which no correction would be certain.
+// The programs are two of the shared data, REPEATS times one after the other; what no control reads
+// (E words, M82, M84) is removed from the second. The first line sets the modes that these programs
+// leave to the control, without which no correction would be certain.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -67,8 +68,8 @@ kernel::machine::Machine mill() {
   return m;
 }
 
-/// Lines of the program that is made at `path`: a print job without its extruder words is a plain
-/// three-axis program of many short moves.
+/// Writes the program at `path`, returns its lines: a print job without its extruder words is a
+/// plain three-axis program of many short moves.
 std::size_t make_program(const std::string& from, const std::string& path, int repeats) {
   const std::regex unread("^(G92 E|M82|M84|M2).*");
   const std::regex extruder(" *E-?[0-9.]+");
@@ -127,7 +128,7 @@ void measure(const std::string& name, const std::string& from, const std::string
       std::exit(1);
     }
   });
-  // rs274 only interprets; it neither plans nor proves. The ratio is what a user waits.
+  // rs274 only interprets; it neither plans nor proves. The ratio reflects a user's waiting time.
   const double theirs_s = spent_s(RUSAGE_CHILDREN, [&] {
     if (std::system(("rs274 -g " + program + " > /dev/null 2>&1").c_str()) != 0) {
       std::printf("rs274 is not installed, or refuses the program\n");

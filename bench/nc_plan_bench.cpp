@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolator: nanoseconds of one update, beside the same work with one long line as the baseline.
+// Interpolator: nanoseconds per update, with the same work on one long line as the baseline.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

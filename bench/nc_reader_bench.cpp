@@ -48,7 +48,7 @@ void count(benchmark::State& state, std::uint64_t lines, const std::string& text
                           static_cast<std::int64_t>(state.iterations()));
 }
 
-/// Reading: splitting blocks into words. Interpreting: that, and what the words mean.
+/// Reading: splitting blocks into words. Interpreting: that, plus the words' meaning.
 void read_only(benchmark::State& state, const std::string& text) {
   if (text.empty()) {
     state.SkipWithError("the shared data is absent");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How much faster than real time the simulated machine runs, from its body alone to a whole
-/// program with planner and panel: each benchmark reports `x_real_time`, simulated seconds for each
+/// program with planner and panel: each benchmark reports `x_real_time`, simulated seconds per
 /// second of one core; SimulatedMachine_Cycle the time of one cycle.
 #include <algorithm>
 #include <chrono>

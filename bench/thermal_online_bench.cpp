@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thermal room in the cycle: one step of the filter, and a cycle of the governor at 1 kHz with
-// one and with three axes of two modes and one sensor each, which is a full machine.
+// one and with three axes of two modes and one sensor each (a full machine).
 #include <benchmark/benchmark.h>
 
 #include <steadyrest/thermal/online/offset_governor.hpp>

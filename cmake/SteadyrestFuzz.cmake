@@ -5,7 +5,7 @@ if(STEADYREST_FUZZ)
 endif()
 
 # steadyrest_fuzz(NAME x SOURCES x_fuzz.cpp DEPENDS … CORPUS folder …): with STEADYREST_FUZZ the libFuzzer program
-# steadyrest_x_fuzz. Without it the same entry point is built with a main that plays the CORPUS folders through it once, as a
+# steadyrest_x_fuzz. Without it the same entry point is built with a main that runs the CORPUS folders through it once, as a
 # ctest entry, so that a fuzz target cannot rot.
 #   cmake --preset fuzz && cmake --build --preset fuzz --target steadyrest_x_fuzz
 #   build/fuzz/bin/steadyrest_x_fuzz -max_total_time=60 NEW_CORPUS_FOLDER SEED_FOLDER …
@@ -18,7 +18,7 @@ function(steadyrest_fuzz)
     target_link_options(${target} PRIVATE -fsanitize=fuzzer)
   else()
     target_sources(${target} PRIVATE ${CMAKE_SOURCE_DIR}/tests/fuzz/replay.cpp)
-    # It asks whether the target has a mutator; beside its definition there is nothing to ask.
+    # It tests whether the target has a mutator, which it cannot do in one unit with the definition.
     set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/fuzz/replay.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_test(NAME Fuzz.${F_NAME} COMMAND ${target} ${F_CORPUS} WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
     set_tests_properties(Fuzz.${F_NAME} PROPERTIES LABELS fast TIMEOUT 300)

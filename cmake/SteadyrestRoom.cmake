@@ -18,8 +18,8 @@ target_compile_options(steadyrest_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-
 target_compile_options(steadyrest_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-deprecated-declarations>)
 # A simulation must give the same bytes on every machine: no fused multiply-add by the compiler's choice.
 target_compile_options(steadyrest_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
-# Where several sources are compiled as one (release and the sanitizers: half the time), a type of a source's own is to
-# g++ one that a header gives to everybody.
+# Where several sources are compiled as one (release and the sanitizers: half the time), g++ takes a type private to a
+# source for one from a header.
 if(CMAKE_UNITY_BUILD)
   target_compile_options(steadyrest_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
@@ -29,7 +29,7 @@ if(STEADYREST_SANITIZE)
   target_link_options(steadyrest_flags INTERFACE -fsanitize=${STEADYREST_SANITIZE})
 endif()
 
-# What reads options and writes text takes long to compile and no time to run: it is optimised little, in sanitized
+# Code that reads options and writes text takes long to compile and no time to run: it is optimised little, in sanitized
 # builds not at all.
 if(STEADYREST_SANITIZE)
   set(steadyrest_not_hot_options $<$<COMPILE_LANGUAGE:CXX>:-O0>)
@@ -40,13 +40,13 @@ function(steadyrest_not_hot target)
   target_compile_options(${target} PRIVATE ${steadyrest_not_hot_options})
 endfunction()
 
-# What runs for each of a program's million lines. The code is position-independent, so g++ calls its own functions
-# through the linker's table and does not inline them unless it is told that nobody replaces them; clang takes that for
-# granted. The results are the same to the last bit.
+# Code that runs for each of a program's million lines. It is position-independent, so g++ calls its own functions
+# through the linker's table and does not inline them unless told that nobody replaces them, which clang assumes anyway.
+# The results are the same to the last bit.
 function(steadyrest_hot target)
   target_compile_options(${target} PRIVATE
     $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<CONFIG:Release>>:-O3;-fno-semantic-interposition;-fno-math-errno>)
-  # A move is 384 bytes: `rep movs`, which g++ takes for that, costs more than what it copies.
+  # A move is 384 bytes: `rep movs`, which g++ uses for that, costs more than plain copying.
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     set(way vector_loop:1024:noalign,libcall:-1:noalign)
     target_compile_options(${target} PRIVATE
@@ -71,13 +71,13 @@ function(steadyrest_room)
   endif()
 endfunction()
 
-# Out of a precompiled header g++ 12 warns of its own library: what it inlines there it takes for ours (compare GCC bug
-# 105651). clang and AddressSanitizer look after the bounds.
+# From a precompiled header g++ 12 warns about its own library: it takes code inlined from there for ours (compare GCC bug
+# 105651). clang and AddressSanitizer check the bounds.
 set(steadyrest_pch_false_positives -Wno-array-bounds -Wno-stringop-overflow)
 
-# Headers parsed once for all that share them, where they take longer than the code: the test frameworks, and what reads
-# options and writes JSON. Code that is optimised otherwise needs its own copy. It is an executable, since it must be
-# compiled as those are that use it.
+# Headers parsed once for all that share them, where they take longer than the code: the test frameworks, and code that
+# reads options and writes JSON. Code optimised differently needs its own copy. It is an executable, since it must be
+# compiled like its users.
 # steadyrest_headers(target HEADERS <a> … DEPENDS … OPTIONS …)
 function(steadyrest_headers target)
   cmake_parse_arguments(H "" "" "HEADERS;DEPENDS;OPTIONS" ${ARGN})
@@ -96,7 +96,7 @@ steadyrest_headers(steadyrest_test_headers_not_hot HEADERS ${test_headers} ${tex
 steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_headers}
   DEPENDS CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
 
-# All test executables of the label `threads`: what ThreadSanitizer is worth building for.
+# All test executables with the label `threads`: those worth building for ThreadSanitizer.
 add_custom_target(threads_tests)
 
 # steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT): a GoogleTest executable; every test is a

@@ -40,7 +40,7 @@ std::shared_ptr<const nc::plan::PlannedPath> plan(const char* program,
   return std::make_shared<const nc::plan::PlannedPath>(builder.take().value());
 }
 
-/// A path is cut when the command stands this close to its end.
+/// A path is cut when the command is this close to its end.
 constexpr double kClose_mm = 1e-6;
 
 double end_mm(const nc::plan::PlannedPath& path) {

@@ -39,7 +39,7 @@ fi
 step 'clang-tidy: what differs from the last full run (make tidy is the full run)'
 sh scripts/tidy.sh --changed
 # The sanitizers keep their shadow memory at fixed addresses; a kernel that randomises more bits of the
-# layout than they allow for puts a library there now and then.
+# layout than they expect occasionally puts a library there.
 setarch "$(uname -m)" -R true 2>/dev/null && unrandomised="setarch $(uname -m) -R" || unrandomised=
 step 'build and tests: clang, AddressSanitizer, UndefinedBehaviorSanitizer'
 build asan-ubsan

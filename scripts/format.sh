@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# clang-format over all of our sources; --check only says what it would change, and fails.
+# clang-format over all of our sources; --check only reports what it would change, and fails.
 set -eu
 cd "$(dirname "$0")/.."
 mode=-i

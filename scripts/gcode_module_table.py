@@ -98,8 +98,8 @@ def difference(moves, rows):
     skip_back = False
     for row in rows:
         if at and given[at - 1][0] == "probe":
-            # Where a probe stops only the machine knows: the module takes the programmed end, rs274 (and ours) a place
-            # 0.254 mm before. What follows is compared by rs274_table.py alone.
+            # Only the machine knows where a probe stops: the module assumes the programmed end, rs274 (like ours) a
+            # place 0.254 mm before it. Only rs274_table.py compares what follows.
             return "", worst
         mine = [float(row[k]) for k in ("x_mm", "y_mm", "z_mm", "a_deg", "b_deg", "c_deg")]
         if skip_back:  # out again after a rigid tap: one call there

@@ -169,7 +169,7 @@ def equivalent_of(program, dialect, oracle):
         lines = []
         for line in text.splitlines():
             code = re.sub(r"\(.*?\)", "", line)
-            if re.search(r"G0*28", code):  # there G0 beside G28 only sets the mode
+            if re.search(r"G0*28", code):  # there a G0 with G28 only sets the mode
                 line = re.sub(r"G0*[01](?![\d.])", "", line, count=1)
             if re.search(r"G28.*G91|G91.*G28", code):
                 lines.append("G91")

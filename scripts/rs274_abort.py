@@ -56,7 +56,7 @@ class Shop:
         self.meant = [0.0] * 9
         self.meant_g92 = 0.0
         self.place = 0.0   # of the Z axis, machine coordinates
-        self.unsure = False  # touched off or measured since an abort in a way that no number shows
+        self.unsure = False  # touched off or measured since an abort, in a way that no number shows
         self.log = []
 
     def variables(self):
@@ -81,7 +81,7 @@ class Shop:
                               env={**os.environ, "HOME": self.oracle.folder})
         calls = [CALL.match(line) for line in done.stdout.decode("latin-1").splitlines()]
         complaint = done.stderr.decode("latin-1")
-        ended = done.returncode == 0 or "File ended with no percent sign" in complaint  # as an abort ends it
+        ended = done.returncode == 0 or "File ended with no percent sign" in complaint  # ended by an abort
         return ended, [(one.group(1), one.group(2)) for one in calls if one], complaint
 
 
@@ -173,7 +173,7 @@ def start(shop, r, program, kind, folder, count_of):
     last = len(lines)
     if kind == "abort":
         last = r.randint(program["head"], len(lines) - 1)
-    if kind == "from":  # the control has the modes that the operator has given by MDI
+    if kind == "from":  # the control has the modes given by MDI
         first = r.randint(program["head"], len(lines) - 2)
         lines = ["G17 %s G90 G94 F100" % program["units"]] + lines[first:]
         last = len(lines)
@@ -210,7 +210,7 @@ def start(shop, r, program, kind, folder, count_of):
     for number in range(9):
         value = now.get(5223 + 20 * number, 0.0) * MACHINE
         noted = now.get(5229 + 20 * number, 0.0)
-        if kind == "from" and noted:  # left in an offset that this run has not chosen: the next head finds it
+        if kind == "from" and noted:  # left in an offset that this run did not select: the next head finds it
             continue
         if abs(value - shop.meant[number]) > 1e-4:
             return f"behind the end work offset {number + 1} is {value:.5f} mm instead of {shop.meant[number]:.5f}"
@@ -288,7 +288,7 @@ def operator(shop, r, kind, folder, count_of):
     after = shop.variables()
     count_of[what] += 1
     if what == "touch off":
-        shop.meant[active] = after[5223 + 20 * active] * MACHINE  # it is his, whatever stood there
+        shop.meant[active] = after[5223 + 20 * active] * MACHINE  # the operator's now, whatever was there
     elif what == "g92":
         total = (after[5223 + 20 * active] + after[5213]) * MACHINE
         shop.meant_g92 = total - shop.meant[active]

@@ -8,7 +8,7 @@ compares the machine's positions.
 
 Every program gets corrections of Z by 50, 100 and 70 um at a quarter, a half and three quarters of its time. Machine
 positions are put together from what rs274 prints: coordinates, work offset, G92 and tool length. They must differ by the
-correction that stands, on Z alone; the variable file after the run must be that of the original. Needs `rs274`
+correction in force, on Z alone; the variable file after the run must be that of the original. Needs `rs274`
 (Debian: linuxcnc-uspace). Exit code 1 when one program disagrees.
 """
 import collections
@@ -78,7 +78,7 @@ def machine_moves(listed):
     for name, values in listed:
         if name == "USE_LENGTH_UNITS":
             unit = MM_PER_INCH if "INCHES" in values else 1.0
-            coarsest = max(coarsest, unit)  # offsets keep the digits that they were printed with
+            coarsest = max(coarsest, unit)  # offsets keep their printed digits
         elif name == "SELECT_PLANE":
             plane = values[-2:]
         elif name == "SET_XY_ROTATION":
@@ -107,8 +107,8 @@ def machine_moves(listed):
 
 
 def disagreement(original, changed, totals_mm, may_leave, to_its_end=True):
-    """'' or how the changed program's machine goes otherwise. `totals_mm`: by axis 0 … 2, what stands from each step on. The last
-    move may stand in the line that ends the program: then it goes without a correction."""
+    """'' or how the changed program's machine goes otherwise. `totals_mm`: by axis 0 … 2, the correction from each step on. The last
+    move may be in the line that ends the program: it is then made without a correction."""
     if len(original) != len(changed):
         return f"{len(original)} moves became {len(changed)}"
     wanted, stands, digit = {axis: list(totals) for axis, totals in totals_mm.items()}, [0.0] * 3, 0.0
@@ -128,14 +128,14 @@ def disagreement(original, changed, totals_mm, may_leave, to_its_end=True):
                 off = after[2][axis] - before[2][axis] - shift[axis]
                 if abs(off) > digit:
                     return f"{where}: centre {'xyz'[axis]} differs by {off:.4f}"
-    # What is within the digits of what stands, or of nothing, cannot be told from it.
+    # A total within the digits of the correction in force, or of zero, cannot be told from it.
     never = {axis: totals for axis, totals in wanted.items()
              if totals and min(abs(totals[-1] - stands[axis]), abs(totals[-1])) > 2 * digit}
     return f"corrections that never act: {never}" if never and to_its_end else ""
 
 
 def totals_of(insertions):
-    """By axis 0 … 2, what stands from each place on, mm; steps that meet at one place are one."""
+    """By axis 0 … 2, the correction from each place on, mm; steps that share a place are one."""
     totals = {}
     for one in insertions:
         totals.setdefault("XYZ".index(one["axis"]), {})[one["original_line"]] = one["total_um"] * 1e-3

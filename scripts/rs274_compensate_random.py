@@ -61,7 +61,7 @@ def variables(found):
 
 
 def spice(r, scale):
-    """What may stand between the passes: nearly all of it has to do with what outlives a program or with where zero is."""
+    """Lines between the passes: nearly all affect what outlives a program or where zero is."""
     n = lambda low=-9, high=9: number(r, low, high, scale)
     offset = r.choice(["G54", "G55", "G56", "G59.3"])
     return r.choice([

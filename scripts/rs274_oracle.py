@@ -67,7 +67,7 @@ class Oracle:
                               env={**os.environ, "HOME": self.folder})
         lines = done.stdout.decode("latin-1").splitlines()
         moves, unit, plane, feed, noise = [], 1.0, "XY", 0.0, []
-        sync, stands = None, []  # stands: the end printed last, while its numbers mean the same place
+        sync, stands = None, []  # stands: the end printed last, while its numbers still mean the same place
         for line in lines:
             call = CALL.match(line)
             if not call:
@@ -105,7 +105,7 @@ class Oracle:
 
 def ours(steadyrest, program, dialect, oracle, extra=()):
     """(accepted, first refusal, rows)"""
-    # Through a pipe, which has the moves in front of a refusal too; a file is written when all is read.
+    # Through a pipe, which also has the moves before a refusal; a file is written only at the end.
     end, entry = os.pipe()
     moves = []
     with open(end, encoding="utf-8") as source:
@@ -191,7 +191,7 @@ def judge(steadyrest, oracle, program, dialect="linuxcnc", equivalent=None, extr
     elif ours_ok:
         verdict = f"rs274 refuses: {message}"
     else:
-        # what was executed before the refusal must agree as well
+        # everything executed before the refusal must agree too
         common = min(len(moves), len(rows))
         verdict = compare(moves[:common], rows[:common])
     return {"accepted": ours_ok, "verdict": verdict, "moves": len(rows), "blocks": blocks,

@@ -124,7 +124,7 @@ def blocks(r, labels, depth, loops, in_sub):
     return lines
 
 
-DO = [False]  # do loops, or break and continue: behind a break rs274 2.9 leaves a later do loop after its first turn
+DO = [False]  # do loops, or break and continue: after a break rs274 2.9 leaves a later do loop after its first turn
 
 
 def structured(r):
@@ -152,7 +152,7 @@ FORBIDDEN = ["G18", "G19", "G54", "G55", "G43 H1", "G49", "G64", "G61", "G98", "
 
 
 def contour(r):
-    """Compensated contours: lines and arcs at every kind of corner, both sides, with what stands between."""
+    """Compensated contours: lines and arcs at every kind of corner, both sides, with other blocks in between."""
     first, second, centre = r.choice([("X", "Y", "IJ"), ("X", "Y", "IJ"), ("Z", "X", "KI")])
     other = "Y" if first == "Z" else "Z"
     size = r.choice([0.3, 1, 3])  # length of the pieces
@@ -221,7 +221,7 @@ def contour(r):
 
 
 def spaced(r, text):
-    """Blanks mean nothing, wherever they stand, within a number or a name too."""
+    """Blanks mean nothing anywhere, even within a number or a name."""
     often = r.choice([.03, .2, .6])
     return "".join(c + (r.choice([" ", "\t", "  "]) if c != "\n" and r.random() < often else "") for c in text)
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs by name what a bare Debian 12 lacks; does nothing, and needs no network, when all is there.
 #   scripts/setup.sh          what `make run` needs
-#   scripts/setup.sh --test   what `make test` needs besides
+#   scripts/setup.sh --test   what `make test` needs in addition
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -18,7 +18,7 @@ if [ "${1:-}" = --test ]; then
   "
 fi
 
-# A Node that the user installed in another way is as good as Debian's.
+# A Node installed in another way is as good as Debian's.
 node_major=$(node --version 2>/dev/null | sed -n 's/^v\([0-9]*\)\..*/\1/p')
 if [ "${node_major:-0}" -lt 18 ] || ! command -v npm >/dev/null 2>&1; then
   packages="$packages nodejs npm"

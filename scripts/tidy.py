@@ -26,7 +26,7 @@ BUILD = ROOT / "build" / "clang"
 CACHE = pathlib.Path(os.environ.get("XDG_CACHE_HOME", pathlib.Path.home() / ".cache")) / "steadyrest-tidy"
 FOLDERS = ("steadyrest", "tests", "bench", "examples", "fuzz")
 IS_TEST = re.compile(r"(^tests/|/test/|/testing/)")
-# GoogleTest's and RapidCheck's macros make names, statics and statements of their own.
+# GoogleTest's and RapidCheck's macros create their own names, statics and statements.
 NOT_IN_TESTS = (
     "-readability-identifier-naming,-readability-braces-around-statements,"
     "-readability-function-size,-misc-use-internal-linkage,-cppcoreguidelines-*,"
@@ -133,7 +133,7 @@ def main():
                 print(f"[{count}/{len(work)}] {name}", flush=True)
             show = True
             for line in findings.splitlines():
-                # A header's finding comes with each file that includes it: say it once.
+                # A header's finding appears with each file that includes it: report it once.
                 if re.search(r": (error|warning): ", line):
                     show = line not in seen
                     seen.add(line)

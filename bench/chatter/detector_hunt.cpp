@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Detection rates, delays and false alarms of the chatter detector on cuts drawn by chance, at five
-// noise levels, without and with modulation: steadyrest_detector_hunt [CASES] [SEED]
-// [STABLE_SECONDS]. CASES chattering cuts and as many stable ones of 1.7 s are heard at each level.
-// Noise is white, its RMS in shares of the forced vibration's. Each cut has 0.2 s of air before it.
-// With STABLE_SECONDS stable cuts of 60 s follow until so many seconds are heard at each level.
-// Cuts whose truth is not plain (they neither forget nor keep their start) are left out and
-// counted. In time: within 0.15 s after what regeneration adds to the vibration first reaches a
-// tenth of its size at the end.
+// Detection rates, delays and false alarms of the chatter detector on random cuts, at five noise
+// levels, without and with modulation: steadyrest_detector_hunt [CASES] [SEED] [STABLE_SECONDS].
+// CASES chattering cuts and as many stable ones of 1.7 s are tried at each level. Noise is white,
+// its RMS relative to the forced vibration's. Each cut follows 0.2 s of air. With STABLE_SECONDS,
+// stable cuts of 60 s follow until that many seconds are reached at each level. Cuts without a
+// clear truth (they neither forget nor keep their start) are skipped and counted. In time: within
+// 0.15 s after regeneration's part of the vibration first reaches a tenth of its final size.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -25,7 +24,7 @@ namespace {
 using test::CutModel;
 using test::CutSignal;
 
-/// A microphone in a shop hears the cut at 5 … 20 % of noise; 100 % is a hall at full work.
+/// A microphone in a shop has 5 … 20 % of noise; 100 % is a hall at full work.
 constexpr std::array kNoise{0.01, 0.05, 0.2, 0.5, 1.0};
 constexpr double kInTimeS = 0.15;
 
@@ -43,8 +42,8 @@ struct Cost {
   double samples = 0.0;
 };
 
-/// Starts of all alarms, s. The noise is drawn for each level, so that no level is lucky with one
-/// draw; the cut itself is the same for all.
+/// Starts of all alarms, s. The noise is drawn anew for each level, so that no level profits from
+/// one draw; the cut is the same for all.
 std::vector<double> alarms(const CutModel& model, const CutSignal& signal, double noise,
                            std::mt19937_64& rng, Cost& cost) {
   std::normal_distribution<double> gauss;
@@ -55,8 +54,7 @@ std::vector<double> alarms(const CutModel& model, const CutSignal& signal, doubl
   std::vector<double> out;
   auto detector = Detector::make({.sample_rate_hz = signal.rate_hz, .teeth = model.teeth});
   if (!detector) {
-    // Another sample rate or number of teeth is this hunt's mistake; no alarm is the visible
-    // answer.
+    // A refused sample rate or number of teeth is this hunt's mistake; it shows as no alarm.
     return out;
   }
   bool before = false;
@@ -75,7 +73,7 @@ std::vector<double> alarms(const CutModel& model, const CutSignal& signal, doubl
   return out;
 }
 
-/// Alarms within 0.5 s of the entry (0.2 s of air before it) count apart: an entry excites every
+/// Alarms within 0.5 s of the entry (after 0.2 s of air) count separately: an entry excites every
 /// mode and is the hardest moment.
 void count_stable(Level& level, const std::vector<double>& heard, double seconds) {
   level.stable_s += seconds;
@@ -85,7 +83,7 @@ void count_stable(Level& level, const std::vector<double>& heard, double seconds
   }
 }
 
-/// Only the first alarm counts, against the onset that regeneration shows in the clean signal.
+/// Only the first alarm counts, against the onset of regeneration in the clean signal.
 void count_chatter(Level& level, const std::vector<double>& heard, double onset_s) {
   if (heard.empty()) {
     ++level.missed;
@@ -130,7 +128,7 @@ int hunt(int argc, char** argv) {
       model.air_s = 0.2;
       CutSignal signal = test::simulate(model, 1.7);
       const test::Truth truth = test::truth_of(model, signal);
-      // An onset after 1.2 s leaves too little of the 1.7 s for a detector to show what it can.
+      // An onset after 1.2 s leaves too little of the 1.7 s for a fair test of the detector.
       const bool too_late = truth.chatters && truth.onset_s > 1.2;
       if ((!truth.chatters && !truth.stable) || too_late) {
         ++unclear;

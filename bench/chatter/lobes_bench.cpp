@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stability maps beside first-order semi-discretization as the literature writes it, in one run.
+// Stability maps compared with first-order semi-discretization as in the literature, in one run.
 #include <benchmark/benchmark.h>
 
 #include <steadyrest/chatter/offline/cycle/multipliers.hpp>
@@ -44,7 +44,7 @@ BENCHMARK(slot_map)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
 
-/// The border alone follows one depth per speed; the map above pays for 100.
+/// Only the border: one depth per speed, where the map above needs 100.
 void slot_border(benchmark::State& state) {
   for (auto _ : state) {
     for (const double speed : even(5000.0 / 60.0, 25000.0 / 60.0, 200)) {
@@ -55,8 +55,8 @@ void slot_border(benchmark::State& state) {
 }
 BENCHMARK(slot_border)->Unit(benchmark::kMillisecond);
 
-/// A thousandth of that map, 20 points, by first-order semi-discretization: 40 steps as is usual (8
-/// % too low in |μ| at 1 mm, hence an optimistic border) and 100.
+/// A thousandth of that map, 20 points, by first-order semi-discretization: the usual 40 steps (8 %
+/// too low in |μ| at 1 mm, hence an optimistic border) and 100.
 void slot_semi_discretization(benchmark::State& state) {
   for (auto _ : state) {
     for (const double speed : even(5000.0 / 60.0, 25000.0 / 60.0, 20)) {
@@ -120,7 +120,7 @@ BENCHMARK(period_of_passes)
     ->Complexity(benchmark::oN)
     ->Unit(benchmark::kMicrosecond);
 
-/// The whole answer, from making the map to ln ρ, as `chatter radius` pays for it.
+/// The whole answer, from building the map to ln ρ: the cost of `chatter radius`.
 void radius_of_passes(benchmark::State& state) {
   for (auto _ : state) {
     offline::DelayCycle::Config config;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunts for a change of parameters after which the modulator leaves its limits or its override word
-// is not safe: steadyrest_modulator_hunt [CHANGES] [SEED].
+// is unsafe: steadyrest_modulator_hunt [CHANGES] [SEED].
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>

@@ -7,13 +7,13 @@
 #include <bench/clairvoyant/clairvoyant.hpp>
 
 // The yardstick of the feed governor. The state is the slewed ratio, the stage is the stretch of
-// path, and costs are added backwards, so each stretch is looked at once for each level. O(stations
-// · levels) by the sliding window of relax().
+// path, and costs add up backwards, so each stretch is visited once per level. O(stations · levels)
+// thanks to the sliding window of relax().
 namespace steadyrest::bench::clairvoyant {
 namespace {
 
-/// A second over the limit costs as much as ten thousand seconds: the limit is broken only where no
-/// permitted choice keeps it.
+/// A second over the limit costs as much as ten thousand seconds: the limit is exceeded only where
+/// no permitted choice keeps it.
 constexpr double kPenalty = 1e4;
 
 /// The slewed ratio's grid and the step that each of its points puts in force.
@@ -118,13 +118,13 @@ Schedule best_schedule(const std::vector<Station>& stations, const Config& confi
   return schedule;
 }
 
-/// What the dynamic programming leaves out, put back as foresight: a change of speed takes time and
-/// the axes lag, so a fast stretch just before a tight one spoils it.
+/// Adds as foresight what the dynamic programming ignores: a change of speed takes time and the
+/// axes lag, so a fast stretch just before a tight one spoils it.
 std::vector<Station> widened(const std::vector<Station>& stations, double ahead_s,
                              double behind_s) {
   std::vector<Station> wide = stations;
   const std::size_t steps = stations.empty() ? 0 : stations.front().time_s.size();
-  // A step that was never run takes no time anywhere: its window would be the whole path.
+  // A step never run takes no time anywhere: its window would be the whole path.
   std::vector<std::size_t> run;
   for (std::size_t u = 0; u < steps; ++u) {
     if (std::ranges::any_of(stations, [u](const Station& s) { return s.time_s[u] > 0.0; })) {

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-/// The yardstick of the feed governor: the best override schedule that anybody could have chosen
-/// who knew the machine, the path and every error beforehand. Off line only; the product never
-/// calls it.
+/// The yardstick of the feed governor: the best possible override schedule, given full knowledge of
+/// the machine, the path and every error. Offline only; the product never calls it.
 namespace steadyrest::bench::clairvoyant {
 
 /// What happens on one short stretch of path when the whole program runs at one constant step.
@@ -37,14 +36,13 @@ struct Schedule {
 /// in force is the largest one not above r:
 ///   T_j(r) = t_j(u(r)) + P·[ε_j(u(r)) > limit]·t_j + min { T_{j+1}(r') : r − fall·t_j ≤ r' ≤ r +
 ///   rise·t_j },  u(r) = floor.
-/// P is so large that the limit is only passed where nothing else can be done. Speed changes are
-/// taken as immediate and the slew is rounded up, so that T_0 is a lower bound of what can be
-/// reached.
+/// P is so large that the limit is exceeded only where there is no alternative. Speed changes are
+/// treated as immediate and the slew is rounded up, so T_0 is a lower bound of any real result.
 [[nodiscard]] Schedule best_schedule(const std::vector<Station>& stations, const Config& config);
 
-/// What the dynamic programming leaves out, put back as foresight: the error of each stretch
-/// becomes the largest within `ahead_s` after it and `behind_s` before it at the same step, for a
-/// speed takes time to change and the axes take time to follow.
+/// Adds as foresight what the dynamic programming ignores: the error of each stretch becomes the
+/// largest within `ahead_s` after it and `behind_s` before it at the same step, since a speed takes
+/// time to change and the axes take time to follow.
 [[nodiscard]] std::vector<Station> widened(const std::vector<Station>& stations, double ahead_s,
                                            double behind_s);
 

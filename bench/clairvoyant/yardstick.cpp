@@ -47,8 +47,8 @@ T take(kernel::outcome::Result<T> result) {
   return std::move(*result);
 }
 
-/// A layer that puts one step of the table in force, whatever happens. It masks the panel, as the
-/// real layer does.
+/// A layer that always puts one step of the table in force. It masks the panel, as the real layer
+/// does.
 class FixedStep {
  public:
   explicit FixedStep(const kernel::machine::OverrideTable& table) : table_(table) {}
@@ -68,8 +68,8 @@ class FixedStep {
   std::uint64_t heartbeat_ = 0;
 };
 
-/// Spreads samples over the stretches that they pass through: time in proportion to the way, the
-/// largest error to each of them.
+/// Spreads samples over the stretches they pass through: time in proportion to the way, the largest
+/// error to each of them.
 class Stations {
  public:
   Stations(double length_mm, std::size_t steps)
@@ -94,7 +94,7 @@ class Stations {
       const double share = to > from ? std::max(0.0, upper - lower) / (to - from)
                                      : 1.0 / static_cast<double>(last - first + 1);
       stations_[j].time_s[step] += share * time_s;
-      // Rapids cut nothing, so their error is no error of the part.
+      // Rapids cut nothing, so their error is not an error of the part.
       if (now.motion == kernel::signal::Motion::feed) {
         stations_[j].error_mm[step] =
             std::max(stations_[j].error_mm[step], std::abs(now.contour_error_mm));
@@ -128,7 +128,7 @@ void run_at_constant_step(const Job& job, std::size_t step, Stations& stations) 
   }
 }
 
-/// Runs a schedule. The word is written as much ahead as it takes to act: the dead time and, on
+/// Runs a schedule. Each word is written ahead by the time it takes to act: the dead time and, on
 /// average, half a scan.
 Figures run_schedule(const Job& job, const Schedule& schedule, const Stations& stations) {
   const auto& table = job.machine.feed_override;
@@ -155,9 +155,9 @@ double share_over(const Figures& figures) {
                                     static_cast<double>(figures.samples);
 }
 
-/// The fastest schedule that keeps the limit in the simulation but for `kShareOver` of the samples.
-/// Foresight costs time, so the search halves how far it looks ahead, down to `kResolution_s`, for
-/// each of a few reaches behind. Nobody could do better within this family.
+/// The fastest schedule that keeps the limit in the simulation except for `kShareOver` of the
+/// samples. Foresight costs time, so the search bisects the look-ahead down to `kResolution_s`, for
+/// each of a few reaches behind. It is the best of this family.
 Figures best_that_keeps_the_limit(const Job& job, const Stations& stations, const Config& config) {
   constexpr double kShareOver = 0.001;
   constexpr double kFarthest_s = 0.32;
@@ -175,7 +175,7 @@ Figures best_that_keeps_the_limit(const Job& job, const Stations& stations, cons
       if (keeps && (!best || figures.cycle_time_s < best->cycle_time_s)) {
         best = figures;
       }
-      // Even the longest look ahead fails with this reach behind: shorter ones will too.
+      // Even the longest look-ahead fails with this reach behind: shorter ones will too.
       if (!keeps && ahead_s >= kFarthest_s) {
         break;
       }
@@ -234,8 +234,8 @@ int main_with(const std::string& program, const std::string& machine_file) {
     fmt::print(stderr, "constant step {:.0f} %\n", 100.0 * config.ratio[step]);
     run_at_constant_step(job, step, stations);
   }
-  // The lower bound takes changes of speed as immediate; the simulated schedule is what can be had.
-  // The governor is judged by the latter.
+  // The lower bound treats changes of speed as immediate; the simulated schedule is achievable. The
+  // governor is compared with the latter.
   const Schedule bound = best_schedule(stations.all(), config);
   const Figures clairvoyant = best_that_keeps_the_limit(job, stations, config);
   const Figures without = take(trial::cut::run(job)).figures();

@@ -5,8 +5,8 @@
 
 #include <steadyrest/kernel/units/constants.hpp>
 
-// Faults are drawn once per act and then strike one frame in so many: a control that fails in one
-// way for a while is what happens in practice, and what finds more than single wild frames.
+// Faults are drawn once per act and then strike one frame in so many: in practice a control fails
+// in one way for a while, and that finds more than single wild frames.
 namespace steadyrest::bench::hostile {
 namespace {
 
@@ -37,7 +37,7 @@ HostilePort::HostilePort(const kernel::machine::Machine& machine,
 
 void HostilePort::begin_act() {
   frame.motion = static_cast<Motion>(dice_.below(9));
-  // A third of the acts cut, whatever the other draw says; most rules hold only there.
+  // A third of the acts cut, whatever the other draw says; most rules apply only there.
   if (dice_.one_in(3)) {
     frame.motion = Motion::feed;
   }
@@ -66,7 +66,7 @@ void HostilePort::behave(Motion motion) {
 }
 
 /// Wrong stamps: not finite, off by a millisecond to a fortnight in either direction, off by less
-/// than a second, absurd, or standing still for some cycles.
+/// than a second, absurd, or frozen for some cycles.
 double HostilePort::stamp() noexcept {
   const double truth_s = real_s_ + offset_s_;
   if (stands_ > 0) {
@@ -156,7 +156,7 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
     return std::unexpected(link_lost().error());
   }
   frame.time_s = stamp();
-  // `clean` is what the scene may take for certain: a true stamp, no fault, no clock just set.
+  // `clean` is what the scene may rely on: a true stamp, no fault, no clock just set.
   const double late_s = std::abs(frame.time_s - (real_s_ + offset_s_));
   true_stamp_ = late_s == 0.0;
   clean = true_stamp_ && !set_;
@@ -172,8 +172,8 @@ kernel::outcome::Result<signal::Frame> HostilePort::read() noexcept {
   if (lasting_ > 0 || (fault_ > 0 && dice_.one_in(fault_))) {
     spoil();
   }
-  // The panel as the layer has seen it last; the watch compares with that and not with a truth that
-  // was never shown.
+  // The panel as last seen by the layer; the watch compares with that, not with a truth never
+  // shown.
   const auto show = [this](const signal::OverrideState& state, double& shown) {
     if (state.panel_code_known && std::isfinite(state.panel_ratio) && state.panel_ratio >= 0.0 &&
         state.panel_ratio <= 10.0) {

@@ -8,7 +8,7 @@
 
 namespace steadyrest::bench::hostile {
 
-/// A control that does all that a control should not: its clock glitches, stands, is set; its
+/// A control that does everything a control should not: its clock glitches, freezes, is set; its
 /// frames are stale, not finite, out of range; its panel turns at any time; its link fails.
 class HostilePort final : public kernel::port::Port {
  public:
@@ -22,8 +22,8 @@ class HostilePort final : public kernel::port::Port {
   /// Real time passes; nobody reads.
   void pass(double real_s) { real_s_ += real_s; }
 
-  /// Few enough stamps are wrong that two in a row will not be, and the last was true: a process
-  /// that begins again behind a clock that stood has nothing to tell it how long it was away.
+  /// Wrong stamps are so rare that two in a row do not occur, and the last one was true: a process
+  /// restarted after a frozen clock cannot tell how long it was away.
   [[nodiscard]] bool keeps_time() const noexcept {
     return true_stamp_ && !set_ && stands_ == 0 && (glitch_ == 0 || glitch_ >= 200);
   }
@@ -37,10 +37,10 @@ class HostilePort final : public kernel::port::Port {
   kernel::signal::Command last;
   bool taken = false;        ///< `last` arrived in this cycle
   bool clean = false;        ///< no fault is in `frame`, its stamp is true
-  bool unfit = false;        ///< certainly: what is in the frame must not be acted on
-  std::uint32_t outage = 0;  ///< cycles of a dead link still to come
+  bool unfit = false;        ///< certainly: the frame must not be acted on
+  std::uint32_t outage = 0;  ///< remaining cycles of a dead link
   bool reads_fail = false;   ///< in an outage; else writes
-  double shown_feed = 1.0;   ///< last panel that a frame showed with a known code
+  double shown_feed = 1.0;   ///< last panel shown in a frame with a known code
   double shown_spindle = 1.0;
   bool any_shown = false;
 
@@ -59,9 +59,9 @@ class HostilePort final : public kernel::port::Port {
   double last_stamp_s_ = 0.0;
   double feed_panel_ = 1.0;
   double spindle_panel_ = 1.0;
-  std::uint64_t glitch_ = 0;  ///< one stamp in so many is wrong; 0: none
-  std::uint64_t fault_ = 0;   ///< one frame in so many
-  std::uint64_t turns_ = 0;   ///< the panel is turned one cycle in so many
+  std::uint64_t glitch_ = 0;  ///< one stamp in this many is wrong; 0: none
+  std::uint64_t fault_ = 0;   ///< one frame in this many
+  std::uint64_t turns_ = 0;   ///< the panel turns in one cycle in this many
   int lasting_ = 0;           ///< a fault that holds for the whole act
   std::uint32_t stands_ = 0;
   bool true_stamp_ = false;

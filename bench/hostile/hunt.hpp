@@ -8,7 +8,7 @@
 
 namespace steadyrest::bench::hostile {
 
-/// What a hunt has seen.
+/// The result of a hunt.
 struct Tally {
   std::uint64_t cycles = 0;
   std::uint64_t written = 0;      ///< commands that reached the machine
@@ -17,13 +17,13 @@ struct Tally {
   std::uint64_t held = 0;         ///< in a thread with a mask on
   std::uint64_t interrupted = 0;  ///< restarts and lost links
   std::uint64_t broken = 0;
-  std::string first;  ///< what was broken first, with seed and cycle
+  std::string first;  ///< the first broken rule, with seed and cycle
 
   void add(const Tally& other);
 };
 
-/// The supervisor on a hostile control for at least so many cycles; scenes from `seed` on. Every
-/// scene is another variant of the machine: port, slew, operator's rights, mode.
+/// Runs the supervisor on a hostile control for at least this many cycles; scenes from `seed` on.
+/// Every scene is another variant of the machine: port, slew, operator's rights, mode.
 [[nodiscard]] Tally hunt(const kernel::machine::Machine& machine, std::uint64_t seed,
                          std::uint64_t cycles);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hunt of bench/hostile, short: steadyrest_hostile_hunt runs as long as it is asked to.
+// The hunt of bench/hostile, shortened: steadyrest_hostile_hunt runs as long as requested.
 #include <string>
 
 #include <bench/hostile/hunt.hpp>

@@ -11,14 +11,14 @@
 
 namespace steadyrest::bench::hostile {
 
-/// The machine's side of the axis offsets, from the design's safety section alone: inside the
-/// clamp, by the slew over real time, frozen in the cut without a good wish, towards 0 without one.
+/// The machine's side of the axis offsets, from the design's safety section only: inside the clamp,
+/// by the slew over real time, frozen in the cut without a valid wish, towards 0 without any.
 class OffsetWatch {
  public:
   struct Rules {
     kernel::signal::AxisValues max_mm{};  ///< 0: this axis takes none
     double slew_mm_s = 0.05;
-    double slack_s = 0.0;  ///< a stamp may come late by so much
+    double slack_s = 0.0;  ///< a stamp may be late by this much
   };
 
   explicit OffsetWatch(const Rules& rules) : rules_(rules) {}

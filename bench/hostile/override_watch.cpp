@@ -47,7 +47,7 @@ double OverrideWatch::floor(double ratio) const {
   return below;
 }
 
-/// A walk over all neighbours takes a scan each; twice that, and the way at the slower of the two
+/// A walk over all neighbours takes a scan each; twice that, plus the way at the slower of the two
 /// rates.
 double OverrideWatch::longest_way_s() const noexcept {
   const double walk_s =
@@ -61,7 +61,7 @@ void OverrideWatch::pass(double real_s) {
   now_s_ += real_s;
   highest_ += rules_.rise_1_s * real_s;
   lowest_ -= rules_.fall_1_s * real_s;
-  // A word that was replaced more than a scan ago can no longer be read by anyone.
+  // A word replaced more than a scan ago can no longer be read.
   while (!past_.empty() && past_.front().until_s <=
                                now_s_ + rules_.slack_s - rules_.table.scan_period_s + kTolerance) {
     past_.pop_front();
@@ -148,7 +148,7 @@ std::string OverrideWatch::write(const Word& word, bool hold) {
   const double rise = step + rules_.rise_1_s * rules_.slack_s;
   const double fall = step + rules_.fall_1_s * rules_.slack_s;
   const double passed_s = now_s_ - std::exchange(written_s_, now_s_);
-  // What the operator turned counts as his, so the bounds take it in.
+  // The operator's own change is allowed, so the bounds include it.
   highest_ = std::max(highest_, before + rise + rules_.rise_1_s * passed_s);
   lowest_ = std::min(lowest_, before - fall - rules_.fall_1_s * passed_s);
   if (now > highest_ || now < lowest_) {

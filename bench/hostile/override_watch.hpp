@@ -15,9 +15,9 @@ inline constexpr double kTolerance = 1e-7;
 
 /// The machine's side of one override: its own decoder, its own clock, and what must hold there.
 ///
-/// Written from the safety section of the design alone; it knows no type of the layer's but the
-/// machine file and the word that is written. In force: panel 0 stops; a masked word by the table,
-/// never above the panel unless the machine file lets it; else the panel. Checked at each write:
+/// Written only from the safety section of the design; the only types of the layer it knows are the
+/// machine file and the word written. In force: panel 0 stops; a masked word by the table, never
+/// above the panel unless the machine file permits it; else the panel. Checked at each write:
 ///   decodes     a masked word is in the table
 ///   panel       a masked word is not above the panel; panel 0 is never masked
 ///   mixtures    a word that is not latched: whatever mixes the words of one scan, mask included,
@@ -33,7 +33,7 @@ class OverrideWatch {
     bool available = true;
     double fall_1_s = 10.0;
     double rise_1_s = 2.0;
-    double slack_s = 0.0;  ///< a stamp may come late by so much
+    double slack_s = 0.0;  ///< a stamp may be late by this much
   };
   struct Word {
     std::uint32_t code = 0;
@@ -42,7 +42,7 @@ class OverrideWatch {
 
   explicit OverrideWatch(const Rules& rules);
 
-  /// The operator has turned the panel, and the layer was shown it.
+  /// The operator turned the panel, and the layer saw it.
   void panel(double ratio) noexcept { panel_ = ratio; }
   [[nodiscard]] double panel() const noexcept { return panel_; }
   /// Real time passes.
@@ -54,11 +54,11 @@ class OverrideWatch {
   [[nodiscard]] bool masked() const noexcept { return word_.masks; }
   /// NaN: the machine cannot decode it.
   [[nodiscard]] double in_force() const { return in_force(word_); }
-  /// A whole scan with certainly safe words: how long a walk over the whole table takes at most.
+  /// The longest time that a walk over the whole table may take.
   [[nodiscard]] double longest_way_s() const noexcept;
   [[nodiscard]] double widest_step() const noexcept { return widest_; }
   [[nodiscard]] const Rules& rules() const noexcept { return rules_; }
-  /// The largest ratio of the table that is not above `ratio`; the lowest where none is.
+  /// The largest ratio of the table not above `ratio`, else the lowest.
   [[nodiscard]] double floor(double ratio) const;
 
  private:

@@ -19,7 +19,7 @@ using machine::Mode;
 using signal::Motion;
 
 /// A stamp may be late by half a cycle, so real time and stamped time differ by that.
-constexpr double kLateSteps = 0.5;  // a stamp may be late by so much of a cycle
+constexpr double kLateSteps = 0.5;  // a stamp may be late by this much of a cycle
 /// The layer holds an offset through short standstills between two blocks; the watch must too.
 constexpr double kShortIdle_s = 0.5;
 
@@ -27,8 +27,8 @@ bool thread(Motion motion) {
   return motion == Motion::thread || motion == Motion::tap;
 }
 
-/// Another machine of the same kind: other wires, other rights, other rates. The contour room is
-/// off, because wishes are made here.
+/// Makes another machine of the same kind: other wires, other rights, other rates. The contour room
+/// is off, because wishes are made here.
 void vary(machine::Machine& m, Dice& dice) {
   for (auto* table : {&m.feed_override, &m.spindle_override}) {
     table->layer_may_exceed_panel = dice.one_in(4);
@@ -61,8 +61,8 @@ OverrideWatch::Rules rules(const machine::OverrideTable& table, bool latched, bo
 
 }  // namespace
 
-/// The rules that apply depend on what the port can do; a supervisor that refuses the combination
-/// is right, and the scene takes the one that works.
+/// The rules that apply depend on the port's abilities; a supervisor that refuses the combination
+/// is right, and the scene takes one that works.
 Scene::Scene(const machine::Machine& of, std::uint64_t seed)
     : dice_(seed), seed_(seed), machine_(of) {
   vary(machine_, dice_);
@@ -105,7 +105,7 @@ void Scene::broken(const std::string& what) {
   }
 }
 
-/// Wishes of all kinds: good ones, impossible ones, several at once from different rooms.
+/// Wishes of all kinds: valid, impossible, several at once from different rooms.
 void Scene::wish() {
   const auto reason = [this] {
     return dice_.of({Reason::contour_limit, Reason::contour_limit, Reason::chatter_modulating,
@@ -134,8 +134,8 @@ void Scene::wish() {
   }
 }
 
-/// Real time passes on the machine's side, whatever the layer's clock believes. After the
-/// watchdog's time nothing of the layer is left in force.
+/// Real time passes on the machine's side, whatever the layer's clock says. After the watchdog's
+/// time nothing of the layer remains in force.
 void Scene::let_pass(double real_s) {
   port_->pass(real_s);
   unheard_s_ += real_s;
@@ -167,8 +167,8 @@ void Scene::restart(double away_s) {
   ++tally_.interrupted;
 }
 
-/// What the layer certainly knows. Two clean frames, one after the other, show the motion; one
-/// frame may be believed or not, so rules that depend on the motion are not checked then.
+/// What the layer certainly knows. Two consecutive clean frames show the motion; a single one may
+/// be believed or not, so rules that depend on the motion are not checked then.
 void Scene::know() {
   const Motion motion = port_->frame.motion;
   if (port_->clean && was_clean_ && motion == last_) {
@@ -184,8 +184,8 @@ void Scene::know() {
     idle_s_ += cycle_s_;
     cut_ = cut_ && idle_s_ < kShortIdle_s;
   }
-  // A frame that shows something else may be believed by the layer, unless it is certainly unfit:
-  // then it must keep to what it knew.
+  // The layer may believe a frame that shows something else, unless it is certainly unfit: then it
+  // must keep its knowledge.
   if (!thread(motion) && !port_->unfit && thread(shown_)) {
     unsure_ = true;
   }
@@ -221,13 +221,13 @@ void Scene::check_write() {
   } else if (c.spindle_masks_panel) {
     broken("capability: a spindle override that the machine does not have");
   }
-  // An offset may move in the cut only while someone asks for it with good input in mode act.
+  // An offset may move in the cut only while requested with valid input in mode act.
   const bool asks = !offset_wish_.empty() || machine_.thermal.enabled;
   broken(offset_->write(c.offset_mm, asks && !port_->unfit && wanted_ == Mode::act, in_cut()));
 }
 
-/// observe and advise write nothing, but the way back to neutral does: until nothing is left, a
-/// write without act is right.
+/// observe and advise write nothing, but returning to neutral does: until that is done, a write
+/// without act is right.
 void Scene::check_mode(bool has_command, const signal::Command& command) {
   if (port_->taken && !may_write_) {
     broken("mode: written without act");
@@ -302,7 +302,7 @@ void Scene::act() {
     if (dice_.one_in(100)) {
       wish();
     }
-    // Not at the edges of an act, so that the scene knows what it began and ended with.
+    // Not at the edges of an act, so that the scene knows its start and end.
     if (i > 20 && i + 5 < cycles && port_->outage == 0) {
       events();
     }
@@ -316,8 +316,8 @@ void Scene::act() {
   }
 }
 
-/// Liveness: with good input for long enough a wish is in force, whatever was before. A layer that
-/// always stays neutral would pass every safety rule.
+/// Liveness: after long enough with good input a wish is in force, whatever happened before. A
+/// layer that always stays neutral would pass every safety rule.
 void Scene::settle_on_a_wish() {
   if (!feed_ || !can_.feed_override || port_->outage > 0) {
     return;
@@ -346,7 +346,7 @@ void Scene::settle_on_a_wish() {
   }
 }
 
-/// The other liveness: with good input, no cut and observe asked for, nothing of the layer is left.
+/// The other liveness rule: with good input, no cut and mode observe, nothing of the layer remains.
 void Scene::settle_on_observe() {
   if (port_->outage > 0) {
     return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hunts for a tick at which the guaranteed bounds of motion do not hold: steadyrest_bound_hunt
 // [TICKS] [SEED].
-// Whoever breaks a bound prints its seed.
+// A broken bound is reported with its seed.
 #include <cstdint>
 #include <cstdlib>
 

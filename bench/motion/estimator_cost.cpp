@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cost of MotionEstimator for each edge and each tick: steadyrest_estimator_cost [RUNS]
 // [ESTIMATES]. Each record is run RUNS times and each call counts with the median of its runs, so
-// that the figures are the estimator's and not the system's. Baseline: the reading of the clock,
-// which is taken off. The mean of the edges is from runs that read the clock once for the edges of
-// a cycle. ESTIMATES, a file, gets every estimate as doubles: two builds can be compared bit for
-// bit.
+// that the figures are the estimator's, not the system's. The baseline, reading the clock, is
+// subtracted. The mean of the edges is from runs that read the clock once per cycle. ESTIMATES, a
+// file, gets every estimate as doubles, to compare two builds bit for bit.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -87,7 +86,7 @@ online::MotionEstimator estimator(const offline::Record& record, bool limits) {
 }
 
 /// The edges of each cycle together.
-/// Reading the clock costs as much as an edge does; once a cycle it is lost in the mean.
+/// Reading the clock costs as much as an edge; once per cycle it is negligible in the mean.
 void time_cycles(const offline::Record& record, bool limits, double reading_ns, Calls& cycles) {
   auto ours = estimator(record, limits);
   auto edge = record.edges.begin();
@@ -104,7 +103,7 @@ void time_cycles(const offline::Record& record, bool limits, double reading_ns, 
   }
 }
 
-/// Each edge and each tick alone.
+/// Each edge and each tick separately.
 std::vector<online::Estimate> time_calls(const offline::Record& record, bool limits,
                                          double reading_ns, Calls& edges, Calls& ticks) {
   auto ours = estimator(record, limits);

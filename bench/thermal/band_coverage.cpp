@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the 95 % bands of thermal fit hold on hours that were kept from it:
+// How much the 95 % bands of thermal fit cover on hours withheld from it:
 //
 //   steadyrest_band_coverage [LOG | COUNT] [SPLITS.csv]
 //
 // LOG is a recorded log. COUNT (20) machines are drawn at random (random_machine.hpp), and with
-// each fifth goes the machine of test/shop_log.hpp. Each log is fitted to its first 70 … 90 % and
-// to all but one run; runs more than 1.2 times faster than those fitted are not forecast. Sensors:
+// each fifth goes the machine of test/shop_log.hpp. Each log is fitted on its first 70 … 90 % and
+// on all but one run; runs more than 1.2 times faster than those fitted are not forecast. Sensors:
 // none, some alone, all. Printed for each log and set of sensors: splits, RMS error, mean half
 // width of the band (µm), and the readings it holds (mean, and the worst split), free and with an
 // hourly probe.
@@ -28,9 +28,9 @@
 #include <steadyrest/thermal/offline/plan/replay.hpp>
 #include <steadyrest/thermal/offline/test/shop_log.hpp>
 
-// A band is honest if it holds about 95 % of readings that the fit never saw. Whole runs are kept
-// back, not single readings: neighbours in time are alike, and a fit that has seen them would look
-// better than it is.
+// A band is honest if it covers about 95 % of readings that the fit never saw. Whole runs are
+// withheld, not single readings: neighbours in time are alike, and a fit that has seen them would
+// look better than it is.
 namespace steadyrest::thermal::offline {
 namespace {
 
@@ -48,8 +48,8 @@ struct Split {
   Span kept;  ///< from the fit
 };
 
-/// What a band was worth over the readings of a span: error, width, and share held. Width counts as
-/// much as the share: a band of a metre holds everything.
+/// Quality of a band over the readings of a span: error, width, and share covered. Width counts as
+/// much as the share: a band of a metre covers everything.
 struct Worth {
   double readings = 0.0;
   double square_um2 = 0.0;
@@ -87,7 +87,7 @@ struct Sum {
 /// stops belong to the run.
 std::vector<Span> runs_of(const Log& log) {
   std::vector<double> start_s;
-  // The machine has been at rest before the log.
+  // The machine was at rest before the log.
   double stood_s = kHour_s;
   for (std::size_t i = 0; i + 1 < log.rows(); ++i) {
     if (log.speed_rev_s[i] > 0.0) {
@@ -135,8 +135,8 @@ double fastest(const Log& log, const Span& span, bool in) {
   return out;
 }
 
-/// The log up to the end of a span. What came afterwards a forecast cannot have had, not even as a
-/// reading for the drift.
+/// The log up to the end of a span. A forecast cannot use anything later, not even as a reading for
+/// the drift.
 Log until(const Log& log, double to_s) {
   Log out = log;
   const auto rows =
@@ -154,7 +154,7 @@ Log until(const Log& log, double to_s) {
 std::optional<Worth> worth(const AxisFit& fit, const Log& log, std::size_t channel,
                            const Span& span, double rezero_s) {
   auto axis = fit.axis;
-  // The check of the speed has been made by the caller, with the speeds of the fit.
+  // The caller has checked the speed against the speeds of the fit.
   axis.max_speed_rev_s = 0.0;  // the runs before it may have been faster
   ReplayRequest request;
   request.channel = channel;
@@ -188,7 +188,7 @@ class Coverage {
     }
   }
 
-  // A run much faster than all others has no level in the fit; nobody would forecast it.
+  // A run much faster than all others has no level in the fit and would not be forecast.
   void run(const Log& log, const std::vector<std::string>& sensors, const std::string& kind) {
     for (std::size_t channel = 0; channel < log.displacement.size(); ++channel) {
       for (const Split& split : splits_of(log)) {
@@ -250,7 +250,7 @@ class Coverage {
   int refused_ = 0;
 };
 
-/// No sensor, some alone, all: what a machine with few sensors gets.
+/// No sensor, single ones, all: the range of a machine with few sensors.
 void run(Coverage& coverage, const Log& log) {
   constexpr std::size_t kAlone = 3;
   std::vector<std::string> all;
@@ -262,7 +262,7 @@ void run(Coverage& coverage, const Log& log) {
   for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(all.size() / kAlone, 1)) {
     coverage.run(log, {all[i]}, "one sensor");
   }
-  // The fit chooses among them by itself.
+  // The fit chooses among them.
   coverage.run(log, all, "all sensors");
 }
 
@@ -277,7 +277,7 @@ int cover(int argc, char** argv) {
       Log machine = bench::random_machine(seed);
       machine.file = fmt::format("machine {}", seed);
       run(coverage, machine);
-      // The shop log comes from a machine that is known: one bed that follows the room, 3 µm/K.
+      // The shop log comes from a known machine: one bed that follows the room, 3 µm/K.
       if (i % 5 == 0) {
         const auto runs = test::kShopDays_rpm.begin();
         Log shop = test::shop(seed, {runs, runs + 6});

@@ -49,7 +49,7 @@ class RandomMachine {
     x += (to - x) * -std::expm1(-kStep_min / tau_min);
   }
 
-  /// One row of the log, the spindle at so many thousands of revolutions per minute.
+  /// One row of the log, the spindle at this many thousand revolutions per minute.
   void step(double krpm) {
     walk(weather_, weather_min_);
     walk(draught_, draught_min_);
@@ -73,7 +73,7 @@ class RandomMachine {
 
   std::mt19937 random_;
   std::normal_distribution<double> normal_;
-  // Drawn in this order: another is another machine.
+  // Drawn in this order; a different order is a different machine.
   double fast_min_ = from(8.0, 40.0);
   double slow_min_ = from(60.0, 240.0);
   double fast_um_ = from(1.0, 4.0);

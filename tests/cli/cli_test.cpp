@@ -89,7 +89,7 @@ TEST(Cli, BadUsageIsOneJsonObjectToo) {
               HasSubstr("--radius-mm"));
 }
 
-// /dev/full takes no byte, like a full disk or a closed pipe.
+// /dev/full accepts no byte, like a full disk or a closed pipe.
 TEST(Cli, SaysSoWhenStdoutTakesNothing) {
   for (const char* verb : {"--version", "--help"}) {
     EXPECT_EQ(run_on_full_disk({verb}).code, 1) << verb;
@@ -168,7 +168,7 @@ TEST(ContourLimit, SaysTheOptionThatIsOutOfRange) {
                  "--kv-1-s 1e-300 is outside 0.001 to");
 }
 
-// Options that contradict each other, or speak of nothing that is there.
+// Options that contradict each other or refer to nothing.
 TEST(Cli, RefusesContradictoryAndEmptyOptions) {
   const std::string fit = "thermal fit examples/thermal/spindle-test.csv ";
   const std::string slot = " examples/processes/slot-922hz.toml --speed-rpm 5000 --depth-mm 0.2 ";

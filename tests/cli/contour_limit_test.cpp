@@ -41,8 +41,7 @@ TEST(ContourLimit, JudgesAFeedByALimit) {
   EXPECT_NEAR(answer["limit_feed_mm_min"], 1343.0, 0.6);
 }
 
-// a = 0.5 gives about (1 − a²), τ = 5 ms about (1 − 2kτ) of the error without; the figures are
-// simulated ones.
+// a = 0.5 leaves about (1 − a²), τ = 5 ms about (1 − 2kτ) of the error; the figures are simulated.
 TEST(ContourLimit, TakesFeedForwardAndLag) {
   const Finished forward = run_line(kLimit + "--feed-mm-min 4000 --feed-forward 0.5 --json");
   EXPECT_NEAR(json::parse(forward.out)["contour_error_mm"], 0.0656, 1.5e-4);

@@ -34,7 +34,7 @@ TEST(Doctor, FindsAGoodMachineWell) {
   EXPECT_LE(timing["decision_p999_us"], timing["cycle_us"]);
 }
 
-// A feed range that no step of the switch lies in: the layer refuses it, and doctor says so as a
+// A feed range without any step of the switch: the layer refuses it, and doctor reports it as a
 // finding.
 TEST(Doctor, FindsThatTheLayerRefusesAMachine) {
   const Scratch scratch;

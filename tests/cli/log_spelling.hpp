@@ -30,7 +30,7 @@ inline bool is_comment(const std::string& line) {
   return line.find('#') == 0;
 }
 
-/// The rows alone, with this between the fields and this behind them: a log without a head.
+/// Only the rows, with this between the fields and this after them: a log without a header.
 inline std::string rows_alone(const std::string& file, char separator, const std::string& end) {
   return changed(file, [&](const std::string& line) {
     std::string out;

@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-// The same log in every spelling of loggers gives the same answer; what is no such log is refused.
+// The same log in every logger's spelling gives the same answer; anything else is refused.
 namespace steadyrest::test {
 namespace {
 
@@ -64,8 +64,8 @@ TEST(LogSpelling, MotionEstimateReadsTheSampler) {
       "there is no header");
 }
 
-// Edges come at any time, ticks at even times; the two kinds tell themselves apart, and each
-// refusal names the other option.
+// Edges come at any time, ticks at even times, so the two kinds can be told apart; each refusal
+// names the other option.
 TEST(LogSpelling, MotionEstimateKnowsCyclesFromEdges) {
   const Scratch scratch;
   std::string ticks = "t_s,count\n";

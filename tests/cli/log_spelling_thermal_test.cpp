@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-// The same log in every spelling of loggers gives the same answer; what is no such log is refused.
+// The same log in every logger's spelling gives the same answer; anything else is refused.
 namespace steadyrest::test {
 namespace {
 
@@ -68,12 +68,12 @@ TEST(LogSpelling, ThermalForecastReadsEachAlike) {
             plain);
   const json by_wall = forecast(scratch.file("stamped.csv", by_the_wall(file)));
   EXPECT_EQ(by_wall["axes"][0]["points"], plain["axes"][0]["points"]);
-  // Stamps and seconds are different clocks; so the passport's state time says nothing here, and
-  // all of the log is forecast.
+  // Stamps and seconds are different clocks, so the passport's state time means nothing here, and
+  // the whole log is forecast.
   EXPECT_EQ(by_wall["minutes"], 464.5) << "the passport's state is of another clock: the whole log";
 }
 
-// Two numbers run together in the last row, as a log that was written twice has it.
+// Two numbers run together in the last row, as in a log written twice.
 TEST(LogSpelling, ThermalForecastOfOneWrongTimeIsRefused) {
   const std::string file = "examples/thermal/spindle-test.csv";
   const Scratch scratch;

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-/// How a report says that it was made.
+/// How a report tells how it was made.
 namespace steadyrest::test {
 namespace {
 
@@ -25,7 +25,7 @@ using testing::Not;
 const std::string kTapped = "examples/processes/slot-tapped.toml";
 const std::string kRadius = " --speed-rpm 5000 --depth-mm 0.2 --report ";
 
-/// As another program has it: coreutils' sha256sum.
+/// By another program: coreutils' sha256sum.
 std::string sha256sum(const std::string& file) {
   FILE* const pipe = ::popen(("sha256sum '" + project_file(file) + "'").c_str(), "r");
   std::array<char, 65> hash{};

@@ -19,7 +19,7 @@ void must(bool holds) {
   }
 }
 
-/// Whatever the reader lets through must be fit to estimate from.
+/// Whatever the reader accepts must be fit to estimate from.
 void must_be_fit(const offline::EdgeLog& log) {
   must(!log.rows.empty() && log.finding_count >= log.findings.size());
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     must(!log.error().what.empty() && !log.error().to_do.empty());
   }
-  // The same in two blocks: the border between them means nothing.
+  // The same in two blocks: the border between them must not matter.
   offline::EdgeLogReader reader("fuzz.csv", {});
   if (reader.take(text.substr(0, size / 2))) {
     reader.take(text.substr(size / 2));

@@ -19,7 +19,7 @@ void must(bool holds) {
   }
 }
 
-/// Whatever is let through can be fitted: enough points, rising, finite.
+/// Whatever is accepted can be fitted: enough points, rising, finite.
 void must_be_fit(const chatter::offline::Frf& frf) {
   must(frf.frequency_hz.size() >= chatter::offline::kLeastPoints);
   must(frf.frequency_hz.size() == frf.compliance_mm_n.size());

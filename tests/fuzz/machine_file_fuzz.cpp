@@ -20,7 +20,7 @@ void must(bool holds) {
   }
 }
 
-/// Whatever the reader lets through must be fit to build a machine from.
+/// Whatever the reader accepts must be fit to build a machine from.
 void must_be_fit(const machine::Machine& machine) {
   must(machine.axes.size() >= 3 && machine.axes.size() <= 8);
   must(machine.axes[0].name == "X" && machine.axes[1].name == "Y" && machine.axes[2].name == "Z");

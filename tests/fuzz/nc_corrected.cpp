@@ -68,7 +68,7 @@ Job::Job(std::string_view program, rewrite::Method method, std::uint8_t choice) 
   config.most_repeated_lines = 2000;
 }
 
-/// Long programs cost time and find nothing that short ones do not.
+/// Long programs cost time and find no more than short ones.
 bool Job::plan_it(std::uint8_t choice) {
   constexpr std::size_t kMostMoves = 500;
   constexpr double kMost_s = 60.0;  // a plan may differ from the program by 30 s
@@ -86,7 +86,7 @@ bool Job::plan_it(std::uint8_t choice) {
   return true;
 }
 
-/// A coarse cycle makes timing quick; rotary axes let rotary words be read.
+/// A coarse cycle makes timing quick; rotary axes allow rotary words.
 const Machine& mill() {
   static const Machine made = [] {
     Machine machine;
@@ -102,7 +102,7 @@ const Machine& mill() {
   return made;
 }
 
-/// In memory where that can be had: the targets write thousands of files a second.
+/// In memory where possible: the targets write thousands of files per second.
 Files::Files() {
   namespace fs = std::filesystem;
   std::error_code absent;

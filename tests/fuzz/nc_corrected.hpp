@@ -15,8 +15,8 @@
 #include <steadyrest/nc/rewrite/text/plan_file.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 
-/// What the targets of the rewriter have in common: an input is a byte that chooses the control, a
-/// byte that chooses the plan, and a program.
+/// Common parts of the rewriter's targets: an input is a byte that chooses the control, a byte that
+/// chooses the plan, and a program.
 namespace steadyrest::fuzz {
 
 inline constexpr std::array kMethods = {nc::rewrite::Method::linuxcnc, nc::rewrite::Method::fanuc,
@@ -25,12 +25,12 @@ inline constexpr std::array kMethods = {nc::rewrite::Method::linuxcnc, nc::rewri
 inline constexpr std::array<std::uint8_t, 4> kDialectOf = {0, 1, 1, 2};
 inline constexpr std::size_t kHead = 2;
 
-/// One program with all that a correction needs.
+/// One program with everything a correction needs.
 struct Job {
   Job(std::string_view program, nc::rewrite::Method method, std::uint8_t choice);
 
-  /// A plan for about the time that the program takes; none when no correction can be written: the
-  /// interpreter refuses the program, or it would take too long to be timed many times a second.
+  /// A plan for about the program's time; none when no correction can be written: the interpreter
+  /// refuses the program, or it would take too long to time many times a second.
   bool plan_it(std::uint8_t choice);
 
   std::string_view text;

@@ -16,7 +16,7 @@ namespace {
 
 using Random = std::minstd_rand;
 
-// $ stands for a number, ~ for one above zero. A line with \n is several.
+// $ represents a number, ~ one above zero. A line with \n is several lines.
 constexpr auto kLines = std::to_array<std::string_view>({
     "G0 X$ Y$ Z$",
     "G0 Z$",
@@ -163,7 +163,7 @@ constexpr auto kSinumerik = std::to_array<std::string_view>({
     "T=\"DRILL\" M6",
 });
 
-/// The low bits of minstd_rand are poor; division leaves them out.
+/// The low bits of minstd_rand are poor; division drops them.
 std::size_t below(Random& random, std::size_t limit) {
   return random() / 7 % limit;
 }

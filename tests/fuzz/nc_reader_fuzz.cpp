@@ -13,8 +13,8 @@ namespace {
 
 namespace interpret = steadyrest::nc::interpret;
 
-// What no text may bring about: a move that is not finite, or that does not start where the one
-// before ended while no offset changed.
+// Catches what no text may cause: a move that is not finite, or that does not start where the
+// previous one ended although no offset changed.
 class Watch final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& move) override {

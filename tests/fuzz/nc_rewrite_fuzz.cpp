@@ -18,15 +18,15 @@ namespace rewrite = steadyrest::nc::rewrite;
 
 constexpr std::uint8_t kChoices = 5;  // four controls, and the reader of plans
 
-/// A program that can be corrected is restored by strip, byte for byte; of one that cannot be
-/// nothing is written.
+/// strip restores a corrected program byte for byte; for a program that cannot be corrected nothing
+/// is written.
 void play(std::string_view text, rewrite::Method method, std::uint8_t choice) {
   fuzz::Job job(text, method, choice);
   if (!job.plan_it(choice)) {
     return;
   }
   const fuzz::Files& files = fuzz::files();
-  // An older file must be as it was after a refusal.
+  // A refusal must leave an older file unchanged.
   constexpr std::string_view kOld = "what was there";
   fuzz::write_file(files.original, text);
   fuzz::write_file(files.changed, kOld);

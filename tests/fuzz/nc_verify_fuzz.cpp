@@ -17,8 +17,8 @@
 #include <steadyrest/nc/rewrite/prove/verify.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 
-// A corrected program is changed at random and given to verify. What it accepts is judged by a
-// second way: the moves of both programs, run from work offsets that verify has not seen.
+// A corrected program is changed at random and given to verify. Whatever it accepts is checked in a
+// second way: by the moves of both programs, run from work offsets that verify has not seen.
 namespace {
 
 namespace fuzz = steadyrest::fuzz;
@@ -58,7 +58,7 @@ struct Lines {
 class Trace final : public interpret::Sink {
  public:
   void on_move(const Move& move) override {
-    // The spline's points lie in memory of the interpreter that may be gone.
+    // The spline's points lie in the interpreter's memory, which may be gone.
     moves.push_back(move);
     moves.back().spline = {};
   }
@@ -80,7 +80,7 @@ bool run(std::string_view text, const interpret::Config& config, Trace& trace) {
   return run->take().refused.empty();
 }
 
-/// 1e-7 mm is what rounding in two different sums may leave; the smallest correction is far larger.
+/// Rounding in two different sums may leave 1e-7 mm; the smallest correction is far larger.
 bool near(double a, double b) {
   return std::abs(a - b) <= 1e-7;
 }
@@ -94,7 +94,7 @@ const rewrite::AxisPlan* plan_of(const rewrite::Plan& plan, std::size_t axis) {
   return at == plan.axes.end() ? nullptr : &*at;
 }
 
-/// Which correction of the plan a shift is: 0 none, k behind step k; −1 none that it knows.
+/// Which correction of the plan a shift is: 0 none, k after step k; −1 an unknown one.
 int step_of(const rewrite::AxisPlan* plan, double shift_mm) {
   constexpr double kWritten_mm = 1.28e-3;  // half of the control's least input, 0.0001 inch
   if (near(shift_mm, 0.0)) {
@@ -221,8 +221,8 @@ class Judge {
     }
   }
 
-  // Every step of the plan is reached. With a wide window two steps may fall on the same place, and
-  // the first is then passed over.
+  // Every step of the plan is reached. With a wide window two steps may share a place, and the
+  // first is then skipped.
   void all_steps() const {
     for (const rewrite::AxisPlan& axis : job_.plan.axes) {
       require(axis.steps.empty() || reached_[axis.index] == static_cast<int>(axis.steps.size()) ||
@@ -312,7 +312,7 @@ void edit(Lines& text, std::uint8_t what, std::uint8_t where, std::uint8_t a, st
   }
 }
 
-/// compensate first, then the edits, then verify. What it refuses is no finding; what it accepts
+/// compensate first, then the edits, then verify. A refusal is not a finding; whatever it accepts
 /// must survive the judge.
 void play(const fuzz::Job& job, std::string_view edits) {
   const fuzz::Files& files = fuzz::files();
@@ -342,8 +342,8 @@ void play(const fuzz::Job& job, std::string_view edits) {
 
 }  // namespace
 
-// '0' to '3' for the control, a byte for the plan, a program, and behind a NUL groups of four bytes
-// that say how the corrected program is changed. Everything else is a program for every control.
+// '0' to '3' for the control, a byte for the plan, a program, and after a NUL groups of four bytes
+// that tell how to change the corrected program. Everything else is a program for every control.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(data), size};
   const std::size_t chosen = size < fuzz::kHead ? 99 : static_cast<std::size_t>(data[0]) - '0';

@@ -40,7 +40,7 @@ void play_cut(const std::string& text) {
   }
 }
 
-/// The file changed a little further again and again, by the target's own way.
+/// The file changed a little further again and again, by the target's own mutator.
 void play_changed(std::string text) {
   constexpr unsigned kTimes = 40;
   constexpr std::size_t kMost = 4096;

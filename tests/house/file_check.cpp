@@ -6,8 +6,8 @@
 
 #include "place.hpp"
 
-// Rules that one file answers by itself. Comments and literals are blanked first where a word in
-// them must not count.
+// Rules that a single file can be checked for. Comments and literals are blanked first where a word
+// in them must not count.
 namespace house {
 namespace {
 
@@ -25,7 +25,7 @@ void check_spdx(FileCheck& check) {
   check.report("spdx", 1, "the first line must be the SPDX line of Apache-2.0");
 }
 
-/// The variable may move the shared data; a test that knows no other place is skipped for ever.
+/// The variable may move the shared data; a test that ignores it would be skipped forever.
 void check_shared_data(FileCheck& check) {
   const std::string& text = check.file.text;
   const std::size_t at = text.find("getenv(\"STEADYREST_SHARED_DATA\")");

@@ -27,7 +27,7 @@ void check_words(FileCheck& check) {
   }
 }
 
-/// Blanks are taken out first, for `while ( true )` is spelt in many ways; `origin` leads back to
+/// Blanks are removed first, since `while ( true )` is spelt in many ways; `origin` leads back to
 /// the line.
 void check_loops(FileCheck& check) {
   std::string dense;

@@ -46,7 +46,7 @@ void check_floor(FileCheck& check, const Location& here, const std::string& targ
     check_shelf(check, here, target, include);
     return;
   }
-  // Both conditions: a list that permits a higher floor by mistake must not win.
+  // Both conditions: a list that mistakenly permits a higher floor must not win.
   const bool higher = there->place->floor > here.place->floor;
   if (higher || !is_permitted(*here.place, target)) {
     check.report("floor", include.line,

@@ -84,8 +84,8 @@ TEST(Floors, AFolderWithoutAPlaceIsRefused) {
               ElementsAre("place:2"));
 }
 
-// An include in a comment, a block comment or a raw string is no include; one with blanks after #
-// is.
+// An include in a comment, a block comment or a raw string is not an include; one with blanks after
+// # is.
 TEST(Includes, InCommentsAndStringsDoNotCount) {
   const std::string higher = "#include <steadyrest/apps/x.hpp>";
   const std::string path = "steadyrest/kernel/x.hpp";

@@ -31,7 +31,7 @@ bool is_checked(const fs::path& path) {
          std::ranges::find(kEndings, path.extension().string()) != kEndings.end();
 }
 
-/// Only what is written by hand; build folders and packages are not ours.
+/// Only handwritten files; build folders and packages are not ours.
 std::vector<house::SourceFile> read_tree(const fs::path& root) {
   static constexpr std::array kFolders = {"steadyrest", "tests",   "bench",   "examples",
                                           "cmake",      "scripts", "web/src", "web/test"};

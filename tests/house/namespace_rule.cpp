@@ -17,8 +17,8 @@ std::string expected_namespace(const FileCheck& check) {
 
 }  // namespace
 
-/// An alias (`namespace x = steadyrest::…;`) and `using namespace` name other rooms' namespaces by
-/// right.
+/// An alias (`namespace x = steadyrest::…;`) and `using namespace` may name other rooms'
+/// namespaces.
 void check_namespaces(FileCheck& check) {
   const std::string expected = expected_namespace(check);
   bool matched = false;

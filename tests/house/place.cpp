@@ -20,7 +20,7 @@ std::optional<std::string> covered(std::string_view pattern, std::string_view fo
   return std::string(folder.substr(0, folder.find('/', stem.size())));
 }
 
-/// The shelf that a folder lies on, or is.
+/// The shelf that a folder is on, or is itself.
 std::optional<std::size_t> shelf_of(const Location& at, std::string_view folder) {
   for (std::size_t i = 0; i < at.place->shelves.size(); ++i) {
     if (is_within(folder, at.folder + "/" + at.place->shelves[i])) {
@@ -49,7 +49,7 @@ std::optional<Location> locate(const Rules& rules, std::string_view folder) {
   return best;
 }
 
-/// What lies beside the shelves is above them all.
+/// Files outside the shelves are above them all.
 std::size_t shelf_rank(const Location& at, std::string_view folder) {
   return shelf_of(at, folder).value_or(at.place->shelves.size());
 }
@@ -80,7 +80,7 @@ bool is_in_cycle(const Rules& rules, std::string_view path) {
   if (has_folder(path, "test") || has_folder(path, "testing")) {
     return false;
   }
-  // A folder name alone (`online`) holds anywhere; a path only there.
+  // A plain folder name (`online`) applies anywhere, a path only there.
   return std::ranges::any_of(rules.in_cycle_folders, [&](std::string_view folder) {
     return folder.find('/') != std::string_view::npos ? is_within(path, folder)
                                                       : has_folder(path, folder);

@@ -8,7 +8,7 @@
 
 #include "rules.hpp"
 
-/// Where a folder stands in the house.
+/// Where a folder belongs in the house.
 namespace house {
 
 [[nodiscard]] bool is_within(std::string_view path, std::string_view folder);
@@ -18,16 +18,17 @@ struct Location {
   std::string folder;
 };
 
-/// Where a folder (relative to the root) stands; the longest entry counts.
+/// The place of a folder (relative to the root); the longest entry counts.
 [[nodiscard]] std::optional<Location> locate(const Rules& rules, std::string_view folder);
 
-/// The rank of the shelf that a folder lies on, or is; what lies beside the shelves is above them.
+/// The rank of the shelf that a folder is on, or is itself; anything outside the shelves is above
+/// them.
 [[nodiscard]] std::size_t shelf_rank(const Location& at, std::string_view folder);
 
-/// The folder whose name is the namespace: the place for what lies on a shelf of it.
+/// The folder whose name is the namespace: the place itself for anything on one of its shelves.
 [[nodiscard]] std::string home_of(const Rules& rules, const std::string& folder);
 
-/// `contour/online` for `steadyrest/contour/online/x.hpp`; nothing for what is not ours.
+/// `contour/online` for `steadyrest/contour/online/x.hpp`; nothing for files outside the root.
 [[nodiscard]] std::optional<std::string> folder_under_root(const Rules& rules,
                                                            std::string_view path);
 

@@ -17,7 +17,7 @@ struct Place {
   std::string folder;
   int floor = 0;
   std::vector<std::string> includes;
-  std::vector<std::string> shelves;  ///< its folders, lowest first; what lies beside them is above
+  std::vector<std::string> shelves;  ///< its folders, lowest first; anything outside them is above
 };
 
 /// floors.toml as values.
@@ -44,10 +44,10 @@ struct Violation {
   std::string what;
 };
 
-/// What one file does against the rules that can be seen in it alone.
+/// Violations that can be seen in a single file.
 [[nodiscard]] std::vector<Violation> check_file(const SourceFile& file, const Rules& rules);
 
-/// Sources under the root that no CMakeLists.txt above them names: code that nobody builds.
+/// Sources under the root that no CMakeLists.txt above them names: code that is never built.
 [[nodiscard]] std::vector<Violation> check_built(const std::vector<SourceFile>& tree,
                                                  const Rules& rules);
 
@@ -55,8 +55,7 @@ struct Violation {
 [[nodiscard]] std::vector<Violation> check_crowded(const std::vector<SourceFile>& tree,
                                                    const Rules& rules);
 
-/// Classes with an update() that the stages' folder holds as members and that lack a part of the
-/// shape.
+/// Classes with an update() that are members in the stages' folder and lack a part of the shape.
 [[nodiscard]] std::vector<Violation> check_stages(const std::vector<SourceFile>& tree,
                                                   const Rules& rules);
 

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 // Each rule by the smallest tree that breaks it and the nearest one that does not. Violations are
-// compared as rule:line, so a rule that fires in the wrong place fails as well.
+// compared as rule:line, so a rule that fires in the wrong place also fails.
 namespace house {
 namespace {
 
@@ -97,7 +97,7 @@ TEST(InCycle, LoopsWithoutABoundAreRefused) {
   EXPECT_THAT(found(path, "void f() { for (int i = 0; i < 9; ++i) {} }"), IsEmpty());
 }
 
-// Declarations must say noexcept; calls are no declarations.
+// Declarations must say noexcept; calls are not declarations.
 TEST(InCycle, UpdateMustBeNoexcept) {
   const std::string path = "steadyrest/motion/online/x.hpp";
   EXPECT_THAT(found(path, "class X { Output update(const Input& i); };"),
@@ -176,7 +176,7 @@ TEST(Stages, HaveConfigMakeStateAndRestore) {
   EXPECT_THAT(held(member, all.substr(0, all.find("void restore"))),
               ElementsAre(HasSubstr("restore(")));
   EXPECT_THAT(held("// contour::online::Governor governor_;", "int update(int x);"), IsEmpty());
-  // A class without update() is no stage: nothing in it changes from cycle to cycle.
+  // A class without update() is not a stage: nothing in it changes from cycle to cycle.
   EXPECT_THAT(held(member, "int look(int x) const;"), IsEmpty()) << "nothing changes in it";
 }
 

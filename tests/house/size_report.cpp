@@ -5,7 +5,7 @@
 #include "rules.hpp"
 #include <fmt/format.h>
 
-// Figures about the tree, for people: nothing fails by them but the length of a file.
+// Figures about the tree, for people: only the length of a file can fail.
 namespace house {
 namespace {
 
@@ -17,7 +17,7 @@ struct Count {
   std::size_t longest = 0;
 };
 
-/// Trailing comments count here as well.
+/// Trailing comments count too.
 std::size_t comment_lines_in(std::string_view text) {
   std::size_t count = 0;
   while (!text.empty()) {

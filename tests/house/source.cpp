@@ -5,7 +5,7 @@
 #include <cctype>
 
 // A lexer just good enough for the rules: it tells code from comments and literals, keeps every
-// offset and line, and knows nothing else of C++.
+// offset and line, and knows nothing else about C++.
 namespace house {
 namespace {
 
@@ -33,7 +33,7 @@ std::size_t end_of_quoted(std::string_view text, std::size_t open) {
   return std::min(i + 1, text.size());
 }
 
-/// One past R"tag(…)tag" whose quote stands at `open`.
+/// One past R"tag(…)tag" whose quote is at `open`.
 std::size_t end_of_raw(std::string_view text, std::size_t open) {
   const std::size_t bracket = text.find('(', open);
   if (bracket == std::string_view::npos) {

@@ -15,7 +15,7 @@ struct SourceFile {
 };
 
 struct Include {
-  std::string target;  ///< what stands between the brackets or quotes
+  std::string target;  ///< the text between the brackets or quotes
   bool quoted = false;
   std::size_t line = 0;  ///< 1-based
 };

@@ -8,7 +8,7 @@
 
 #include "rules.hpp"
 
-/// Sources that stand in no folder, and what the rules find in them.
+/// Sources in memory only, and what the rules find in them.
 namespace house {
 
 inline const Rules& rules() {
@@ -33,8 +33,7 @@ inline std::string namespace_of(std::string path) {
   return path;
 }
 
-/// A file that keeps every rule but for what `body` does; the body starts on line 2, behind the
-/// licence line.
+/// A file that breaks no rule except by `body`, which starts on line 2, after the licence line.
 inline SourceFile file(const std::string& path, const std::string& body) {
   return {path, std::string(kSpdx) + body + "\nnamespace " + namespace_of(path) + " {}\n"};
 }

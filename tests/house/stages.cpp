@@ -9,7 +9,7 @@
 
 #include "rules.hpp"
 
-// What the supervisor's headers hold and update in the cycle has one shape.
+// Members that the supervisor's headers hold and update in the cycle have one shape.
 namespace house {
 namespace {
 
@@ -32,7 +32,7 @@ std::string_view braced(std::string_view blanked, std::size_t open) {
   return blanked.substr(open);
 }
 
-/// The classes that a header defines, those inside of others too.
+/// The classes that a header defines, including nested ones.
 void collect(const SourceFile& file, std::map<std::string, Class>& classes) {
   const std::string blanked = blank_comments_and_literals(file.text);
   const auto all = words(blanked);
@@ -52,8 +52,7 @@ void collect(const SourceFile& file, std::map<std::string, Class>& classes) {
   }
 }
 
-/// Types of the data members that a header declares; what merely looks like one finds no class of
-/// its name and drops out.
+/// Types of the data members that a header declares; a lookalike matches no class and drops out.
 std::vector<std::string> held_in(const SourceFile& file) {
   static const std::regex kMember(R"((\w+)>?\s+\w+\s*(;|=|\{))");
   const std::string blanked = blank_comments_and_literals(file.text);

@@ -7,7 +7,7 @@
 #include "place.hpp"
 #include "rules.hpp"
 
-// The rules that need more than one file to be seen.
+// The rules that need more than one file.
 namespace house {
 
 std::vector<Violation> check_built(const std::vector<SourceFile>& tree, const Rules& rules) {

@@ -3,13 +3,13 @@
 //
 //   steadyrest_encoder_peer EDGES.csv --base-ns 1000 --tick-s 0.001 -o OUT.csv
 //
-// EDGES.csv (- = stdin): columns t_s,count. The first row says where the axis stands when the
-// record begins; each further one is an edge, with the count from then on. OUT.csv, a row per servo
-// cycle: t_s,count,velocity_counts_s,position_counts. The installed module is loaded at run time
-// and called as its base and servo threads would call it; no thread, shared memory or privilege is
+// EDGES.csv (- = stdin): columns t_s,count. The first row tells where the axis is when the record
+// begins; each later one is an edge, with the count from then on. OUT.csv, a row per servo cycle:
+// t_s,count,velocity_counts_s,position_counts. The installed module is loaded at run time and
+// called as its base and servo threads would call it; no thread, shared memory or privilege is
 // needed. The base thread sees at most one count per period, so more than one is lost, as on the
-// machine; how often is said on stderr. LinuxCNC stamps an edge with the start of the base period
-// that ends when the levels are read. Exit: 0 done, 2 refused, 77 the module is not installed.
+// machine; stderr tells how often. LinuxCNC stamps an edge with the start of the base period that
+// ends when the levels are read. Exit: 0 done, 2 refused, 77 the module is not installed.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -24,8 +24,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-// The peer is LinuxCNC's own code, loaded and called as its threads would; so a comparison is with
-// what people really run.
+// The peer is LinuxCNC's own code, loaded and called as its threads would, so the comparison is
+// with what people really run.
 namespace {
 
 using steadyrest::test::linuxcnc::hal;
@@ -57,7 +57,7 @@ std::optional<Row> parse(const std::string& line) {
   Row row;
   char rest = 0;
   long long count = 0;
-  // The trailing %c catches anything behind the second number.
+  // The trailing %c catches anything after the second number.
   if (std::sscanf(line.c_str(), "%lf,%lld %c", &row.t_s, &count, &rest) != 2 ||
       !std::isfinite(row.t_s)) {
     return std::nullopt;
@@ -66,7 +66,7 @@ std::optional<Row> parse(const std::string& line) {
   return row;
 }
 
-/// Rows in the order of time, or the line that is not one.
+/// Rows in time order, or the first bad line.
 std::optional<std::vector<Row>> read(std::istream& in, std::size_t& line_number) {
   std::vector<Row> rows;
   std::string line;
@@ -125,12 +125,13 @@ class Encoder {
   double& position_;
 };
 
-/// Plays the rows and writes a line for each servo cycle; how often the base thread was too slow.
+/// Plays the rows and writes a line for each servo cycle; returns how often the base thread was too
+/// slow.
 std::int64_t play(const Options& options, const std::vector<Row>& rows, std::ostream& out) {
   const auto tick_ns = static_cast<std::int64_t>(std::llround(options.tick_s * 1e9));
   const double start_s = rows.front().t_s;
-  const std::int64_t origin = rows.front().count;  // levels begin as the component does: both low
-  // An edge is seen with the first base period that ends at or after it. The tiny margin keeps
+  const std::int64_t origin = rows.front().count;  // levels begin low, like the component's
+  // An edge is seen in the first base period that ends at or after it. The tiny margin keeps
   // rounding from moving an edge at a period's very end to the next.
   const auto sample_of = [&](const Row& row) {
     const double periods = (row.t_s - start_s) * 1e9 / static_cast<double>(options.base_ns);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LinuxCNC's own encoder component against the truth and against our M/T, on the very same edges.
+// LinuxCNC's own encoder component against the truth and against our M/T, on the same edges.
 // Recorded figures: the flywheel of the paper's fig. 2 from 200 random phases, 2.9.0~pre1 of
 // Debian 12.
 #include <cmath>
@@ -32,14 +32,13 @@ using motion::online::Tick;
 constexpr double kCount = 0.001;
 constexpr int kNotInstalled = 77;
 
-/// What the base thread sees: the count at each of its samples at which it changed.
+/// What the base thread sees: the count at each sample where it changed.
 struct Sample {
   std::int64_t at = 0;  ///< number of the base period, 1 = the first
   std::int64_t count = 0;
 };
 
-/// Exact times: the base thread's grid is applied afterwards, by the peer and by samples_of()
-/// alike.
+/// Exact times: the peer and samples_of() apply the base thread's grid afterwards.
 Record exact_edges(const Profile& profile) {
   Recording how;
   how.clock_s = 0.0;
@@ -157,7 +156,7 @@ TEST_F(EncoderPeer, MeasuresTheFlywheelAsCoarselyAsRecorded) {
       }
       for (std::size_t k = 0; k < rows.size(); ++k) {
         const double truth = record.truth[k + 1].velocity_mm_s;  // 1 mm/s = 1 count/tick
-        // The estimator needs two edges; below 0.05 counts/tick there is hardly one in a cycle.
+        // The estimator needs two edges; below 0.05 counts/tick there is hardly one per cycle.
         if (rows[k].t_s > 0.05 && truth > 0.05) {
           const double error = rows[k].velocity_counts_s * 1e-3 - truth;
           sum += error * error;
@@ -173,8 +172,7 @@ TEST_F(EncoderPeer, MeasuresTheFlywheelAsCoarselyAsRecorded) {
 }
 
 /// Largest |difference| in mm/s between the peer and our M/T fed with what its base thread saw.
-/// Below rounding it shows that the comparator in our benchmark is LinuxCNC's law and no
-/// caricature.
+/// Below rounding it shows that our benchmark's comparator is LinuxCNC's law, not a caricature.
 double worst_difference(const std::vector<PeerRow>& rows, const std::vector<Sample>& samples,
                         std::int64_t base_ns, const MOverT::Config& config) {
   MOverT estimator = MOverT::make(config).value();

@@ -7,8 +7,8 @@
 #include <string>
 #include <variant>
 
-/// As much of LinuxCNC's HAL as one realtime component needs to run inside a test tool: pins are
-/// plain variables, exported functions are called by hand. For test tools only.
+/// Just enough of LinuxCNC's HAL to run one realtime component inside a test tool: pins are plain
+/// variables, exported functions are called by hand. For test tools only.
 namespace steadyrest::test::linuxcnc {
 
 /// A function that the component exported.

@@ -110,7 +110,7 @@ TEST(ProgramTimeAgainstLinuxCnc, RealProgramsAgreeWithTheRecordedFigures) {
   }
 }
 
-// The figures again, measured now where LinuxCNC is installed: they would drift with its version.
+// The figures again, measured live where LinuxCNC is installed: they may drift with its version.
 TEST(ProgramTimeAgainstLinuxCnc, LinuxCncStillTakesAsLong) {
   const auto folder =
       std::filesystem::path("/var/tmp") / ("steadyrest-" + std::to_string(getpid()));

@@ -21,7 +21,7 @@ for t in $(seq 99); do echo "T$t P$t Z0 D0"; done >"$D/cfg/mill.tbl"
   $(seq 5301 5310) $(seq 5321 5330) $(seq 5341 5350) $(seq 5361 5370) $(seq 5381 5390); do
   v=0; [ $p = 5220 ] && v=1; printf '%s\t%s\n' $p $v; done >"$D/cfg/mill.var"
 cp "$program" "$D/cfg/program.ngc"
-printf "\nM2\n" >>"$D/cfg/program.ngc"  # LinuxCNC wants an end; what stands behind the program's own is not read
+printf "\nM2\n" >>"$D/cfg/program.ngc"  # LinuxCNC needs an end; text after the program's own is not read
 chown -R 65534:65534 "$D"; chmod 755 "$D"; chmod 1777 "$D/tmp"
 unshare --ipc --pid --fork --kill-child --mount --mount-proc bash -c '
   mount --bind "$D/tmp" /tmp

@@ -34,7 +34,7 @@ BetterSpeed::BetterSpeed(double again_samples, Detector detector, SpeedTable tab
       state_{.detector = std::move(detector), .out = {}} {}
 
 const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
-  // Another programmed speed is another cut: the advice for the last one goes with it.
+  // Another programmed speed is another cut: the advice for the last one is dropped.
   const bool other_cut = std::abs(input.programmed_rev_s - state_.programmed_rev_s) >
                          kSameSpeed * state_.programmed_rev_s;
   if (std::isfinite(input.programmed_rev_s) && other_cut) {
@@ -49,8 +49,8 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   state_.out.kind = heard.kind;
   state_.out.frequency_hz = heard.frequency_hz;
   state_.since_asked += 1.0;
-  // At once when chatter begins, then at intervals: the frequency moves with the speed, and a step
-  // that did not help is not the last word.
+  // At once when chatter begins, then at intervals: the frequency moves with the speed, and another
+  // step may help where the first did not.
   if (state_.out.chatter && (!before || state_.since_asked >= again_samples_)) {
     ask(input);
   }

@@ -11,29 +11,29 @@
 
 namespace steadyrest::chatter::online {
 
-/// Hears chatter and asks for the better spindle speed: the detector's alarm, answered once by the
-/// planner's table, as a request for the spindle's override.
+/// Detects chatter and requests a better spindle speed: the planner's table answers the detector's
+/// alarm with a request for the spindle override.
 ///
-/// Law. When chatter begins, and again each `again_s` while it lasts, the table is asked from the
-/// ratio in force; what it answers is requested from then on. An answer stays when the chatter is
-/// over, because the old speed would chatter again; it is dropped when the programmed speed changes
-/// by more than 1 % (another cut) or by `reset`. Where no step is better, the request stays what it
-/// was and `reason` says chatter_no_better_speed. Without chatter and answer the request is
+/// Law. When chatter begins, and again every `again_s` while it lasts, the table is queried from
+/// the ratio in force; its answer is requested from then on. An answer stays after the chatter is
+/// over, because the old speed would chatter again; it is dropped by `reset` or when the programmed
+/// speed changes by more than 1 % (another cut). Where no step is better, the request stays the
+/// same and `reason` is chatter_no_better_speed. Without chatter or an answer the request is
 /// neutral.
 ///
-/// Bounds: those of Detector and SpeedTable::ask, one answer a sample, no allocation.
+/// Cost: Detector and SpeedTable::ask, one answer per sample, no allocation.
 class BetterSpeed {
  public:
   struct Config {
     Detector::Config detector;
     SpeedTable::Config table;
-    double again_s = 1.0;  ///< s, > 0; longer than the spindle needs to the new speed
+    double again_s = 1.0;  ///< s, > 0; longer than the spindle needs to reach the new speed
   };
 
   struct Input {
     double value = 0.0;                                           ///< of the vibration, any unit
     double speed_rev_s = 0.0;                                     ///< of the spindle, now
-    double angle_rev = std::numeric_limits<double>::quiet_NaN();  ///< as Detector::Input has it
+    double angle_rev = std::numeric_limits<double>::quiet_NaN();  ///< as in Detector::Input
     double programmed_rev_s = 0.0;                                ///< at ratio 1
     double ratio = 1.0;     ///< of the spindle's override, in force
     double depth_mm = 0.0;  ///< of the cut; 0 = not known
@@ -49,21 +49,21 @@ class BetterSpeed {
   };
 
   struct State {
-    Detector detector;  ///< a value: its copy goes on as it would
+    Detector detector;  ///< a value: a copy continues as the original would
     double programmed_rev_s = 0.0;
     double since_asked = 0.0;  ///< samples
     kernel::outcome::Reason answer = kernel::outcome::Reason::none;
     Output out;
   };
 
-  /// Refuses what Detector or SpeedTable refuse, and an again_s that is not above 0.
+  /// Refuses what Detector or SpeedTable refuse, and an again_s not above 0.
   [[nodiscard]] static kernel::outcome::Result<BetterSpeed> make(Config config);
 
   /// One sample.
   const Output& update(const Input& input) noexcept;
   void reset() noexcept;
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// Of one that was made from the same detector's setup.
+  /// From an object with the same detector setup.
   void restore(const State& state) noexcept { state_ = state; }
 
  private:

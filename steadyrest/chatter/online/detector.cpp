@@ -6,9 +6,9 @@
 #include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// A sample passes the order filter, the once-a-revolution witness and the energies; what the filter
-// leaves goes to the spectrum, which speaks every eighth of a window. Each spectrum starts a
-// question to FreeShare, and its answer, some samples later, starts judge(). Both work in small
+// A sample passes the order filter, the once-per-revolution check and the energies; the filter's
+// residual goes to the spectrum, which is ready every eighth of a window. Each spectrum starts a
+// query to FreeShare, whose answer, some samples later, starts judge(). Both work in small
 // portions, so that no sample costs more than its share of the cycle.
 //
 // When it alarms (R energy ratio, F free ratio, C line energy, as in the header; each spectrum
@@ -19,9 +19,8 @@
 //   any speed       F − bound, summed up, never below 0 ───────────────── evidence ≥ enough() ┴ on
 //   over            R < off, or F < half of free while the speed moves, for a whole window
 //
-// floor and bound are what this cut has shown so far: learn(), free_bound(). While a line is
-// suspicious, and for two seconds at most, `hold` keeps the order filter from learning it as
-// forced.
+// floor and bound are the levels of this cut so far: learn(), free_bound(). While a line is
+// suspicious, for at most two seconds, `hold` keeps the order filter from learning it as forced.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;
@@ -30,11 +29,11 @@ namespace {
 
 using kernel::units::kTurn;
 
-// What halving and doubling does to the tests: README, "What the constants do". The rates that
-// they give together: bench/chatter/detector_hunt.
+// Effect of halving and doubling on the tests: README, "What the constants do". Their combined
+// rates: bench/chatter/detector_hunt.
 constexpr double kSteady = 0.003;   // relative spread of the speed that still counts as constant
-constexpr double kGuardBins = 1.5;  // half width of what a line takes of the spectrum
-constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap to look into
+constexpr double kGuardBins = 1.5;  // half width of a line in the spectrum
+constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap
 constexpr double kJump = 4.0;       // in the tooth orders' energy: the tool enters or leaves
 constexpr double kFirstJump =
     2.5;                          // the same, of the first cut: air has no tooth orders that sweep
@@ -42,9 +41,9 @@ constexpr double kAllJump = 2.5;  // in the whole signal's energy
 constexpr double kNoiseJump = 7.0;  // the same into the first cut, over the noise's own spread
 constexpr double kSlowRev = 20.0;   // memory of the energy that a jump is measured against
 constexpr double kWitnessShare = 0.25;
-constexpr double kLearnRev = 1.5;  // until the filter knows a new cut
-constexpr double kLasting = 0.7;   // of the window's line energy that the last revolution still has
-constexpr double kOffSpindle = 6.0;   // runout's orders take a part of chatter as well
+constexpr double kLearnRev = 1.5;     // until the filter has learnt a new cut
+constexpr double kLasting = 0.7;      // of the window's line energy, still in the last revolution
+constexpr double kOffSpindle = 6.0;   // runout's orders absorb a part of chatter too
 constexpr double kFreeNoise = 2.0;    // the noise's spread
 constexpr double kFreeSteady = 0.05;  // of a line that the energy ratio finds suspect
 constexpr double kFreeSure = 0.25;    // at constant speed chatter without the other witnesses
@@ -54,9 +53,9 @@ constexpr double kFreeRiseS = 0.13;
 constexpr double kFreeFallS = 30.0;
 constexpr double kFreeOff = 0.5;
 constexpr double kEvidenceStep = 0.2;  // most that one spectrum gives
-constexpr double kEvidenceFall = 0.1;  // most that one takes
+constexpr double kEvidenceFall = 0.1;  // most that one spectrum takes
 constexpr double kEvidence = 0.25;
-constexpr double kLaterS = 0.17;  // a cut that was stable so long is believed more
+constexpr double kLaterS = 0.17;  // a cut stable this long is trusted more
 constexpr double kLaterEvidence = 0.45;
 constexpr double kLaterBound = 1.5;
 constexpr double kLongestHoldS = 2.0;
@@ -119,22 +118,22 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
     return out_;
   }
   follow_speed(input);
-  // Before everything else: the spectrum and the energies look at what the filter leaves.
+  // First of all: the spectrum and the energies use the filter's residual.
   const OrderFilter::Output forced =
       filter_.update(input.value, state_.angle_rev, input.speed_rev_s,
                      state_.speed_spread >= kSteady, state_.hold);
   out_.residual = forced.residual;
   revolution_ = spread_.update(input.value - forced.mean, state_.angle_rev);
   follow_energy(forced, input.value - forced.mean, turn_share);
-  // What the filter has not learnt yet is no line.
+  // What the filter has not learnt yet is not a line.
   const double shown = state_.settled_rev > kLearnRev ? forced.residual : 0.0;
   const double tooth_hz = static_cast<double>(config_.teeth) * state_.mean_speed_rev_s;
   const bool gaps = tooth_hz > kWideBins * spectrum_.resolution_hz();
   const bool steady = state_.speed_spread < kSteady;
-  // At constant speed whatever is left of the tooth orders is not looked at. Where they lie closer
-  // than a line is wide nothing would remain, and while the speed moves they sweep.
+  // At constant speed residues of the tooth orders are ignored. Where they are closer than a line
+  // is wide, nothing would remain, and while the speed moves they sweep.
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
-  // A spectrum that finds FreeShare still at work is dropped: the next comes 13 ms later.
+  // A spectrum that finds FreeShare still busy is dropped: the next comes 13 ms later.
   if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
       lines.fresh && !share_.busy()) {
     lines_ = lines;
@@ -152,13 +151,13 @@ void Detector::follow_speed(const Input& input) noexcept {
     state_.mean_speed_rev_s = input.speed_rev_s;
     state_.angle_rev = std::isnan(input.angle_rev) ? 0.0 : input.angle_rev;
   } else if (std::isnan(input.angle_rev)) {
-    // No angle is given: the speed is integrated. Its error only turns all orders together, and
-    // slowly; the filter follows.
+    // Without an angle the speed is integrated. The error only turns all orders together, slowly,
+    // and the filter follows.
     state_.angle_rev += input.speed_rev_s / config_.sample_rate_hz;
   } else {
     state_.angle_rev = input.angle_rev;
   }
-  // Memory of half a window: mean and spread belong to what the spectrum sees.
+  // Memory of half a window: mean and spread match what the spectrum sees.
   const double keep = 2.0 / static_cast<double>(spectrum_.length());
   state_.mean_speed_rev_s += keep * (input.speed_rev_s - state_.mean_speed_rev_s);
   const double off = std::abs(input.speed_rev_s / state_.mean_speed_rev_s - 1.0);
@@ -180,20 +179,21 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
   state_.energy += turn_share * (moving * moving - state_.energy);
   const double before = std::max(state_.slow_all, config_.least_energy);
   state_.slow_all += slow * (moving * moving - state_.slow_all);
-  // A mean over a revolution of white noise's energy spreads by √turn_share; air has nothing else.
+  // The mean energy of white noise over a revolution spreads by √turn_share; out of the cut there
+  // is nothing else.
   const double first_jump = std::min(kAllJump, 1.0 + kNoiseJump * std::sqrt(turn_share));
   const bool entered =
       state_.tooth_energy > (state_.opened ? kJump : kFirstJump) *
                                 std::max(state_.slow_energy, config_.least_energy) ||
       state_.energy > (state_.opened ? kAllJump : first_jump) * before;
   const double pause_rev = state_.opened ? kSlowRev : config_.settle_rev;
-  // Growing chatter raises the energy as an entry does. While anything is suspect, a jump opens no
-  // cut.
+  // Growing chatter raises the energy just as an entry does. While anything is suspect, a jump does
+  // not open a cut.
   const bool calm = !out_.chatter && !state_.hold && state_.suspects == 0;
   if (entered && calm && state_.settled_rev > pause_rev) {
     state_.opened = true;
     state_.seen_rev = 0.0;
-    // A new cut brings new forced vibration: what was learnt about the last one is dropped.
+    // A new cut brings new forced vibration: everything learnt about the last one is dropped.
     filter_.open(state_.speed_spread >= kSteady);
     state_.settled_rev = 0.0;
     state_.settled = 0;
@@ -207,8 +207,8 @@ bool Detector::witnessed(double line_energy, double order) const noexcept {
   if (!revolution_.known) {
     return true;
   }
-  // E(x(t) − x(t − T))² of a line of this energy is 2·E·(1 − cos 2π·order), half of which is what
-  // RevolutionSpread takes: a line on a spindle order changes nothing from turn to turn.
+  // E(x(t) − x(t − T))² of a line of this energy is 2·E·(1 − cos 2π·order), half of which
+  // RevolutionSpread measures: a line on a spindle order does not change from turn to turn.
   const double expected = line_energy * (1.0 - std::cos(kTurn * order));
   return revolution_.changed_energy >= kWitnessShare * expected;
 }
@@ -227,8 +227,8 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
-  // Two fits, by tooth orders and by all spindle orders; the smaller rest counts. Noise is left
-  // over by any fit, so twice its expected share is taken off first.
+  // Two fits, by tooth orders and by all spindle orders; the smaller residual counts. Any fit
+  // leaves noise, so twice its expected share is subtracted first.
   const double off_orders = std::min(share.off_teeth, kOffSpindle * share.off_spindle) -
                             kFreeNoise * share.noise_share * lines.noise_energy;
   out_.free_ratio = share.known && share.energy > 0.0
@@ -242,16 +242,16 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   state_.judged_s += settled ? hop_s : 0.0;
   const bool strong = cuts && settled && lines.peak_ratio > config_.line_ratio;
   const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
-  // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide as a few strong
-  // ones do, and a single spectrum, which gives 0.2 at most, never does.
+  // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide like a few
+  // strong ones, and a single spectrum, which gives at most 0.2, never does.
   const double over =
       strong ? std::clamp(out_.free_ratio - free_bound(), -kEvidenceFall, kEvidenceStep)
              : -kEvidenceFall;
   state_.evidence = std::clamp(state_.evidence + over, 0.0, enough());
   const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, share)));
-  // Hopf chatter is no spindle order: once it is told, the runout may be learnt again, or what was
-  // learnt of its beginning would stand for ever. For the same reason flip is held for a while
-  // only.
+  // Hopf chatter is not a spindle order: once it is reported, runout may be learnt again; otherwise
+  // what was learnt at its beginning would stay forever. For the same reason flip is held only for
+  // a while.
   const bool suspicious = line && out_.energy_ratio > 0.5 * config_.on_ratio;
   state_.held_s = suspicious ? state_.held_s + hop_s : 0.0;
   state_.hold =
@@ -260,7 +260,7 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   if (settled && !out_.chatter) {
     learn(lines.line_energy, suspect);
   }
-  // Hysteresis, and a whole window of quiet: one spectrum between two bursts does not end chatter.
+  // Hysteresis plus a whole window of quiet: one spectrum between two bursts does not end chatter.
   const bool below = steady ? out_.energy_ratio < config_.off_ratio
                             : out_.free_ratio < kFreeOff * config_.free_ratio;
   state_.quiet = below || !line ? state_.quiet + 1 : 0;
@@ -296,7 +296,7 @@ void Detector::name(const LineSpectrum::Output& lines, bool line, bool cuts) noe
                              : Reason::none;
 }
 
-/// The last revolution still has it, and the second witness does not deny it.
+/// The line is still in the last revolution, and the second check does not contradict it.
 bool Detector::lasts(const LineSpectrum::Output& lines) const noexcept {
   return state_.residual_energy > kLasting * lines.line_energy &&
          witnessed(lines.line_energy, lines.frequency_hz / state_.mean_speed_rev_s);
@@ -311,10 +311,9 @@ bool Detector::suspect_steady(const LineSpectrum::Output& lines,
          (!share.known || out_.free_ratio > kFreeSteady);
 }
 
-/// What the cut has shown so far counts as its own.
+/// Levels that the cut has shown so far count as normal for it.
 double Detector::free_bound() const noexcept {
-  // Even a stable cut has some free ratio, by noise or by a slow ring; only more than that is
-  // news.
+  // Even a stable cut has some free ratio, from noise or slow ringing; only more than that counts.
   const double least = state_.speed_spread < kSteady ? kFreeSure : config_.free_ratio;
   return std::max(later() ? kLaterBound * least : least, kFreeMargin * state_.floor_free);
 }
@@ -331,13 +330,13 @@ void Detector::learn(double line_energy, bool suspect) noexcept {
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
   const double rise = out_.free_ratio - state_.floor_free;
   const double free_s = rise > 0.0 ? kFreeRiseS : kFreeFallS;
-  // Quick up, slow down: what a stable cut has shown once it may show again.
+  // Quick up, slow down: a stable cut may repeat any level it has shown once.
   state_.floor_free += state_.judged_s > kFreeLearnS ? std::min(hop_s / free_s, 1.0) * rise : 0.0;
   if (suspect) {
     return;
   }
   const double memory_s = line_energy > state_.floor_energy ? kFloorRiseS : kFloorFallS;
-  // The first judgements weigh as a mean.
+  // The first judgements are averaged with equal weight.
   const double weight = std::max(hop_s / memory_s, hop_s / std::max(state_.judged_s, hop_s));
   state_.floor_energy += std::min(weight, 1.0) * (line_energy - state_.floor_energy);
 }

@@ -14,34 +14,34 @@
 
 namespace steadyrest::chatter::online {
 
-/// Hears chatter in vibration, sound, spindle power or a motion estimate, at constant and at
+/// Detects chatter in vibration, sound, spindle power or a motion estimate, at constant and
 /// modulated speed.
 ///
-/// Law. The signal less what OrderFilter says is forced gives the residual; LineSpectrum finds its
-/// lines, FreeShare says of the strongest which share φ neither an order nor a damped mode gives.
-/// With C the energy of the lines and P that of the forced vibration,
+/// Law. The signal minus OrderFilter's forced part is the residual; LineSpectrum finds its lines,
+/// and FreeShare gives the share φ of the strongest that neither an order nor a damped mode
+/// explains. With C the energy of the lines and P that of the forced vibration,
 ///   energy ratio R = C/(C + P),  free ratio F = φ·R.
-/// Only a spectrum whose strongest line stands `line_ratio` above the noise counts. Two ways:
+/// Only a spectrum whose strongest line is `line_ratio` above the noise counts. Two ways:
 ///   E += F − b, held within −0.1…0.2, never below 0; chatter at E ≥ 0.25. The bound b is
-///   `free_ratio` while the speed moves, else 0.25, and at least 1.2 times what the cut has shown
-///   in F before. (R alone says nothing there: a tooth order that sweeps over a resonance gives 0.9
-///   in stable cuts.) From 0.17 s after the entry on, E ≥ 0.45 and 1.5 times the bound are asked
-///   for: chatter mostly comes with the tool's entry, and a cut near its border lets vibration grow
-///   for a while in each period of the modulation. At constant speed as well: R above `sure_ratio`,
-///   or above `on_ratio` with C above `margin` times what the present cut has shown (learnt while
-///   nothing is suspect, from `learn_s` on), in `confirm` spectra, less those between that were
-///   not; unless F is below 0.05, the last revolution has less than 70 % of the line (it dies
-///   away), or the revolution's spread is below a quarter of what a line of this order and energy
-///   gives.
-/// Chatter is over once R was below `off_ratio`, while the speed moves F below half of
-/// `free_ratio`, for a whole window. For `settle_rev` revolutions after the signal's energy jumped
-/// (the tool enters; out of the air it counts from seven times the spread of the noise's own
-/// energy on, so that noise as loud as the cut does not hide it) nothing is judged.
+///   `free_ratio` while the speed moves, else 0.25, and at least 1.2 times the F that this cut has
+///   shown before. (R alone means nothing there: a tooth order that sweeps over a resonance gives
+///   0.9 in stable cuts.) From 0.17 s after the entry on, E ≥ 0.45 and 1.5 times the bound are
+///   required: chatter mostly comes with the tool's entry, and a cut near its border lets vibration
+///   grow for a while in each period of the modulation. At constant speed also: R above
+///   `sure_ratio`, or above `on_ratio` with C above `margin` times the level of the present cut
+///   (learnt while nothing is suspect, from `learn_s` on), in `confirm` spectra, minus those in
+///   between that were not; unless F is below 0.05, the last revolution has less than 70 % of the
+///   line (it dies away), or the revolution's spread is below a quarter of what a line of this
+///   order and energy gives.
+/// Chatter is over once R (while the speed moves, F) has been below `off_ratio` (half of
+/// `free_ratio`) for a whole window. For `settle_rev` revolutions after a jump of the signal's
+/// energy (the tool enters; from air, a jump of seven times the spread of the noise energy counts,
+/// so that noise as loud as the cut does not hide it) nothing is judged.
 ///
-/// The frequency is that of the strongest line of the residual, see LineSpectrum for its accuracy.
-/// Flip: within a line's width of a half-odd tooth order; the lines there are never taken as forced
-/// at once, only in the long memory of OrderFilter. Otherwise Hopf. Flip chatter of an
-/// even-numbered cutter that is there from the first tooth on cannot be told from its runout.
+/// The frequency is that of the residual's strongest line; see LineSpectrum for its accuracy. Flip:
+/// within a line's width of a half-odd tooth order; lines there are learnt as forced only in
+/// OrderFilter's long memory. Otherwise Hopf. With an even number of teeth, flip chatter present
+/// from the first tooth cannot be told from runout.
 ///
 /// Source: Caliskan, Kilic, Altintas 2018 (Kalman filter, energy ratio); Zhao 2019 (once a
 /// revolution).
@@ -52,7 +52,7 @@ class Detector {
     std::size_t teeth = 2;               ///< 1 … 64; 1 in turning
     std::size_t tooth_harmonics = 24;    ///< 1 … 64
     std::size_t spindle_harmonics = 40;  ///< 0 … 64
-    double lowest_hz = 40.0;             ///< chatter below is not looked for
+    double lowest_hz = 40.0;             ///< chatter below is not searched
     double window_s = 0.1;               ///< of the spectrum, 0.02 … 1
     double on_ratio = 0.15;              ///< off_ratio … sure_ratio
     double sure_ratio = 0.25;            ///< on_ratio … 1
@@ -60,7 +60,7 @@ class Detector {
     double off_ratio = 0.07;             ///< 0 … on_ratio
     double line_ratio = 25.0;            ///< ≥ 10
     double margin = 4.0;                 ///< ≥ 1
-    double least_energy = 0.0;           ///< unit²; less vibration than this is no cut
+    double least_energy = 0.0;           ///< unit²; less vibration than this is not a cut
     double learn_s = 0.25;               ///< ≥ 0
     double settle_rev = 3.0;             ///< ≥ 0
     unsigned confirm = 2;                ///< ≥ 1
@@ -75,7 +75,7 @@ class Detector {
   };
 
   enum class Kind : std::uint8_t {
-    none,    ///< nothing to name
+    none,    ///< nothing found
     forced,  ///< repeats with the teeth
     hopf,    ///< regenerative, quasi-periodic
     flip,    ///< regenerative, period doubling
@@ -89,19 +89,19 @@ class Detector {
     double energy_ratio = 0.0;  ///< 0 … 1
     double free_ratio = 0.0;    ///< 0 … 1, the free share of it; 0 while not known
     double spread_ratio = 0.0;  ///< 0 … 2, RevolutionSpread; 0 while not known
-    double residual = 0.0;      ///< the signal without the forced vibration
+    double residual = 0.0;      ///< the signal minus the forced vibration
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;
   };
 
   [[nodiscard]] static kernel::outcome::Result<Detector> make(const Config& config);
 
-  /// One sample. A value, speed or angle that is not finite, or a speed that is not above 0, is
-  /// skipped: the output stays, with its reason, until the next good sample.
+  /// One sample. A sample with a value, speed or angle that is not finite, or a speed not above 0,
+  /// is skipped: the output stays, with its reason, until the next good sample.
   const Output& update(const Input& input) noexcept;
   void reset() noexcept;
 
   [[nodiscard]] double resolution_hz() const noexcept { return spectrum_.resolution_hz(); }
-  /// Samples that the spectrum looks back.
+  /// Samples in the spectrum's window.
   [[nodiscard]] std::size_t window() const noexcept { return spectrum_.length(); }
 
  private:
@@ -115,14 +115,14 @@ class Detector {
     double energy = 0.0;           ///< of the whole signal, mean over about a revolution
     double slow_all = 0.0;         ///< the same over some ten revolutions
     double slow_energy = 0.0;      ///< the same over some ten revolutions
-    double seen_rev = 0.0;         ///< since the start, up to what those remember
+    double seen_rev = 0.0;         ///< since the start, up to the memory of those
     double settled_rev = 0.0;      ///< since the cut began
     double judged_s = 0.0;         ///< since then
     double floor_energy = 0.0;     ///< C of the present cut, learnt
-    double floor_free = 0.0;       ///< the largest free ratio of it, learnt
-    double evidence = 0.0;         ///< sum of what the free ratio has over its bound
+    double floor_free = 0.0;       ///< its largest free ratio, learnt
+    double evidence = 0.0;         ///< sum of the free ratio's excess over its bound
     std::size_t settled = 0;       ///< samples since the cut began
-    double held_s = 0.0;           ///< that the slow orders stand still
+    double held_s = 0.0;           ///< how long the slow orders have been held
     unsigned suspects = 0;
     unsigned quiet = 0;
     bool hold = false;
@@ -150,7 +150,7 @@ class Detector {
   OrderFilter filter_;
   LineSpectrum spectrum_;
   FreeShare share_;
-  LineSpectrum::Output lines_;  ///< that share_ is asked about
+  LineSpectrum::Output lines_;  ///< for which share_ was queried
   RevolutionSpread spread_;
   RevolutionSpread::Output revolution_;
   State state_;

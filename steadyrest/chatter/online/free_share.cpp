@@ -8,9 +8,9 @@
 #include <steadyrest/kernel/units/constants.hpp>
 
 // shift() moves the line to 0 Hz and thins signal and orders to 625 rows a second; rate() projects
-// the tooth orders out and finds the mode's pole from what is left; mode() fits ring-down, orders
-// and the mode's response to them by least squares, for each of three poles. What no pole explains
-// is free. The work goes in portions, one column or a few samples for each call.
+// the tooth orders out and finds the mode's pole from the residual; mode() fits ring-down, orders
+// and the mode's response to them by least squares, for each of three poles. Whatever no pole
+// explains is free. The work is done in portions, one column or a few samples per call.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -20,13 +20,13 @@ using Complex = std::complex<double>;
 
 // README, "What the constants do". 64 blocks are 0.1 s, the window of the spectrum.
 constexpr double kBlockRate = 625.0;  // 1/s
-constexpr double kSame = 1e-3;        // of a column's energy: the columns before give the rest
-constexpr std::size_t kSpare = 4;     // rows more than columns
+constexpr double kSame = 1e-3;        // of a column's energy: earlier columns give the rest
+constexpr std::size_t kSpare = 4;     // rows in excess of columns
 constexpr std::size_t kLeastRows = 20;
 constexpr double kLeastBand = 100.0;     // Hz, either side of the line
 constexpr double kFastestDecay = 400.0;  // 1/s
 
-Complex times(Complex a, Complex b) noexcept {  // without the operator's test for not a number
+Complex times(Complex a, Complex b) noexcept {  // without the operator's NaN test
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
 
@@ -60,7 +60,7 @@ FreeShare::FreeShare(const Config& config, std::size_t block)
 const FreeShare::Output& FreeShare::update(double value, double angle_rev) noexcept {
   out_.fresh = false;
   value_[head_] = value;
-  // Only whole orders are asked of it, so whole turns are dropped before they cost digits.
+  // Only whole orders use it, so whole turns are dropped before they cost digits.
   angle_[head_] = angle_rev - std::floor(angle_rev);
   head_ = head_ + 1 == value_.size() ? 0 : head_ + 1;
   seen_ = std::min(seen_ + 1, kBlocks * block_);
@@ -102,8 +102,8 @@ void FreeShare::ask(double frequency_hz, double speed_rev_s, std::size_t samples
   step_ = Step::shift;
 }
 
-/// Where the spindle's orders stand too close, or too many lie between two tooth orders, the tooth
-/// orders alone are taken.
+/// Where the spindle's orders are too close, or too many lie between two tooth orders, only the
+/// tooth orders are used.
 void FreeShare::choose_orders(double speed_rev_s) noexcept {
   constexpr double kHalf = 0.5 * static_cast<double>(kMostOrders) - 1.0;
   const auto teeth = static_cast<double>(config_.teeth);
@@ -159,7 +159,7 @@ void FreeShare::shift() noexcept {
   }
 }
 
-/// Takes the basis' share off a column.
+/// Subtracts the basis' share from a column.
 void FreeShare::off(Column& column, Span span) const noexcept {
   // One after the other (modified Gram–Schmidt): the classical form loses orthogonality on columns
   // as nearly alike as neighbouring orders.
@@ -176,7 +176,7 @@ void FreeShare::off(Column& column, Span span) const noexcept {
 }
 
 void FreeShare::add(const Column& column, Span span) noexcept {
-  // As many columns as rows would explain anything.
+  // As many columns as rows would fit anything.
   if (columns_ == kColumns || columns_ + kSpare >= span.size()) {
     return;
   }
@@ -192,7 +192,7 @@ void FreeShare::add(const Column& column, Span span) noexcept {
   const double whole = energy(left);
   off(left, span);
   const double rest = energy(left);
-  // A column that the others nearly give would only bring in noise.
+  // A column nearly given by the others would only add noise.
   if (whole > 1e-6 * static_cast<double>(span.size()) && rest > kSame * whole) {
     const double scale = 1.0 / std::sqrt(rest);
     for (std::size_t i = span.first; i < span.last; ++i) {
@@ -233,7 +233,7 @@ void FreeShare::solve_rate() noexcept {
   off(now, span);
   off(next, span);
   off(before, span);
-  // The instrument fails where little is left of z; then least squares alone.
+  // The instrument fails where little is left of z; then use plain least squares.
   const double rate = config_.sample_rate_hz / static_cast<double>(block_);
   for (std::size_t p = 0; p < 2; ++p) {
     const Column& instrument = p == 0 ? before : now;
@@ -243,16 +243,16 @@ void FreeShare::solve_rate() noexcept {
       num += times(std::conj(instrument[i]), next[i]);
       den += times(std::conj(instrument[i]), now[i]);
     }
-    // IV estimate a = ⟨w, z[n+1]⟩/⟨w, z[n]⟩: with w = z[n−4] the noise of z[n] is not correlated
-    // with it, with w = z itself it is and damps a.
+    // IV estimate a = ⟨w, z[n+1]⟩/⟨w, z[n]⟩: with w = z[n−4] the noise of z[n] is uncorrelated;
+    // with w = z it is correlated and damps a.
     const Complex a = std::norm(den) > 0.0 ? num / den : Complex(1.0, 0.0);
     const double growth = rate * std::log(std::max(std::abs(a), 1e-6));
     out_.growth_1_s = p == 0 ? growth : out_.growth_1_s;
     const double decay = std::clamp(-growth, kLeastDecay, kFastestDecay);
     poles_[p] = std::polar(std::exp(-decay / rate), std::arg(a));
   }
-  // The mode hardly changes from one question to the next: its last answer is tried as well, and
-  // the pole that leaves least counts.
+  // The mode hardly changes from one query to the next: the last answer is tried too, and the pole
+  // with the smallest residual counts.
   poles_[2] = std::polar(best_size_, kTurn * (best_hz_ - frequency_hz_) / rate);
   pole_ = 0;
   out_.off_teeth = out_.off_spindle = std::numeric_limits<double>::max();
@@ -263,7 +263,7 @@ void FreeShare::start_mode() noexcept {
   columns_ = 0;
   at_ = 0;
   step_ = Step::mode;
-  // A mode that was struck at the start rings down as powers of its pole.
+  // A mode struck at the start rings down as powers of its pole.
   Column ring{};
   Complex power = 1.0;
   for (std::size_t i = first_row_; i < kRows; ++i) {
@@ -284,7 +284,7 @@ void FreeShare::mode() noexcept {
     for (std::size_t i = span.first; i < span.last; ++i) {
       sum += std::norm(rest[i]);
     }
-    // Per degree of freedom, so that more columns do not look better by their number alone.
+    // Per degree of freedom, so that more columns do not win by number alone.
     return 2.0 * sum / static_cast<double>(span.size() - columns_);
   };
   while (at_ < 2 * orders_ && is_tooth(at_ % orders_) != (at_ < orders_)) {

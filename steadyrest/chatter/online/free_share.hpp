@@ -11,9 +11,9 @@
 
 namespace steadyrest::chatter::online {
 
-/// How much of a line is free: given neither by the spindle's orders nor by a damped mode that
-/// answers to them. A tooth order that sweeps over a resonance, and the ring after it or after the
-/// tool's entry, leave lines that no order explains, but a mode does; chatter is left by both.
+/// How much of a line is free: explained neither by the spindle's orders nor by a damped mode that
+/// responds to them. A tooth order that sweeps over a resonance, and the ringing after it or after
+/// the tool's entry, leave lines that no order explains but a mode does; neither explains chatter.
 ///
 /// Law. z is the signal shifted by the line's frequency f and low-passed (Hann, 4 blocks of fs/625
 /// samples, one value a block), u_k the same of e^{ikθ}, θ the spindle's angle, k the orders within
@@ -21,10 +21,10 @@ namespace steadyrest::chatter::online {
 ///   rate:   z[n+1] = a·z[n] + Σ b_k·u_k[n] + c_k·u_k[n+1], k the tooth orders, by least squares
 ///           with z[n−4] as the instrument, so that noise does not damp a;
 ///   mode:   λ = a, brought to at least kLeastDecay, r_k[n] = λ·r_k[n−1] + (u_k[n−1] + u_k[n])/2;
-///   free:   what is left of z off the space of λⁿ, r_k, u_k (Gram and Schmidt's steps).
-/// In a stable cut with one mode near f nothing is left but noise, whatever the law of the speed.
+///   free:   the residual of z outside the space of λⁿ, r_k, u_k (Gram–Schmidt).
+/// In a stable cut with one mode near f only noise is left, whatever the speed law.
 ///
-/// Worked out over some 80 samples, kQuota samples of the window or one order a sample. At most
+/// Computed over some 80 samples, kQuota samples of the window or one order per sample. At most
 /// kMostOrders orders, those nearest to f: below some 10 rev/s not all within the band.
 /// Source: forced and free part of a linear system; instruments as in Young 1970.
 class FreeShare {
@@ -38,9 +38,9 @@ class FreeShare {
     std::size_t teeth = 2;         ///< 1 … 64
   };
 
-  /// Energies in unit² (a line of amplitude a has a²/2), of what is within about ±150 Hz of f.
+  /// Energies in unit² (a line of amplitude a has a²/2), within about ±150 Hz of f.
   struct Output {
-    bool fresh = false;        ///< with this sample an answer was finished
+    bool fresh = false;        ///< this sample completed an answer
     bool known = false;        ///< the window was long enough
     double energy = 0.0;       ///< all
     double off_teeth = 0.0;    ///< free of the tooth orders and their modes
@@ -53,8 +53,8 @@ class FreeShare {
 
   /// One sample; the angle is any finite number.
   const Output& update(double value, double angle_rev) noexcept;
-  /// Asks about the line at `frequency_hz`, in what was heard up to now, at most the last
-  /// `samples`. Not taken while the question before is worked on.
+  /// Queries the line at `frequency_hz` in the signal so far, at most the last `samples`. Ignored
+  /// while the previous query is in progress.
   void ask(double frequency_hz, double speed_rev_s, std::size_t samples) noexcept;
   [[nodiscard]] bool busy() const noexcept { return step_ != Step::idle; }
   void reset() noexcept;
@@ -101,7 +101,7 @@ class FreeShare {
   std::complex<double> turn_, turned_;
   std::array<std::complex<double>, kPoles> poles_{};
   std::size_t pole_ = 0, best_now_ = 0;
-  double best_size_ = 0.9, best_hz_ = 0.0;  ///< of the question before
+  double best_size_ = 0.9, best_hz_ = 0.0;  ///< of the previous query
   Column z_{};
   std::array<Column, kMostOrders> u_{};
   std::array<Column, kColumns> basis_{};

@@ -15,9 +15,9 @@ namespace {
 
 using kernel::units::kTurn;
 
-// Of a line: this many times the noise, which a bin of white noise passes with e⁻¹⁰ = 5·10⁻⁵.
+// A line is this many times the noise, which a bin of white noise exceeds with e⁻¹⁰ = 5·10⁻⁵.
 constexpr double kPart = 10.0;
-constexpr double kClip = 3.0;  // bins above are no noise; of white noise e⁻³ = 5 % of them
+constexpr double kClip = 3.0;  // bins above are not noise; of white noise e⁻³ = 5 % of them
 // White noise's bins are exponential. Clipping at c = 3 times the mean leaves the mean
 // 1 − c·e⁻ᶜ/(1 − e⁻ᶜ): 0.843, 0.781, 0.751, 0.735 after kNoisePasses, of which this is the inverse.
 constexpr double kClipBias = 1.36;
@@ -35,7 +35,7 @@ kernel::outcome::Result<LineSpectrum> LineSpectrum::make(const Config& config) {
   if (!(config.lowest_hz >= 0.0 && config.lowest_hz <= 0.25 * config.sample_rate_hz)) {
     return refuse_detector("lowest frequency is not within 0…¼ of the sample rate");
   }
-  // A power of 2 for the butterflies; the window comes out within a factor √2 of what was asked.
+  // A power of 2 for the butterflies; the window is within a factor √2 of the requested one.
   const double wanted = std::log2(config.window_s * config.sample_rate_hz);
   const auto bits = static_cast<unsigned>(std::clamp(std::lround(wanted), 6L, 15L));
   return LineSpectrum(config, std::size_t{1} << bits);
@@ -55,7 +55,7 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
   const auto bits = static_cast<unsigned>(std::countr_zero(n));
   for (std::size_t i = 0; i < n; ++i) {
     const double phase = kTurn * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-    // Hann: its side lobes fall fast, so a strong tooth order does not cover a weak line.
+    // Hann: its side lobes fall fast, so a strong tooth order does not mask a weak line.
     window_[i] = 0.5 * (1.0 - std::cos(phase));
     std::uint32_t r = 0;
     for (unsigned b = 0; b < bits; ++b) {
@@ -151,7 +151,7 @@ void LineSpectrum::transform() noexcept {
 
 void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
   const auto n = static_cast<double>(n_);
-  // Energy of a real line over both of its bins, the window's own energy taken out.
+  // Energy of a real line over both of its bins, without the window's own energy.
   const double scale = 2.0 / (kHannEnergy * n * n);
   const std::size_t end = std::min(n_ / 2, at_ + kCopy);
   for (; at_ < end; ++at_) {
@@ -159,7 +159,7 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
     const bool skipped =
         guard_hz > 0.0 && std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) <= guard_hz;
     const double p = scale * std::norm(bins_[at_]);
-    // Kept with its sign turned: the interpolation of a peak beside a gap still needs the
+    // Kept with its sign reversed: the interpolation of a peak beside a gap still needs the
     // neighbour.
     power_[at_] = skipped ? -p : p;
     if (!skipped) {
@@ -198,8 +198,8 @@ void LineSpectrum::noise() noexcept {
   count_ = 0;
   if (++pass_ == kNoisePasses) {
     step_ = Step::lines;
-    // Clipping takes the noise's own peaks as well: its mean comes out too small by a known factor.
-    // Never 0, it is divided by.
+    // Clipping also removes the noise's own peaks: its mean is too small by a known factor. Never
+    // 0, since it is a divisor.
     level_ = std::max(kClipBias * level_, std::numeric_limits<double>::min());
   }
 }

@@ -10,11 +10,10 @@
 
 namespace steadyrest::chatter::online {
 
-/// Lines that stand out of the noise of a signal, from a spectrum that is worked out a few steps a
-/// sample.
+/// Lines that stand out from a signal's noise, from a spectrum computed a few steps per sample.
 ///
-/// Law: Hann window over the last n samples, n the power of 2 next to window_s·fs, anew every n/8.
-/// Noise level m of a bin: the mean, four times over without the bins above 3·m. A bin above 10·m
+/// Law: Hann window over the last n samples, n the power of 2 next to window_s·fs, every n/8. Noise
+/// level m of a bin: the mean, recomputed four times without the bins above 3·m. A bin above 10·m
 /// is part of a line. The strongest bin's frequency is interpolated by f = (k + δ)·fs/n,
 /// δ = (2r − 1)/(r + 1), r the amplitude ratio of the stronger neighbour to the peak (Grandke
 /// 1983).
@@ -27,12 +26,12 @@ class LineSpectrum {
   struct Config {
     double sample_rate_hz = 10e3;  ///< 1e3 … 50e3
     double window_s = 0.1;         ///< 0.02 … 1
-    double lowest_hz = 40.0;       ///< lines below are not looked at; 0 … fs/4
+    double lowest_hz = 40.0;       ///< lines below are ignored; 0 … fs/4
   };
 
   /// Energies in unit² (a line of amplitude a has a²/2).
   struct Output {
-    bool fresh = false;         ///< with this sample a spectrum was finished
+    bool fresh = false;         ///< this sample completed a spectrum
     double frequency_hz = 0.0;  ///< of the strongest line; 0 = none yet
     double line_energy = 0.0;   ///< all lines together
     double noise_energy = 0.0;  ///< the rest, over the whole band
@@ -41,7 +40,7 @@ class LineSpectrum {
 
   [[nodiscard]] static kernel::outcome::Result<LineSpectrum> make(const Config& config);
 
-  /// Lines within `guard_hz` of a multiple of `spacing_hz` are not looked at; 0 = all are.
+  /// Lines within `guard_hz` of a multiple of `spacing_hz` are ignored; 0 = none are.
   const Output& update(double value, double spacing_hz, double guard_hz) noexcept;
   void reset() noexcept;
 
@@ -67,12 +66,12 @@ class LineSpectrum {
   std::size_t n_;
   double bin_hz_;
   std::size_t first_bin_;
-  std::vector<double> ring_;  ///< 2n, so that what is copied is not overwritten meanwhile
+  std::vector<double> ring_;  ///< 2n, so that copying is not overtaken by new samples
   std::vector<double> window_;
   std::vector<std::uint32_t> reversed_;
   std::vector<std::complex<double>> twiddle_;
   std::vector<std::complex<double>> bins_;
-  std::vector<double> power_;  ///< of each bin; negative = not looked at
+  std::vector<double> power_;  ///< of each bin; negative = ignored
   std::size_t head_ = 0;
   std::size_t seen_ = 0;
   std::size_t since_ = 0;

@@ -6,10 +6,10 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/chatter/online/modulator_range.hpp>
 
-// In each cycle: the limits of this moment, the swing that fits between them, the law's goal, what
-// the drive can reach of it, then the two words. The feed word comes first, because the feed per
-// tooth must stay in its band whichever of the two acts later: words take a scan and a dead time to
-// act, and `coming_feed` and `coming_spindle` remember those under way.
+// In each cycle: the present limits, the swing that fits between them, the law's goal, what the
+// drive can reach of it, then the two words. The feed word comes first, because the feed per tooth
+// must stay in its band whichever of the two acts later: words take a scan and a dead time to act,
+// and `coming_feed` and `coming_spindle` remember those on the way.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -19,11 +19,12 @@ using kernel::signal::Frame;
 using kernel::signal::InForce;
 using kernel::signal::Motion;
 
-/// What the actual speed must be above before the feed rises again: its noise must not move steps.
+/// The margin of the actual speed before the feed rises again: noise must not move steps.
 constexpr double kRoomToRise = 0.998;
-/// An actual speed below this share of the programmed one is not shown, or the spindle stands.
+/// An actual speed below this share of the programmed one means that it is not shown or the spindle
+/// is stopped.
 constexpr double kStands = 1e-3;
-/// What the control was told counts for this many delays at least, twice as many at most.
+/// Words sent to the control count for at least this many delays, at most twice as many.
 constexpr double kDelaysKept = 1.5;
 
 bool all_finite(std::initializer_list<double> values) noexcept {
@@ -59,7 +60,7 @@ bool jumps(Law law) noexcept {
   return law == Law::square || law == Law::pulse || law == Law::stop;
 }
 
-/// The actual speed as a ratio of the programmed one; what the override says where none is shown.
+/// The actual speed as a ratio of the programmed one; the override's ratio where none is shown.
 double speed_ratio(const Frame& frame) noexcept {
   const double programmed = std::abs(frame.spindle_programmed_rev_s);
   const double ratio = programmed > 0.0 ? std::abs(frame.spindle_actual_rev_s) / programmed : 0.0;
@@ -73,7 +74,7 @@ bool Modulator::change(const Modulation& modulation) noexcept {
     return false;
   }
   const Modulation& now = state_.modulation;
-  // The phase stays: a law that begins anew would jump.
+  // The phase stays: restarting the law would jump.
   if (modulation.law != now.law || modulation.seed != now.seed) {
     law_ = SpeedLaw(modulation.law, modulation.seed);
   }
@@ -88,7 +89,7 @@ void Modulator::reset() noexcept {
 }
 
 void Modulator::restore(const State& state) noexcept {
-  // A restored state comes from outside: anything out of range would move the spindle on the first
+  // A restored state comes from outside: a value out of range would move the spindle on the first
   // cycle.
   const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
                       state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
@@ -118,7 +119,7 @@ Reason Modulator::fault_of(const Frame& frame) const noexcept {
 }
 
 bool Modulator::wanted(const Frame& frame) const noexcept {
-  // A better constant speed is there before the tool is: it would chatter where it enters.
+  // A better constant speed must be reached before the tool enters, or the entry would chatter.
   const bool to_come = state_.modulation.law == Law::constant &&
                        (frame.motion == Motion::rapid || frame.motion == Motion::dwell ||
                         frame.motion == Motion::idle || frame.motion == Motion::spindle_wait);
@@ -127,7 +128,7 @@ bool Modulator::wanted(const Frame& frame) const noexcept {
 
 Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {
   const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);
-  // The last term: above it the feed per tooth would fall below its band, since the feed can go no
+  // The last term: above it the feed per tooth would fall below its band, since the feed cannot go
   // higher.
   double high = std::min({spindle_.ratio(highest_), config_.max_rev_s / speed_rev_s,
                           feed_top_ratio_ / config_.min_feed_per_tooth_ratio});
@@ -136,18 +137,18 @@ Modulator::Limits Modulator::limits(const Frame& frame) const noexcept {
   }
   high = std::max(high, spindle_.ratio(lowest_));
   const double low = std::max(spindle_.ratio(lowest_), config_.min_rev_s / speed_rev_s);
-  // Contradicting limits leave one point, the upper one: the panel and the spindle's maximum come
+  // Contradictory limits leave one point, the upper one: the panel and the spindle's maximum come
   // first.
   return {.low = std::min(low, high), .high = high};
 }
 
-/// The mean is moved before the amplitude is narrowed: a law that is cut off at a limit would dwell
-/// there, and a dwell is what chatter grows in.
+/// The mean is moved before the amplitude is narrowed: a law clipped at a limit would dwell there,
+/// and chatter grows in a dwell.
 Modulator::Swing Modulator::swing(const Limits& limits, double speed_rev_s) const noexcept {
   const Modulation& m = state_.modulation;
   const Extent extent = extent_of(m.law);
   const double span = extent.high - extent.low;
-  // The mean speed carries the amplitude along, as RVA is a ratio of the mean.
+  // The amplitude scales with the mean speed, since RVA is a ratio of the mean.
   const double asked =
       m.amplitude_rev_s > 0.0 ? m.amplitude_rev_s / speed_rev_s : m.amplitude_ratio * m.mean_ratio;
   const double amplitude = span > 0.0 ? std::min(asked, (limits.high - limits.low) / span) : 0.0;
@@ -163,7 +164,7 @@ double Modulator::goal(const Swing& swing, double phase) const noexcept {
   return 1.0 + state_.fade * (swing.mean + swing.amplitude * law_.at(phase) - 1.0);
 }
 
-/// From now until the feed could answer; turns that the law makes on the way count.
+/// From now until the feed could respond, including turning points of the law on the way.
 double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
   const double from = state_.phase;
   // In periods. Between the two ends the law may turn at a corner, or a sine at its minimum.
@@ -179,20 +180,20 @@ double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
     lowest = -1.0;
   }
   const double ratio = swing.mean + swing.amplitude * lowest;
-  // While it fades in, the swing will be larger by the time the feed answers.
+  // While fading in, the swing will be larger by the time the feed responds.
   const double fade = std::min(1.0, state_.fade + feed_delay_s_ / config_.fade_s);
   return 1.0 + (ratio < 1.0 ? fade : state_.fade) * (ratio - 1.0);
 }
 
-/// The larger of what the override says and of how the path runs: one of them is late after a
-/// change, and a control may leave the override aside (M49).
+/// The larger of the override's ratio and the path's actual ratio: one of them lags after a change,
+/// and a control may ignore the override (M49).
 double Modulator::feed_in_force(const Frame& frame) const noexcept {
   const double programmed = frame.programmed_feed_mm_s;
   const double runs = programmed > 0.0 ? std::abs(frame.path_speed_mm_s) / programmed : 0.0;
   return std::max(frame.feed.effective_ratio, runs);
 }
 
-/// The words of the cycle before, which act a scan and a dead time later.
+/// Notes the words of the previous cycle, which act a scan and a dead time later.
 void Modulator::note_words(const InForce& in_force) noexcept {
   state_.coming_spindle.note(state_.time_s, kDelaysKept * spindle_delay_s_,
                              in_force.spindle.word_ratio);
@@ -225,7 +226,8 @@ void Modulator::choose_step(double ratio, const Limits& limits, double floor) no
 void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swing& swing, bool late,
                             Output& output) noexcept {
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
-  // The greatest feed that may act together with this speed: in force, asked for now, or under way.
+  // The greatest feed that may act together with this speed: in force, requested now, or on the
+  // way.
   const bool fed = output.feed.reason != Reason::none;
   const double asked = fed ? output.feed.ratio : feed_ ? frame.feed.panel_ratio : 0.0;
   const double feed = std::max({feed_in_force(frame), asked, state_.coming_feed.most()});
@@ -233,7 +235,7 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
   choose_step(state_.ratio, limits, floor);
   const double chosen = spindle_.ratio(state_.step);
   const double nearest = spindle_.ratio(spindle_.nearest_step(state_.ratio).value_or(0));
-  // The reason names what binds first; the page shows one.
+  // The reason names the first binding limit; the page shows one.
   output.spindle.ratio = chosen;
   if (state_.fade < 1.0) {
     output.spindle.reason = Reason::chatter_fading;
@@ -248,7 +250,7 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
   }
 }
 
-/// `ahead`: the lowest speed ratio from now until the feed could answer.
+/// `ahead`: the lowest speed ratio from now until the feed could respond.
 void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexcept {
   const double actual = speed_ratio(frame);
   output.feed_per_tooth_ratio = actual > kStands ? frame.feed.effective_ratio / actual : 1.0;
@@ -285,8 +287,8 @@ void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexc
   const double lowest =
       std::max(config_.min_feed_ratio, config_.min_feed_per_tooth_ratio * slowest);
   if (!down || feed_->ratio(*down) < lowest - kRatioTolerance) {
-    // Too coarse a table: the swing ends where this feed allows it. What is asked already, it
-    // follows still.
+    // The table is too coarse: the swing ends where this feed allows it. Requests already made are
+    // still followed.
     cap = std::min(config_.max_feed_per_tooth_ratio * std::max(coming, spindle_.ratio(lowest_)),
                    config_.max_feed_ratio);
     down = feed_->floor_step(cap + kRatioTolerance);
@@ -308,7 +310,7 @@ void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexc
 }
 
 Modulator::Output Modulator::withdraw(Reason reason) noexcept {
-  // At once, without fading: the envelope's slew takes the override back.
+  // At once, without fading: the envelope's slew returns the override.
   state_.fade = 0.0;
   state_.stepped = false;
   state_.fed = false;
@@ -369,7 +371,7 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   const double later = std::clamp(lowest_goal_ahead(fitted), within.low, within.high);
   const double ahead = std::min({now, later, state_.ratio});
   const double step_ahead = spindle_.ratio(spindle_.nearest_step(ahead).value_or(0));
-  // The feed first: what it is asked now bounds what the spindle may be asked.
+  // The feed first: its present request bounds the spindle's.
   ask_feed(frame, std::min(ahead, std::max(step_ahead, spindle_.ratio(lowest_))), output);
   ask_spindle(frame, within, fitted, late, output);
   return output;

@@ -21,13 +21,13 @@ namespace steadyrest::chatter::online {
 struct Modulation {
   Law law = Law::triangle;
   double amplitude_ratio = 0.1;  ///< RVA, of the mean speed, 0 … 0.9
-  double amplitude_rev_s = 0.0;  ///< the same as a speed, rev/s ≥ 0; 0 = `amplitude_ratio` counts
+  double amplitude_rev_s = 0.0;  ///< the same as a speed, rev/s ≥ 0; 0 = use `amplitude_ratio`
   double period_s = 2.0;         ///< s, 0.02 … 600
   double mean_ratio = 1.0;       ///< of the programmed speed, 0.1 … 2
   std::uint64_t seed = 1;        ///< of the random law
 };
 
-/// Swings the spindle's speed by a law, through the steps of its override switch.
+/// Modulates the spindle speed by a law, through the steps of its override switch.
 ///
 /// Law, S the shape with mean 0 (SpeedLaw), n the programmed speed, m the mean ratio, A the
 /// amplitude (RVA·m, or amplitude/n), g the fade:
@@ -39,29 +39,29 @@ struct Modulation {
 /// Limits: [min_ratio, max_ratio], the speeds of the spindle, the operator's switch unless the
 /// layer may exceed it, and (largest feed)/min_feed_per_tooth.
 ///
-/// What is asked is a wish: how fast it comes into force is the envelope's, and what came of it so
-/// far comes in with the frame.
+/// Requests are wishes: the envelope decides how fast they take effect, and the frame reports the
+/// result so far.
 ///
 /// Feed per tooth q = feed ratio ÷ speed ratio, of the programmed one; band [q₁, q₂].
-///   feed ≤ q₂·min(goal from now to one feed delay ahead, actual speed, the step asked of the
-///   spindle, the words that its control was told within its last 1.5 delays), a step of the feed's
-///   table: the feed falls before the spindle and rises behind it, and does not rise while a lower
+///   feed ≤ q₂·min(goal from now to one feed delay ahead, actual speed, the step requested of the
+///   spindle, the words sent to its control within the last 1.5 delays), a step of the feed's
+///   table: the feed falls before the spindle and rises after it, and does not rise while a lower
 ///   speed is still on its way;
-///   speed ≥ (feed that the machine shows, or that is asked, or that the control was told and is
-///   still to come)/q₂: the spindle waits for the feed, and where the feed cannot follow (M49, no
-///   override) the swing ends there; where the layer may exceed the panel the feed is also raised
-///   to q₁·(actual speed).
-/// Where the operator or another room lowers the feed, q falls below q₁: that is theirs. Feed per
+///   speed ≥ (feed that the machine shows, that is requested, or that was sent and is still to
+///   come)/q₂: the spindle waits for the feed, and where the feed cannot follow (M49, no override)
+///   the swing ends there; where the layer may exceed the panel the feed is also raised to
+///   q₁·(actual speed).
+/// Where the operator or another room lowers the feed, q falls below q₁: their decision. Feed per
 /// revolution follows the spindle by itself and is left alone.
 ///
-/// Active while the tool cuts, the spindle turns and the program (or the setting) wants it; a
-/// constant speed also between cuts, so that the tool enters with it. Else it fades, then is
-/// neutral; in threads and taps and on unfit input it is neutral at once and the envelope takes the
-/// override back. O(log steps) a cycle, noexcept, without allocation.
+/// Active while the tool cuts, the spindle turns and the program (or the setting) asks for it; a
+/// constant speed also between cuts, so that the tool enters with it. Otherwise it fades and is
+/// then neutral; in threads and taps and on unfit input it is neutral at once and the envelope
+/// returns the override. O(log steps) per cycle, noexcept, without allocation.
 ///
-/// Accuracy: the swing has the steps of the table; a step acts a scan and a dead time late. A
-/// control that shows `age` beyond its time is not known here: the supervisor's check withdraws.
-/// Sources: Zelinskiy, Natalchishin 2014 (override switch, laws); Seguy et al. 2010 (RVA, RVF).
+/// Accuracy: the swing has the steps of the table; a step acts a scan and a dead time late. Stale
+/// control data (`age`) is not checked here: the supervisor withdraws the request. Sources:
+/// Zelinskiy, Natalchishin 2014 (override switch, laws); Seguy et al. 2010 (RVA, RVF).
 class Modulator {
  public:
   struct Config {
@@ -75,12 +75,12 @@ class Modulator {
     double acceleration_rev_s2 = kernel::machine::kUnlimited;  ///< of the drive, > 0
     double min_feed_per_tooth_ratio = 0.8;                     ///< (0, 1]
     double max_feed_per_tooth_ratio = 1.2;                     ///< ≥ 1
-    double min_feed_ratio = 0.0;  ///< of the envelope; the feed is not asked below it
+    double min_feed_ratio = 0.0;  ///< of the envelope; the feed request never goes below it
     double max_feed_ratio = 1.2;
     double fade_s = 0.5;      ///< s, > 0
     double hysteresis = 0.1;  ///< 0 … 0.5 of the way between two steps
-    double max_step_s = 0.1;  ///< s, > 0: no credit for more between two cycles
-    bool always = false;      ///< the program has no say
+    double max_step_s = 0.1;  ///< s, > 0: longer gaps between two cycles count as this
+    bool always = false;      ///< whatever the program says
   };
 
   struct Output {
@@ -92,11 +92,11 @@ class Modulator {
     double ratio = 1.0;       ///< before the steps
     double mean_ratio = 1.0;  ///< as it fits into the limits
     double amplitude_ratio = 0.0;
-    double feed_per_tooth_ratio = 1.0;  ///< feed in force ÷ actual speed, as far as it is shown
+    double feed_per_tooth_ratio = 1.0;  ///< feed in force ÷ actual speed, as far as shown
     bool active = false;
   };
 
-  /// Plain values: enough to log and to restore.
+  /// Plain values, for logging and restoring.
   struct State {
     Modulation modulation;
     bool started = false;
@@ -106,16 +106,16 @@ class Modulator {
     double ratio = 1.0;
     std::size_t step = 0;
     std::size_t feed_step = 0;
-    RecentWords coming_feed;     ///< told to the control, may not act yet
-    RecentWords coming_spindle;  ///< the same of the spindle
-    bool stepped = false;        ///< `step` is asked
-    bool fed = false;            ///< `feed_step` is
+    RecentWords coming_feed;     ///< sent to the control, may not act yet
+    RecentWords coming_spindle;  ///< the same for the spindle
+    bool stepped = false;        ///< `step` is requested
+    bool fed = false;            ///< `feed_step` is requested
   };
 
-  /// Refuses: tables that are none, fewer than two steps within the limits, values outside of the
-  /// ranges above.
+  /// Refuses invalid tables, fewer than two steps within the limits, and values outside the ranges
+  /// above.
   [[nodiscard]] static kernel::outcome::Result<Modulator> make(const Config& config);
-  /// By the sections [chatter], [spindle], [envelope] and the override tables.
+  /// From the sections [chatter], [spindle], [envelope] and the override tables.
   [[nodiscard]] static kernel::outcome::Result<Modulator> make(
       const kernel::machine::Machine& machine);
 
@@ -123,12 +123,12 @@ class Modulator {
   Output update(const kernel::signal::Frame& frame,
                 const kernel::signal::InForce& in_force) noexcept;
 
-  /// Other settings from now on; false and nothing changes when one is outside of its range.
+  /// New settings from now on; false, and nothing changes, when one is out of range.
   [[nodiscard]] bool change(const Modulation& modulation) noexcept;
 
   void reset() noexcept;
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// A state that is not fit is not taken: the modulator starts anew.
+  /// An unfit state is ignored: the modulator starts over.
   void restore(const State& state) noexcept;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace steadyrest::chatter::online {
 
-/// Every value stands in the range that Modulation names.
+/// Every value is within the range given in Modulation.
 [[nodiscard]] inline bool fit(const Modulation& m) noexcept {
   return static_cast<int>(m.law) <= static_cast<int>(Law::stop) && m.amplitude_ratio >= 0.0 &&
          m.amplitude_ratio <= 0.9 && m.amplitude_rev_s >= 0.0 && m.amplitude_rev_s <= 1e5 &&

@@ -10,7 +10,7 @@
 #include <steadyrest/chatter/online/modulator_range.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// What the modulator works out once, from its settings.
+// What the modulator computes once from its settings.
 namespace steadyrest::chatter::online {
 namespace {
 
@@ -53,7 +53,7 @@ Result<void> check(const Modulator::Config& c) {
   return {};
 }
 
-/// A word written just behind a scan waits a whole period for the next one, then acts its dead time
+/// A word written just after a scan waits a whole period for the next one, then acts a dead time
 /// later.
 double delay_s(const machine::OverrideTable& table) noexcept {
   return table.scan_period_s + table.dead_time_s;
@@ -69,7 +69,7 @@ Result<Modulator> Modulator::make(const Config& config) {
   if (!spindle) {
     return std::unexpected(spindle.error());
   }
-  // Two steps at least, or every law is a constant.
+  // At least two steps, or every law is a constant.
   const auto lowest = spindle->ceil_step(config.min_ratio);
   const auto highest = spindle->floor_step(config.max_ratio);
   if (!lowest || !highest ||

@@ -17,8 +17,8 @@ namespace {
 using kernel::units::kTurn;
 
 constexpr double kUnknown = 10.0;    // p at the start, as in the source
-constexpr double kSlowStart = 0.01;  // the same of runout, as if 100 samples had been heard
-constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the last that can be told
+constexpr double kSlowStart = 0.01;  // the same for runout, as if 100 samples had been seen
+constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the Nyquist limit
 
 bool is_memory(double revolutions) {
   return revolutions >= 0.1 && revolutions <= 1000.0;
@@ -74,7 +74,7 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   const double cos_step = std::cos(angle);
   const double sin_step = std::sin(angle);
   const double unrest = turn_share * turn_share;
-  // q goes with 1/memory²: a memory shorter by `quick` has quick² the unrest.
+  // q goes with 1/memory²: a memory shorter by the factor `quick` has quick² times the drift.
   const double quick = config_.tooth_memory_rev / config_.moving_memory_rev;
   const double tooth_unrest = moving ? unrest * quick * quick : unrest;
   double cos_k = 1.0;
@@ -85,8 +85,8 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   std::size_t used = 0;
   for (; used < orders_.size() && orders_[used].order * turn_share < kHighest; ++used) {
     Order& o = orders_[used];
-    // cos kθ and sin kθ by rotation: one sine and cosine a sample instead of one for each order.
-    while (at < o.order) {  // at most one turn more for each order left out
+    // cos kθ and sin kθ by rotation: one sine and cosine per sample instead of one per order.
+    while (at < o.order) {  // at most one extra turn for each omitted order
       const double next = cos_k * cos_step - sin_k * sin_step;
       sin_k = sin_k * cos_step + cos_k * sin_step;
       cos_k = next;
@@ -120,7 +120,7 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
 
 void OrderFilter::open(bool moving) noexcept {
   for (Order& o : orders_) {
-    // Runout is learnt over revolutions: quick learning would take chatter beside a spindle order
+    // Runout is learnt over revolutions: quick learning would mistake chatter near a spindle order
     // for it.
     o.p = o.tooth || moving ? kUnknown : kSlowStart;
   }

@@ -8,18 +8,18 @@
 
 namespace steadyrest::chatter::online {
 
-/// Takes the forced vibration out of a signal: what repeats with the spindle and with the teeth.
+/// Removes the forced vibration from a signal: whatever repeats with the spindle and the teeth.
 ///
 /// Law, θ the spindle's angle, k the orders 0, 1 … spindle_harmonics and N, 2N … tooth_harmonics·N:
 ///   ŷ = Σ cₖ·cos kθ + sₖ·sin kθ,  e = y − ŷ,  cₖ += gₖ·e·cos kθ,  sₖ += gₖ·e·sin kθ.
-/// This is the Kalman filter of two states an order that rotate by k·Ω·Ts each sample (Caliskan,
-/// Kilic, Altintas 2018), seen from the rotating frame, where the states stand still; so any law of
-/// the speed is followed. Its covariance is taken diagonal, which it is over whole revolutions:
+/// This is the Kalman filter with two states per order that rotate by k·Ω·Ts each sample (Caliskan,
+/// Kilic, Altintas 2018), seen from the rotating frame, where the states are constant; so it
+/// follows any speed law. Its covariance is taken as diagonal, which it is over whole revolutions:
 ///   pₖ += qₖ,  gₖ = pₖ/(1 + Σp),  pₖ −= gₖ·pₖ/2,  qₖ = 2/(memoryₖ·fs/Ω)².
 ///
-/// Orders midway between two multiples of N are what runout gives and also what chatter with period
-/// doubling gives. They and the other orders that runout gives forget slowly, and stand still while
-/// the caller says `hold`. Orders beyond 0.45·fs do nothing. O(orders) a sample.
+/// Orders midway between two multiples of N come from runout and also from period-doubling chatter.
+/// They and runout's other orders forget slowly, and freeze while the caller sets `hold`. Orders
+/// beyond 0.45·fs do nothing. O(orders) per sample.
 class OrderFilter {
  public:
   struct Config {
@@ -29,7 +29,7 @@ class OrderFilter {
     std::size_t spindle_harmonics = 40;  ///< 0 … 64
     double tooth_memory_rev = 4.0;       ///< revolutions until 63 % is learnt, 1 … 1000
     double moving_memory_rev = 1.0;      ///< the same while the speed moves
-    double runout_memory_rev = 16.0;     ///< of spindle orders that are no tooth order
+    double runout_memory_rev = 16.0;     ///< of spindle orders other than tooth orders
     double half_memory_rev = 40.0;       ///< of orders midway between tooth orders
   };
 
@@ -46,9 +46,9 @@ class OrderFilter {
   /// constant.
   Output update(double value, double angle_rev, double speed_rev_s, bool moving,
                 bool hold) noexcept;
-  /// The cut has begun anew: learns as at the start, from the present values. At constant speed the
-  /// orders that runout gives are learnt over some revolutions, or they would take up the beginning
-  /// of a chatter next to them at once.
+  /// A new cut has begun: learns as at the start, from the present values. At constant speed
+  /// runout's orders are learnt over some revolutions, or they would at once absorb the beginning
+  /// of chatter near them.
   void open(bool moving) noexcept;
   void reset() noexcept;
 

@@ -4,9 +4,9 @@
 
 #include <steadyrest/chatter/online/revolution_spread.hpp>
 
-// What repeats with the spindle has the same value at the same angle one turn later. Values are
-// taken at fixed angles, interpolated between samples, so that a modulated speed compares like with
-// like.
+// Anything that repeats with the spindle has the same value at the same angle one turn later.
+// Values are taken at fixed angles, interpolated between samples, so that like is compared with
+// like at modulated speed.
 namespace steadyrest::chatter::online {
 
 const RevolutionSpread::Output& RevolutionSpread::update(double value, double angle_rev) noexcept {

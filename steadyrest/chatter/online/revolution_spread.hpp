@@ -6,14 +6,14 @@
 
 namespace steadyrest::chatter::online {
 
-/// How little one revolution repeats the one before: Poincaré's section in the angle domain, taken
-/// at kPoints angles of the spindle.
+/// How much a revolution differs from the previous one: a Poincaré section in the angle domain, at
+/// kPoints angles of the spindle.
 ///
 /// Law: D = Σ (xᵢ − xᵢ₋₁)²/2 over one revolution, xᵢ the signal at the same angle in revolution i,
 /// between samples on a straight line; X = Σ x². D/X is 0 for a cut that repeats and
-/// 1 − cos 2πν, over many revolutions, for a line of order ν. Any law of the speed is followed. A
-/// line of whole order (period doubling of a two-tooth cutter) does not show. Needs kLeastSamples
-/// samples a revolution; below them the answer is not `known`. O(1) a sample.
+/// 1 − cos 2πν, over many revolutions, for a line of order ν. Works with any speed law. A line of
+/// whole order (period doubling of a two-tooth cutter) does not show. Needs kLeastSamples samples
+/// per revolution; with fewer the answer is not `known`. O(1) per sample.
 class RevolutionSpread {
  public:
   static constexpr std::size_t kPoints = 64;
@@ -25,7 +25,7 @@ class RevolutionSpread {
     double energy = 0.0;          ///< X over kPoints
   };
 
-  /// `angle_rev` rises; by more than 1/kLeastSamples a step makes the answer unknown.
+  /// `angle_rev` rises; a step above 1/kLeastSamples makes the answer unknown.
   const Output& update(double value, double angle_rev) noexcept;
   void reset() noexcept { *this = {}; }
 

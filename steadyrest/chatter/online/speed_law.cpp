@@ -6,7 +6,7 @@
 #include <steadyrest/kernel/machine/speed_law.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cut its time.
+// Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cutting time.
 // integral() is exact: the solver inverts angle = ∫speed, and a numerical sum would blunt the
 // corners.
 namespace steadyrest::chatter::online {
@@ -84,7 +84,7 @@ SpeedLaw::SpeedLaw(Law law, std::uint64_t seed) noexcept : law_(law) {
       }
       double largest = 0.0;
       for (std::size_t k = 0; k < kRandomKnots; ++k) {
-        // Mean 0 first, then scaled to ±1: the amplitude is then that of the largest swing.
+        // Mean 0 first, then scaled to ±1, so that the amplitude is the largest swing.
         knot_[k] -= mean;
         largest = std::max(largest, std::abs(knot_[k]));
       }

@@ -31,7 +31,7 @@ class SpeedLaw {
   explicit SpeedLaw(Law law = Law::constant, std::uint64_t seed = 1) noexcept;
 
   [[nodiscard]] Law law() const noexcept { return law_; }
-  /// S at the phase; any real number, whole periods are taken off. Right of a jump: the new value.
+  /// S at the phase, any real number; whole periods are dropped. At a jump: the new value.
   [[nodiscard]] double at(double phase) const noexcept;
   /// ∫₀ᵘ S within one period, u = 0 … 1; 0 at both ends.
   [[nodiscard]] double integral(double phase) const noexcept;

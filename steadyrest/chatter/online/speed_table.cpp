@@ -7,9 +7,9 @@
 #include <steadyrest/chatter/online/speed_table.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// A table from the planner answers by depth; without one the rule of thumb does: n = 60·f/(N·k)
-// puts a whole number k of waves between two teeth, where inner and outer wave are in phase and the
-// chip keeps its thickness. The rule knows neither depth nor border, hence its narrow reach.
+// A table from the planner answers by depth; without one a rule of thumb does: n = 60·f/(N·k) puts
+// a whole number k of waves between two teeth, where inner and outer wave are in phase and the chip
+// keeps its thickness. The rule knows neither depth nor border, hence its narrow range.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;
@@ -19,7 +19,7 @@ namespace {
 constexpr double kSameRatio = 1e-6;
 // Of the speed, between the rule's and the step's: half a step of a switch in steps of 5 %.
 constexpr double kRuleReach = 0.025;
-// And of a wave, where many lie between two teeth. README, "What the constants do".
+// And of a wave, where there are many between two teeth. README, "What the constants do".
 constexpr double kRuleWaves = 0.1;
 
 kernel::outcome::Refusal refuse_table(const char* what) {
@@ -74,7 +74,7 @@ kernel::outcome::Result<SpeedTable> SpeedTable::make(Config config) {
 }
 
 double SpeedTable::limit_depth_mm(double speed_rev_s) const noexcept {
-  // Beyond the table nothing is known: depth 0, so that no step there is ever advised.
+  // Nothing is known beyond the table: depth 0, so that no step there is ever advised.
   const auto& speed = config_.speed_rev_s;
   if (speed.empty() || !(speed_rev_s >= speed.front() && speed_rev_s <= speed.back())) {
     return 0.0;
@@ -110,7 +110,7 @@ SpeedTable::Advice SpeedTable::ask(const Question& question) const noexcept {
 
 SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexcept {
   const double here_mm = limit_depth_mm(question.programmed_rev_s * question.ratio);
-  // Without a depth nothing is plenty: the deepest step wins.
+  // Without a depth no step has plenty: the deepest one wins.
   const double plenty_mm = question.depth_mm > 0.0
                                ? config_.reserve * std::max(question.depth_mm, here_mm)
                                : std::numeric_limits<double>::infinity();
@@ -120,11 +120,11 @@ SpeedTable::Advice SpeedTable::from_table(const Question& question) const noexce
   for (const double ratio : config_.step_ratio) {
     const double speed = ratio * question.programmed_rev_s;
     const double way = std::abs(ratio - question.ratio);
-    // The present step is no advice: the cut chatters on it.
+    // The present step cannot be the advice: the cut chatters on it.
     if (!permitted(ratio, speed) || way < kSameRatio) {
       continue;
     }
-    // All that is plenty counts the same, so that the nearest wins.
+    // All steps with plenty count the same, so the nearest wins.
     const double limit_mm = limit_depth_mm(speed);
     const double worth_mm = std::min(limit_mm, plenty_mm);
     if (worth_mm > best_mm || (best.speed_rev_s > 0.0 && worth_mm == best_mm && way < best_way)) {

@@ -11,16 +11,15 @@
 
 namespace steadyrest::chatter::online {
 
-/// The better spindle speed for a cut that chatters, out of what the planner worked out before.
+/// The better spindle speed for a chattering cut, from the planner's earlier results.
 ///
-/// Law. With a table (speed → limiting depth, straight lines between): the override step with the
-/// largest limiting depth among the permitted ones, the step nearest to the present one when
-/// several carry the depth of cut with `reserve` to spare; only a step that carries more than the
-/// present one counts. Without a table the classical rule: n = 60·fc/(N·k), k = 1, 2 … (Smith,
-/// Tlusty; Okuma, MAL), whole waves of the chatter between two teeth; the nearest permitted step
-/// within 2.5 % of such a speed and a tenth of a wave. Permitted: within the ratios and the
-/// spindle's limits, and not the present step. A depth does not come from a table outside of its
-/// speeds: the limit there is 0. O(steps·log speeds), no allocation.
+/// Law. With a table (speed → limiting depth, straight lines between): the permitted override step
+/// with the largest limiting depth, or the one nearest to the present step when several allow the
+/// depth of cut with `reserve` to spare; only a step that allows more than the present one counts.
+/// Without a table the classical rule: n = 60·fc/(N·k), k = 1, 2 … (Smith, Tlusty; Okuma, MAL),
+/// whole waves of the chatter between two teeth; the nearest permitted step within 2.5 % of such a
+/// speed and a tenth of a wave. Permitted: within the ratios and the spindle's limits, and not the
+/// present step. Outside the table's speeds the limit is 0. O(steps·log speeds), no allocation.
 class SpeedTable {
  public:
   struct Config {
@@ -32,7 +31,7 @@ class SpeedTable {
     double max_ratio = 1.2;              ///< ≥ min_ratio
     double min_rev_s = 0.0;              ///< of the spindle, ≥ 0
     double max_rev_s = 1e3;              ///< > min_rev_s
-    double reserve = 1.1;                ///< limit over depth that is plenty, ≥ 1
+    double reserve = 1.1;                ///< limit over depth that counts as plenty, ≥ 1
   };
 
   struct Question {
@@ -50,12 +49,12 @@ class SpeedTable {
     unsigned waves = 0;           ///< k of the rule; 0 = from the table
   };
 
-  /// Refuses: arrays of different length, values that do not rise or are out of their range.
+  /// Refuses arrays of different length and values that do not rise or are out of range.
   [[nodiscard]] static kernel::outcome::Result<SpeedTable> make(Config config);
 
   /// Unfit numbers give the neutral request with input_not_finite or input_out_of_range.
   [[nodiscard]] Advice ask(const Question& question) const noexcept;
-  /// Limiting depth at the speed in mm; 0 outside of the table.
+  /// Limiting depth at the speed in mm; 0 outside the table.
   [[nodiscard]] double limit_depth_mm(double speed_rev_s) const noexcept;
 
  private:

@@ -19,8 +19,8 @@ using read::LineSource;
 using read::Reader;
 using read::Refused;
 
-// Between interpreter and caller: the report counts moves, and the bound on repeated lines needs
-// that count too.
+// Between interpreter and caller: the report counts moves, and the limit on repeated lines needs
+// the count too.
 class Counter final : public Sink {
  public:
   Counter(Sink& sink, Report& report) : sink_(sink), report_(report) {}
@@ -37,8 +37,8 @@ class Counter final : public Sink {
 
 }  // namespace
 
-// One line at a time: read it; then it steers the flow (O-words, calls) or is executed. The first
-// refusal ends the run; survey() only adds what else of the text is not known.
+// One line at a time: read it; then it controls the flow (O-words, calls) or is executed. The first
+// refusal ends the run; survey() only adds other unknown words of the text.
 class ProgramRun::Run {
  public:
   Run(LineSource& source, const Config& config, std::unique_ptr<Interpreter> interpreter,
@@ -72,7 +72,7 @@ class ProgramRun::Run {
   bool step() { return !interpreter_->finished() && next_line() && line(); }
 
   // A refused program is searched for further unknown words, except where lines are missing or a
-  // subprogram's file is in hand: the rest would not be the user's program.
+  // subprogram's file is being read: the rest would not be the user's program.
   Report take() {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
@@ -82,7 +82,7 @@ class ProgramRun::Run {
 
  private:
   /// False when it is refused.
-  /// More values than PROC takes show at the subprogram's first block behind PROC.
+  /// More values than PROC takes show at the subprogram's first block after PROC.
   bool line() {
     if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
       return refuse(flow_.refused());
@@ -149,7 +149,7 @@ class ProgramRun::Run {
                                                  : interpreter_->parameters().asked();
   }
 
-  // Two runs over nearly equal texts, side by side: a line that the other has just split into
+  // For two runs over nearly equal texts, side by side: a line that the other has just split into
   // words is not split again.
   bool same_as_ahead(const LineSource& source) noexcept {
     return ahead_ != nullptr && ahead_->executed_ && ahead_->files_.now().line() == source.line() &&
@@ -185,9 +185,8 @@ class ProgramRun::Run {
     return accepted;
   }
 
-  /// A subprogram ends with its word, a program before the next one begins.
-  /// On fanuc and sinumerik the end of a program is a word; LinuxCNC's O-words are checked by the
-  /// flow.
+  /// A subprogram must end with its word, and a program before the next one begins. On fanuc and
+  /// sinumerik the end of a program is a word; the flow checks LinuxCNC's O-words.
   bool ends_in_order() {
     const bool label = block_.flow().kind == read::FlowKind::label;
     if (block_.end_mark() && !files_.in_main() && block_.line() == 1) {
@@ -204,7 +203,7 @@ class ProgramRun::Run {
   }
 
   /// Tells the interpreter of calls that began or ended.
-  /// A call that ends and begins again in one step (M98 L, NAME P) leaves the depth as it was.
+  /// A call that ends and restarts in one step (M98 L, NAME P) leaves the depth unchanged.
   bool follow(bool accepted) {
     const std::size_t calls = interpreter_->parameters().calls();
     again_ = calls_ == calls;
@@ -227,8 +226,8 @@ class ProgramRun::Run {
     return false;
   }
 
-  // The end of the file is a refusal unless the program has ended itself: half a program must not
-  // pass as a whole one.
+  // The end of the file is a refusal unless the program has ended: half a program must not pass as
+  // a whole one.
   bool next_line() {
     switch (files_.next()) {
       case LineSource::Status::line:
@@ -269,14 +268,14 @@ class ProgramRun::Run {
     report_.refused.back().line = static_cast<std::uint32_t>(report_.lines);
   }
 
-  // What else in the program is not accepted: text and vocabulary only, since the state after a
-  // refused block is not known.
+  // Other faults in the program: text and vocabulary only, since the state after a refused block is
+  // unknown.
   void survey() {
     while (report_.refused.size() < Report::kMostRefused &&
            files_.next() == LineSource::Status::line) {
       ++report_.lines;
       const LineSource& source = files_.now();
-      // What values would be here is not known.
+      // The values here are unknown.
       if (source.line().find_first_of("#[") != std::string_view::npos) {
         continue;
       }
@@ -289,7 +288,7 @@ class ProgramRun::Run {
   }
 
   void add(const Refused& refused) {
-    // A hundred lines with G41 are one finding: words count as the same by letter and number.
+    // A hundred lines with G41 are one finding: words with the same letter and number count once.
     const auto head = [](const Refused& one) {
       return std::pair{one.reason, one.word.substr(0, one.word.find_first_of(" .=[(+-#"))};
     };
@@ -308,12 +307,12 @@ class ProgramRun::Run {
   FlowControl flow_;
   MacroVariables macro_;
   SinumerikVariables typed_;
-  bool again_ = false;  ///< a subprogram begins again: neither entered nor left
+  bool again_ = false;  ///< a subprogram restarts: neither entered nor left
   const DialectRules& rules_;
   bool block_delete_;
   std::size_t calls_ = 0;
   Report report_;
-  std::uint64_t moves_before_ = 0;  ///< the line in hand
+  std::uint64_t moves_before_ = 0;  ///< of the current line
   Counter counter_;
   Block block_;
   bool source_failed_ = false;
@@ -354,8 +353,7 @@ std::uint32_t ProgramRun::line() const noexcept {
 bool ProgramRun::executed() const noexcept {
   return run_->executed_;
 }
-// The line was plain and its values were numbers: nothing but position, motion and feed can have
-// changed.
+// The line was plain and its values were numbers: only position, motion and feed can have changed.
 bool ProgramRun::moved_alone() const noexcept {
   return run_->executed_ && run_->interpreter_->moved_alone() && run_->reader_.numbers_alone();
 }
@@ -375,7 +373,7 @@ std::vector<std::string> ProgramRun::subprogram_files() const {
   return run_->files_.subprograms();
 }
 
-// What the control would keep when the program is over; rewrite compares it.
+// What the control would keep after the program; rewrite compares it.
 ProgramRun::Kept ProgramRun::kept() const {
   Kept kept{.tools = run_->interpreter_->tools().value_or(std::vector<Tool>{}), .variables = {}};
   switch (run_->rules_.variables) {

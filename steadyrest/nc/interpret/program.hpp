@@ -20,26 +20,26 @@
 
 namespace steadyrest::nc::interpret {
 
-/// What came of a program.
+/// The result of running a program.
 struct Report {
   std::uint64_t lines = 0;
-  std::uint64_t blocks = 0;  ///< lines with at least one word that were executed
-  std::uint64_t moves = 0;   ///< moves and dwells that the sink was given
-  /// Empty when the program was executed to its end. The first entry is where the execution
-  /// stopped; the others are words further down that the reader or the dialect's vocabulary does
-  /// not accept, each kind once, at most `kMostRefused`.
+  std::uint64_t blocks = 0;  ///< executed lines with at least one word
+  std::uint64_t moves = 0;   ///< moves and dwells sent to the sink
+  /// Empty when the program ran to its end. The first entry is where the execution stopped; the
+  /// others are words further down that the reader or the dialect does not accept, each kind once,
+  /// at most `kMostRefused`.
   std::vector<read::Refused> refused;
 
   static constexpr std::size_t kMostRefused = 50;
 };
 
-/// Executes a program line by line, for those who look at the state between two lines.
+/// Executes a program line by line, giving access to the state between two lines.
 class ProgramRun {
  public:
-  /// What the control keeps when the program is over, beside the offsets of the state.
+  /// What the control keeps after the program, in addition to the offsets of the state.
   struct Kept {
     std::vector<Tool> tools;  ///< where a table was given
-    /// Variables that are set, by the name that the program has for them.
+    /// Variables that are set, by their name in the program.
     std::vector<std::pair<std::string, double>> variables;
   };
 
@@ -49,31 +49,31 @@ class ProgramRun {
   ProgramRun(ProgramRun&& other) noexcept;
   ~ProgramRun();
 
-  /// Goes on by one line. False when the program is at its end or refused.
+  /// Advances by one line. False at the program's end or when it is refused.
   bool step();
-  /// Before the first step: `other`, which stays, runs the same lines a step ahead, with the same
-  /// configuration. A line that is the same, byte for byte, and has no values but numbers is split
-  /// into words once; each run executes them by itself.
+  /// Call before the first step: `other`, which must outlive this run, runs the same lines a step
+  /// ahead with the same configuration. A line that is equal byte for byte and has only numbers as
+  /// values is split into words once; each run executes the words itself.
   void read_with(const ProgramRun& other);
   /// The report; call once, after the last step.
   [[nodiscard]] Report take();
 
   // Of the line that step() has just been at:
   [[nodiscard]] std::uint32_t line() const noexcept;
-  /// Its words have been executed: it was not passed over and has no O-word.
+  /// Its words were executed: it was not skipped and has no O-word.
   [[nodiscard]] bool executed() const noexcept;
-  /// Its words are a straight move and numbers: of the state its position, motion and feed alone
-  /// may be others than before the line.
+  /// Its words are a straight move and numbers: of the state, only position, motion and feed may
+  /// have changed.
   [[nodiscard]] bool moved_alone() const noexcept;
-  /// It stands in the program itself, outside of every subprogram, condition and loop.
+  /// It is in the program itself, outside any subprogram, condition and loop.
   [[nodiscard]] bool at_top() const noexcept;
   [[nodiscard]] bool in_main() const noexcept;  ///< not in a subprogram's own file
   [[nodiscard]] const read::Block& block() const noexcept;
-  /// What its expressions have asked of the control's own state.
+  /// What its expressions have read of the control's own state.
   [[nodiscard]] const Asked& asked() const noexcept;
-  [[nodiscard]] const State& state() const noexcept;  ///< as it stands now
+  [[nodiscard]] const State& state() const noexcept;  ///< as it is now
   [[nodiscard]] Kept kept() const;                    ///< likewise
-  /// The subprograms' own files that have been opened so far.
+  /// The subprogram files opened so far.
   [[nodiscard]] std::vector<std::string> subprogram_files() const;
 
  private:
@@ -82,8 +82,8 @@ class ProgramRun {
   std::unique_ptr<Run> run_;
 };
 
-/// Executes a whole program from a file, in bounded memory. An error is a file that cannot be
-/// read; refused words stand in the report.
+/// Executes a whole program from a file, in bounded memory. An error is a file that cannot be read;
+/// refused words are in the report.
 kernel::outcome::Result<Report> run_file(const std::string& path, const Config& config, Sink& sink);
 
 /// The same for a text in memory.
@@ -93,7 +93,7 @@ kernel::outcome::Result<Report> run_text(std::string_view text, const Config& co
 kernel::outcome::Result<Report> run_lines(read::LineSource& source, const Config& config,
                                           Sink& sink);
 
-/// The first refusal of a report in the form that all rooms show: `FILE:LINE: what; to do`.
+/// The first refusal of a report in the form used by all rooms: `FILE:LINE: what; to do`.
 [[nodiscard]] kernel::outcome::Refusal first_refusal(const Report& report, const std::string& path);
 
 }  // namespace steadyrest::nc::interpret

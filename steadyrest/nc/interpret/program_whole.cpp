@@ -38,7 +38,7 @@ kernel::outcome::Result<Report> run_text(std::string_view text, const Config& co
 
 namespace {
 
-/// What no dialect and no other word would mend has a remedy of its own.
+/// A fault that neither another dialect nor another word would fix has its own remedy.
 std::string remedy_of(const read::Refused& refused) {
   struct Remedy {
     std::string_view reason;
@@ -55,7 +55,7 @@ std::string remedy_of(const read::Refused& refused) {
   if (found != kRemedies.end()) {
     return found->to_do;
   }
-  // Both marks of UTF-16, as they are or as the reader shows them.
+  // Both byte order marks of UTF-16, raw or as the reader shows them.
   for (const std::string_view mark : {"\xff", "\xfe", "\\xff", "\\xfe"}) {
     if (refused.reason == "not_ascii" && refused.line == 1 && refused.word.starts_with(mark)) {
       return "this is UTF-16: save the program as plain text, ASCII or UTF-8";
@@ -68,7 +68,7 @@ std::string remedy_of(const read::Refused& refused) {
 
 }  // namespace
 
-// A verb has one refusal to show: the first, since those behind it may follow from it.
+// A verb shows only the first refusal, since later ones may follow from it.
 kernel::outcome::Refusal first_refusal(const Report& report, const std::string& path) {
   if (report.refused.empty()) {
     return {};

@@ -35,7 +35,7 @@ constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, fal
 constexpr Rules kFanucRules = {read_letters<kFanucLetters>, 1024, false, true, false};
 constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true};
 
-// A switch and no array: the compiler names a dialect that is forgotten here.
+// A switch, not an array: the compiler names a dialect that is missing here.
 constexpr const Rules& rules_of(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::fanuc:
@@ -59,12 +59,11 @@ std::string_view trimmed(std::string_view text) noexcept {
 
 }  // namespace
 
-// `%` alone: opens the program in its first line that is not empty, closes it after that.
+// `%` alone: opens the program in its first line that is not empty, closes it later on.
 bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) {
   const std::string_view text = trimmed(line);
   if (text.size() == 1) {
-    // The first line that is not empty decides: with % at the head the program is one that a %
-    // closes.
+    // The first line that is not empty decides: a program that begins with % ends with %.
     if (!seen_line_) {
       percent_opened_ = true;
       return true;
@@ -80,12 +79,11 @@ bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) 
                          "% must be alone on its line, as the first and last line of the program");
 }
 
-// Length, blank lines and % are the same in all dialects up to the rules above; the rest is the
-// dialect's.
+// Length, blank lines and % follow the rules above in every dialect; the rest is the dialect's.
 bool Reader::read(std::string_view line, std::uint32_t number, std::size_t ending_length,
                   Block& block) {
-  // Values are numbers alone until a line shows otherwise: an unchanged line then need not be read
-  // again by a run beside this one.
+  // Values are plain numbers until a line shows otherwise: a second run need not read such a line
+  // again if it is unchanged.
   block.reset(number);
   reading_.numbers_alone = false;
   const Rules& rules = rules_of(reading_.dialect);
@@ -96,7 +94,7 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
                                std::to_string(rules.longest) +
                                " are allowed in this dialect, line end included");
   }
-  // Blank lines need no dialect.
+  // Blank lines are the same in every dialect.
   std::size_t first = 0;
   while (first != line.size() && is_blank(line[first])) {
     ++first;
@@ -116,8 +114,8 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   reading_.numbers_alone = rules.values_are_numbers;
   const bool accepted = rules.read(reading_, line, number, block);
   reading_.numbers_alone = reading_.numbers_alone && accepted;
-  // Assignments act when the whole line has been accepted, and not at all in a line that block
-  // delete leaves out.
+  // Assignments act once the whole line is accepted, and not at all in a line left out by block
+  // delete.
   if (reading_.values != nullptr && !reading_.numbers_alone) {
     accepted && !(block_delete_ && block.deleted()) ? reading_.values->commit()
                                                     : reading_.values->drop();
@@ -125,7 +123,7 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   return accepted;
 }
 
-// Only where a % closes the program: elsewhere it is a line among others.
+// Only where a % closes the program: elsewhere it is an ordinary line.
 bool Reader::ends_program(std::string_view line) const noexcept {
   return percent_opened_ && !rules_of(reading_.dialect).percent_closes_unopened &&
          trimmed(line) == "%";
@@ -133,7 +131,7 @@ bool Reader::ends_program(std::string_view line) const noexcept {
 
 bool Reader::read_flow(std::string_view line, std::uint32_t number, Block& block) {
   block.reset(number);
-  // Lines that are passed over: the O-word alone, without values.
+  // Skipped lines: only the O-word, without values.
   const std::size_t at = o_word_at(line);
   if (at == 0 || reading_.values == nullptr) {
     return true;

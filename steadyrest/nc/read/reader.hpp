@@ -12,8 +12,7 @@ namespace steadyrest::nc::read {
 /// Splits the lines of one program into words. Knows characters, comments and numbers; what a word
 /// means is the interpreter's business.
 ///
-/// Deterministic, no allocation unless a line is refused. A line that is refused leaves the reader
-/// usable for the next one.
+/// Deterministic; allocates only when it refuses a line. After a refusal it can read the next line.
 class Reader {
  public:
   explicit Reader(Dialect dialect) noexcept : reading_{.dialect = dialect} {}
@@ -22,8 +21,8 @@ class Reader {
   /// The block refers to the line's characters: keep them while it is in use.
   bool read(std::string_view line, std::uint32_t number, std::size_t ending_length, Block& block);
 
-  /// Takes the words of the same line, which `other` has just read of a text of its own. False when
-  /// it must be read: only numbers are the same whatever the program has done before.
+  /// Takes over the words of the same line, which `other` has just read from another text. False
+  /// when the line must be read: only plain numbers are independent of what the program did before.
   bool take(const Reader& other, const Block& read, std::uint32_t number, Block& block) noexcept {
     if (!other.reading_.numbers_alone || reading_.dialect != other.reading_.dialect) {
       return false;
@@ -35,15 +34,14 @@ class Reader {
     return true;
   }
 
-  /// Of a line that is passed over: its O-word, label and keyword alone, nothing evaluated but the
-  /// label. False when that is refused.
+  /// Reads only the O-word of a skipped line, label and keyword; evaluates nothing but the label.
+  /// False when that is refused.
   bool read_flow(std::string_view line, std::uint32_t number, Block& block);
 
-  /// A line that is passed over is the `%` that closes the program: what is looked for cannot stand
-  /// behind it.
+  /// A skipped line is the `%` that closes the program: the search ends there.
   [[nodiscard]] bool ends_program(std::string_view line) const noexcept;
 
-  /// What expressions ask and assignments set; nullptr: expressions are refused. Must outlive the
+  /// What expressions read and assignments set; nullptr: expressions are refused. Must outlive the
   /// reading.
   void set_values(Values* values) noexcept { reading_.values = values; }
 
@@ -51,7 +49,7 @@ class Reader {
   void set_typed_values(TypedValues* values) noexcept {
     reading_.values = reading_.typed_values = values;
   }
-  /// Lines that begin with / are left out: what they assign is forgotten.
+  /// Lines that begin with / are left out: their assignments are dropped.
   void set_block_delete(bool on) noexcept { block_delete_ = on; }
 
   [[nodiscard]] const Refused& refused() const noexcept { return reading_.refused; }

@@ -78,7 +78,7 @@ std::string wav(const std::vector<double>& values) {
   return out;
 }
 
-/// Heard within 150 ms after the onset, until the end, the frequency to 1 %.
+/// Detected within 150 ms after the onset, until the end, the frequency to 1 %.
 void expect_the_chatter(const json& answer) {
   ASSERT_EQ(answer["events"].size(), 1U);
   const json& event = answer["events"][0];
@@ -119,7 +119,7 @@ TEST(ChatterDetect, AdvisesWholeWavesBetweenTwoTeeth) {
   EXPECT_GT(event["start_s"], 0.6);
   EXPECT_LT(event["start_s"], 0.75);
   EXPECT_NEAR(event["frequency_hz"], 940.0, 9.4);
-  // 60·940/(2·6) = 4700; the step of 5 % that is nearest.
+  // 60·940/(2·6) = 4700; the nearest 5 % step.
   EXPECT_NEAR(event["advised_speed_rpm"], 4750.0, 1e-6);
   EXPECT_NEAR(event["advised_override_percent"], 95.0, 1e-9);
   EXPECT_THAT(run_line(kDetect + " --teeth 2").out, HasSubstr("4750 rpm (95 %)"));
@@ -223,7 +223,7 @@ TEST(ChatterDetect, Refuses) {
   expect_refused(detect("no/such.csv"), "no/such.csv: cannot be read");
 }
 
-// "No chatter" is said of a signal that was heard.
+// "No chatter" requires a usable signal.
 TEST(ChatterDetect, RefusesADeadSensorAndImpossibleAmplitudes) {
   const Scratch scratch;
   const auto detect = [&scratch](double scale, double offset) {

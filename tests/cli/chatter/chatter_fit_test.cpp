@@ -19,8 +19,8 @@ const std::string kTool =
     "[tool]\nteeth = 2\n[cut]\nradial_immersion = 1.0\n"
     "tangential_N_mm2 = 600.0\nradial_N_mm2 = 200.0\n";
 
-// The tap test of the example was made of 922 Hz, 1.1 % and 0.03993 kg, with noise; so the truth is
-// known.
+// The example's tap test was generated from 922 Hz, 1.1 % and 0.03993 kg, with noise, so the truth
+// is known.
 TEST(ChatterFit, FindsTheModeThatTheTapTestWasMadeOf) {
   const json fit = answer_of("chatter fit " + kTapTest + " --axis x");
   ASSERT_EQ(fit["order"], 1);

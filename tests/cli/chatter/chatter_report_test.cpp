@@ -63,8 +63,8 @@ std::vector<std::pair<double, double>> border_of(const std::string& path) {
   return out;
 }
 
-// Every point of the CSV border is in the page, and nothing else but gaps. The zero-order sketch
-// must be near the true border, not on it.
+// The page has every point of the CSV border and otherwise only gaps. The zero-order sketch must be
+// near the true border, not on it.
 TEST(ChatterReport, LobesHaveTheBorderOfTheCsv) {
   const Scratch scratch;
   const json page = report_of(kLobesMap + " -o " + scratch.at("map.csv"), scratch).page;
@@ -116,7 +116,7 @@ TEST(ChatterReport, TheWantedCutIsWhatRadiusAndPlanSayOfIt) {
 // Under a law the border at constant speed is drawn too, with its published values.
 TEST(ChatterReport, LobesUnderALawShowConstantSpeedBesideThem) {
   const Scratch scratch;
-  // One speed has no border line between them to refine.
+  // With one speed there is no border line to refine.
   const std::string speeds = kSanitized ? "10000:10000:1" : "5000:10000:2";
   const json page = report_of("chatter lobes " + kSlotProcess + " --speeds-rpm " + speeds +
                                   " --depths-mm 0:4:9 --law sine --rva 0.2 --rvf 0.1 "
@@ -153,7 +153,7 @@ TEST(ChatterReport, GrowthHasThePeakOfTheAnswerAndTheSpeedOfTheLaw) {
   }
 }
 
-// 5000 rpm make a turn in 12 ms: 25 in 0.3 s.
+// 5000 rpm make one turn in 12 ms: 25 in 0.3 s.
 TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
   const Scratch scratch;
   const auto made =
@@ -172,7 +172,7 @@ TEST(ChatterReport, SimulationHasItsPeakAndOnePointForEachRevolution) {
   EXPECT_NEAR(turns[20] - turns[19], 0.012, 1e-6);
 }
 
-// The spectrogram is judged where the detector heard the chatter.
+// The spectrogram is checked where the detector found the chatter.
 TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
   const Scratch scratch;
   const auto made =
@@ -181,7 +181,7 @@ TEST(ChatterReport, DetectionHasTheRecordingWithItsLoudestLine) {
   const auto rows = s["rows"].get<std::size_t>();
   const auto levels = s["level_db"].get<std::vector<int>>();
   ASSERT_EQ(levels.size(), rows * s["columns"].get<std::size_t>());
-  // The last column, within the chatter: the loudest cell is at the frequency that was named.
+  // The last column, within the chatter: the loudest cell is at the reported frequency.
   const auto column = levels.end() - static_cast<std::ptrdiff_t>(rows);
   const auto loudest = static_cast<double>(std::ranges::max_element(column, levels.end()) - column);
   const double row_hz = s["row_hz"];
@@ -208,7 +208,7 @@ TEST(ChatterReport, SaysToPeopleWhereItIs) {
   EXPECT_THAT(finished.out, HasSubstr("report: " + scratch.at("a/b/report.html")));
 }
 
-// A file where the folder should be, and cuts that are half given.
+// A file where the folder should be, and incomplete cuts.
 TEST(ChatterReport, RefusesWhatItCannotWriteOrPlace) {
   const Scratch scratch;
   const std::string file = scratch.file("file", "");

@@ -45,8 +45,8 @@ TEST(ChatterRadius, GivesTheConvergedRadiusOfTheSlot) {
               1e-6);
 }
 
-// At constant speed there is no period: the worst vibration is followed over 20 passes, and grows
-// by ρ a pass at least.
+// At constant speed there is no period: the worst vibration is followed over 20 passes and grows by
+// at least ρ per pass.
 TEST(ChatterRadius, SaysOverHowManyPassesItFollowsTheWorstGrowth) {
   EXPECT_THAT(run_line(kPoint).out, HasSubstr("worst growth within 20 tooth passes"));
   EXPECT_GT(answer_of(kPoint)["peak_growth"], std::pow(1.40647, 20.0));
@@ -55,7 +55,7 @@ TEST(ChatterRadius, SaysOverHowManyPassesItFollowsTheWorstGrowth) {
               HasSubstr("worst growth within 40 tooth passes"));
 }
 
-// RVA 0.2 and RVF 0.1 at 5000 rpm are ±1000 rpm every 0.12 s: all ways to say it are one law.
+// RVA 0.2 and RVF 0.1 at 5000 rpm are ±1000 rpm every 0.12 s: all notations give the same law.
 TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   const json ratios = answer_of(kPoint + " --law sine --rva 0.2 --rvf 0.1");
   EXPECT_NEAR(ratios["spectral_radius"], 0.0446131, 5e-7);
@@ -73,8 +73,8 @@ TEST(ChatterRadius, TakesAModulationInRatiosAndInTheWordsOfTheShopFloor) {
   }
 }
 
-// ρ = 3e-14 over the period, and yet a vibration grows 921-fold on its way: the radius alone would
-// call it harmless.
+// ρ = 3e-14 over the period, yet a vibration grows 921-fold on its way: the radius alone would call
+// it harmless.
 TEST(ChatterRadius, TellsSlowModulationThoughTheRadiusIsNothing) {
   const json slow = answer_of(kPoint + " --law triangle --rva 0.2 --rvf 0.02");
   EXPECT_NEAR(slow["log_radius"], std::log(3e-14), 0.2);
@@ -95,8 +95,8 @@ TEST(ChatterRadius, KnowsEveryLaw) {
             answer_of(kPoint)["spectral_radius"]);
 }
 
-// 2/0.1234567891 is no ratio of small numbers; the RVF moves by 0.5 % at most and the answer says
-// so.
+// 2/0.1234567891 is not a ratio of small numbers; the RVF moves by at most 0.5 %, and the answer
+// says so.
 TEST(ChatterRadius, MovesAPeriodToWholeToothPassesAndSaysSo) {
   // A shorter law has fewer passes.
   const std::string rvf = kSanitized ? "0.8234567891" : "0.1234567891";

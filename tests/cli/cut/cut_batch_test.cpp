@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-/// `cut --batch`: what heat does to a day's parts; and the pages of the thermal verbs.
+/// `cut --batch`: the thermal error of a day's parts; and the pages of the thermal verbs.
 namespace steadyrest::test {
 namespace {
 

@@ -51,7 +51,7 @@ TEST(CutChatter, TheLayerTakesTheOverrideStepThatIsStable) {
   EXPECT_NEAR(answer["chatter"][0]["spindle_switch_percent"].get<double>(), 110.0, 1e-9);
 }
 
-/// What does not repeat from tooth to tooth, in the cut without the layer: µm over s.
+/// The part that does not repeat from tooth to tooth, in the cut without the layer: µm over s.
 std::vector<std::pair<double, double>> unforced(double depth_mm) {
   const Scratch scratch;
   answer_of(at_depth(depth_mm, " --report " + scratch.at("report")));
@@ -100,7 +100,7 @@ TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
                                 kProcess + " --depth-mm 0.5");
   ASSERT_EQ(answer["chatter"].size(), 2U);
   for (const json& choice : answer["chatter"]) {
-    // The solver, whose borders are the published ones, is asked about the step that was taken.
+    // The solver, whose borders match the published ones, checks the chosen step.
     const double speed_rpm = choice["speed_rpm"].get<double>();
     EXPECT_EQ(choice["decision"], "constant") << speed_rpm;
     const json at_step = answer_of(
@@ -139,7 +139,7 @@ TEST(CutChatter, SaysWhichLinesAConstantCuttingSpeedLeavesUnplanned) {
 }
 
 TEST(CutChatter, HearsItAndTakesTheBetterStepOfTheTable) {
-  // At 100 % on the operator's switch the layer can only slow the spindle down.
+  // With the operator's switch at 100 % the layer can only slow the spindle down.
   const json answer = answer_of(at_depth(0.6, " --chatter detect"));
   ASSERT_EQ(answer["heard"].size(), 1U);
   const json& heard = answer["heard"][0];

@@ -39,8 +39,9 @@ TEST(Cut, GivesBothCutsAsJson) {
   }
 }
 
-// Outside of the travel the layer does not trust its input: what the machine cannot do is named by
-// line, and that the layer stood back by its time. The offsets of the simulated machine are known.
+// Outside the travel the layer does not trust its input: moves that the machine cannot make are
+// reported by line, and the layer's withdrawal by its time. The simulated machine's offsets are
+// known.
 TEST(Cut, SaysThatTheProgramLeavesTheTravelAndHowLongTheLayerWithdrew) {
   const Scratch scratch;
   const std::string far =
@@ -171,7 +172,7 @@ TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
   EXPECT_TRUE(first == both());
 }
 
-// A feed that left the limit does not hold it, whatever the closed form says.
+// A feed that exceeded the limit does not hold it, whatever the closed form says.
 TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   const Scratch scratch;
   answer_of(kCut + " --report " + scratch.at("out"));
@@ -200,7 +201,7 @@ TEST(Cut, ShowsTheWorstLinesWithTheFeedThatWouldHold) {
     last_um = with_um;
     EXPECT_GT(line["feed_with_mm_min"], 0.0);
     if (line["held_by"] == "closed form") {
-      // As `contour limit` has it for this radius, gain and limit.
+      // As in `contour limit` for this radius, gain and limit.
       arc = true;
       const json limit = answer_of("contour limit --radius-mm 10 --kv-1-s 50 --max-error-mm 0.010");
       EXPECT_NEAR(line["radius_mm"], 10.0, 1e-3);

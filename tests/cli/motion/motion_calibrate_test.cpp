@@ -71,7 +71,7 @@ double error_mm_s(const std::string& table) {
 }
 
 // Learnt phases within 0.004 counts of the true ones; the residual falls fivefold, the estimate's
-// error by a third at least.
+// error by at least a third.
 TEST(MotionCalibrate, WhatItLearnsTakesAThirdOffTheErrorOfTheEstimate) {
   const Scratch scratch;
   const std::string log = scratch.at("edges.csv");

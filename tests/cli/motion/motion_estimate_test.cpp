@@ -79,7 +79,7 @@ TEST(MotionEstimate, DifferencesErrByWhatTheirQuantisationAllows) {
   EXPECT_NEAR(sine_error_mm_s(sine_by("difference")), 0.408, 0.05);
 }
 
-// Time stamps alone, without any limit of the axis, halve the error.
+// Time stamps alone, without any axis limit, halve the error.
 TEST(MotionEstimate, EdgesWithTheirTimesBeatDifferences) {
   EXPECT_LT(sine_error_mm_s(sine_by("mt")), 0.5 * sine_error_mm_s(sine_by("difference")));
 }
@@ -138,7 +138,7 @@ TEST(MotionEstimate, ReadsStdin) {
   EXPECT_EQ(finished.out, run_line("motion estimate " + log + kEdges).out);
 }
 
-// What came before the bad row is worth having; exit code 2 says that it is not all.
+// The rows before the bad one are worth having; exit code 2 says that they are not all.
 TEST(MotionEstimate, KeepsWhatWasGoodBeforeABadRow) {
   const Scratch scratch;
   const std::string log = scratch.file("log.csv",

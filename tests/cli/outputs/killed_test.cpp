@@ -18,8 +18,8 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-/// Verbs that are ended at a random moment lose nothing. STEADYREST_KILLS: how often each verb is
-/// ended (3 without it); STEADYREST_SEED: other moments.
+/// Verbs killed at a random moment lose nothing. STEADYREST_KILLS: how often each verb is killed (3
+/// by default); STEADYREST_SEED: other moments.
 namespace steadyrest::test {
 
 namespace {
@@ -32,8 +32,8 @@ unsigned long number_from(const char* name, unsigned long otherwise) {
   return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
 }
 
-/// What happens to the files of some folders, by inotify: so a process can be ended at the very
-/// moment when it writes, and not only at times that are mostly spent computing.
+/// Watches the files of some folders by inotify, so that a process can be killed at the very moment
+/// it writes, not only while it computes.
 class Watch {
  public:
   explicit Watch(const std::set<std::string>& folders) {
@@ -46,7 +46,7 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
   ~Watch() { close(descriptor_); }
 
-  /// Waits until so many things have happened or the process has ended; gives what has happened.
+  /// Waits for this many events or the end of the process; returns the number of events.
   int until(int events, const Process& process) {
     int seen = 0;
     std::array<pollfd, 2> either = {{{descriptor_, POLLIN, 0}, {process.ended(), POLLIN, 0}}};
@@ -85,8 +85,8 @@ class Killed : public testing::TestWithParam<OutputRow> {
                : text == made;
   }
 
-  // Old or new, never a part. Only SIGKILL may leave temporary files behind, for no one can tidy up
-  // after it.
+  // Old or new, never a part. Only SIGKILL may leave temporary files behind, since nothing can
+  // clean up after it.
   void expect_nothing_lost(const Texts& old, const Texts& made, const std::string& how) const {
     Texts found = folder_.results();
     for (const auto& [name, text] : old) {
@@ -113,8 +113,8 @@ class Killed : public testing::TestWithParam<OutputRow> {
   const Texts examples_ = folder_.examples();
 };
 
-// First an undisturbed run, for the new results and the number of file events; then runs that are
-// ended at random events or times.
+// First an undisturbed run, for the new results and the number of file events; then runs killed at
+// random events or times.
 TEST_P(Killed, LeavesTheOldFileOrTheNewOne) {
   ASSERT_EQ(Process(folder_.command(), folder_.path()).wait(), 0);
   const Texts made = folder_.results();

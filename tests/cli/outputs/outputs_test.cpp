@@ -182,7 +182,7 @@ TEST_P(Outputs, WithoutANameAreRefused) {
   }
 }
 
-// Before the work: a folder as a file, a folder that is missing, a file as a folder.
+// Before the work: a folder as a file, a missing folder, a file as a folder.
 TEST_P(Outputs, ThatCannotBeAreRefusedBeforeTheWork) {
   fs::create_directory(folder_.at("folder"));
   for (const OutputOption& option : GetParam().outputs) {

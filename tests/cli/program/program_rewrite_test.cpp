@@ -19,7 +19,7 @@ const std::string kWithPlan =
     " --plan examples/plans/rib-pocket.json --machine examples/machines/linuxcnc-mill.toml";
 
 // The example's compensated program is stored; compensate must reproduce it, verify prove it, strip
-// give the original back.
+// restore the original.
 TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.ngc");
@@ -41,8 +41,7 @@ TEST(ProgramCompensate, TellsEveryInsertionAndStripRestoresTheProgram) {
   EXPECT_EQ(text_of_file(changed), text_of_file(project_file(kProgram)));
 }
 
-// A window too small for any safe place, a control without a method, a program that is corrected
-// already.
+// A window too small for any safe place, a control without a method, a program already corrected.
 TEST(ProgramCompensate, RefusesWhatItCannotDoRight) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.ngc");

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-// What will not do on the machine is named by line, alike by the three verbs that have both the
-// program and its machine.
+// Moves that the machine cannot make are reported by line, alike by the three verbs that have both
+// the program and its machine.
 namespace steadyrest::test {
 namespace {
 

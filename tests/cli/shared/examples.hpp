@@ -3,7 +3,7 @@
 
 #include <string>
 
-/// What several tests take from examples/.
+/// What several tests use from examples/.
 namespace steadyrest::test {
 
 inline const std::string kSlotProcess = "examples/processes/slot-922hz.toml";

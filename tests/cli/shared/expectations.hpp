@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-/// What the tests of the verbs expect of a line of arguments.
+/// What the verbs' tests expect from a line of arguments.
 namespace steadyrest::test {
 
 /// The answer with --json; the line must succeed and say nothing on stderr.

@@ -8,7 +8,7 @@ namespace steadyrest::test {
 
 using Words = std::vector<std::string>;
 
-/// What `steadyrest PATH… --help` prints.
+/// The output of `steadyrest PATH… --help`.
 std::string help_of(Words path);
 
 /// Every path that leads to a verb, found in the help.

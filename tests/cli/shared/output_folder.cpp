@@ -28,7 +28,7 @@ constexpr const char* kGroove =
 
 }  // namespace
 
-/// A copy of the examples, because verbs are told here to overwrite them.
+/// A copy of the examples, because tests make verbs overwrite them.
 OutputFolder::OutputFolder(const OutputRow& row) : row_(row) {
   fs::copy(project_file("examples"), scratch_.at("examples"), fs::copy_options::recursive);
   scratch_.file("examples/groove.ngc", kGroove);
@@ -63,7 +63,7 @@ Texts OutputFolder::examples() const {
   return texts_of(scratch_.at(""), true);
 }
 
-/// Everything but the examples goes, so that a result of an earlier run cannot pass for this one's.
+/// Deletes everything but the examples, so that an earlier run's result cannot pass for this one's.
 void OutputFolder::place(const Texts& results) const {
   for (const auto& entry : fs::directory_iterator(scratch_.at(""))) {
     if (entry.path().filename() != "examples") {

@@ -21,9 +21,9 @@ class OutputFolder {
   [[nodiscard]] std::string at(const std::string& name) const { return scratch_.at(name); }
   /// The row's command; an output whose flag is in `instead` gets that value.
   [[nodiscard]] std::vector<std::string> command(const Texts& instead = {}) const;
-  /// Paths of all that the row writes.
+  /// Paths of everything the row writes.
   [[nodiscard]] std::vector<std::string> outputs() const;
-  /// Files and their content; beside `examples/` and in it.
+  /// Files and their content, inside `examples/` and outside it.
   [[nodiscard]] Texts results() const;
   [[nodiscard]] Texts examples() const;
   /// Makes `results()` these, folders included.

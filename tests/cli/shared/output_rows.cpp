@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <ostream>
 
-// One row per verb with outputs: a command that works, its output options with the files that each
+// One row per verb with outputs: a working command, its output options with the files that each
 // makes, and its inputs. `true`: the answer contains how long it took, so bytes differ.
 namespace steadyrest::test {
 namespace {

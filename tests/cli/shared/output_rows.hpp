@@ -10,15 +10,15 @@
 
 namespace steadyrest::test {
 
-/// An option of a verb that leads to files.
+/// An option of a verb that makes files.
 struct OutputOption {
-  std::string flag;                ///< as --help has it
+  std::string flag;                ///< as in --help
   std::string value;               ///< given in the test
   std::vector<std::string> files;  ///< what is written then
 };
 
-/// A verb with all that it reads and writes. Every verb whose --help has an OUT or a DIR must have
-/// a row, with all of them.
+/// A verb with everything it reads and writes. Every verb whose --help has an OUT or a DIR must
+/// have a row with all of them.
 struct OutputRow {
   std::string verb;
   std::string

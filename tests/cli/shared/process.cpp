@@ -83,7 +83,7 @@ int Process::wait() {
   if (child_ <= 0) {
     return code_;
   }
-  // Read to the end first: a child that fills the pipe would wait for ever.
+  // Read to the end first: a child that fills the pipe would wait forever.
   std::array<char, 4096> block{};
   for (ssize_t got = 0; (got = read(err_read_, block.data(), block.size())) > 0;) {
     err_.append(block.data(), static_cast<std::size_t>(got));

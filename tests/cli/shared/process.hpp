@@ -8,13 +8,13 @@
 
 namespace steadyrest::test {
 
-/// The built `steadyrest`, running in a folder of the test's, which may end it. What it prints for
-/// people goes nowhere.
+/// The built `steadyrest`, running in a folder of the test, which may kill it. Its output for
+/// people is discarded.
 class Process {
  public:
   enum class Stdout { nowhere, closed_pipe };
   struct Limits {
-    long largest_file = -1;  ///< bytes that a file may have, as on a full disk; −1 without
+    long largest_file = -1;  ///< most bytes in a file, as on a full disk; −1: no limit
     Stdout out = Stdout::nowhere;
   };
 
@@ -30,7 +30,7 @@ class Process {
   void send(int signal) const noexcept;
   /// Exit code, or −signal.
   int wait();
-  /// What it said on stderr; after wait().
+  /// Its stderr output; after wait().
   [[nodiscard]] const std::string& err() const noexcept { return err_; }
 
  private:

@@ -12,7 +12,7 @@ struct Finished {
   std::string err;
 };
 
-/// Runs the built `steadyrest` in a fresh folder that has the project's `examples` in it.
+/// Runs the built `steadyrest` in a fresh folder with the project's `examples`.
 Finished run(const std::vector<std::string>& arguments);
 
 /// Arguments as in a shell without quotes.

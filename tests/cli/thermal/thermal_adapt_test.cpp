@@ -18,7 +18,7 @@ std::string adapt(const Scratch& scratch, const std::string& csv, const std::str
   return "thermal adapt " + kPaperPlan + " --measured " + scratch.file("measured.csv", csv) + more;
 }
 
-// The stored plan is what the verb writes today: the other tests rest on it.
+// The stored plan equals the verb's present output: the other tests rely on it.
 TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
   const Scratch scratch;
   answer_of(
@@ -32,7 +32,7 @@ TEST(ThermalAdapt, ItsExampleIsThePlanOfThePapersExample) {
 }
 
 // The parts were measured on a machine that grows 1.1 times as far as its passport says; 1.3 times
-// k·Δ at the end asks for the next level.
+// k·Δ at the end calls for the next level.
 TEST(ThermalAdapt, FindsTheGainOfTheExamplesMachineAndTheNextLevel) {
   const auto answer = answer_of(kAdapt);
   EXPECT_EQ(answer["level_before"], 0);
@@ -84,7 +84,7 @@ TEST(ThermalAdapt, PartsWellInsideGoBackOneLevel) {
   EXPECT_EQ(answer["k"], 0.7);
 }
 
-// ±60 µm in turns: no gain explains that. The level still rises, the gains stay.
+// Alternating ±60 µm: no gain explains that. The level still rises, the gains stay.
 TEST(ThermalAdapt, SaysWhenTheModelNoLongerFitsAndKeepsItsGains) {
   const Scratch scratch;
   std::string csv = "part,time_min,deviation_um\n";
@@ -115,7 +115,7 @@ TEST(ThermalAdapt, NamesAnOutlierAndLeavesItOut) {
   EXPECT_NEAR(answer["axes"][0]["gain"][0].get<double>(), 1.1, 0.02);
 }
 
-// Nobody can tell what is wrong from three parts: all count for the level, none for the gains.
+// Three parts do not show which one is wrong: all count for the level, none for the gains.
 TEST(ThermalAdapt, OfThreePartsOutliersCountForTheLevelAndTheGainsStay) {
   const Scratch scratch;
   const std::string far = "part,time_min,deviation_um\na,5,900\nb,98,-900\nc,192,900\n";

@@ -14,7 +14,7 @@ namespace {
 
 const std::string kLog = "examples/thermal/spindle-test.csv";
 
-/// The first rows of the example's log, head included.
+/// The first rows of the example's log, including the header.
 std::string beginning(int rows) {
   std::istringstream all(text_of_file(project_file(kLog)));
   std::string out;
@@ -98,8 +98,8 @@ TEST(ThermalFit, WritesAPageOfWhatTemperaturesTellAndWhatTheModelLeaves) {
   expect_refused("thermal fit " + kLog + " --report /dev/null/here", "/dev/null");
 }
 
-// W is half of Z: one body, one set of time constants. Each last digit differs, so the two are not
-// the same column.
+// W is half of Z: one body, one set of time constants. The last digits differ, so the columns are
+// not the same.
 TEST(ThermalFit, TwoProbesOfOneBodyAreToldToShareItsTimeConstants) {
   const Scratch scratch;
   std::istringstream in(text_of_file(project_file(kLog)));

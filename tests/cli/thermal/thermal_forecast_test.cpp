@@ -35,8 +35,8 @@ TEST(ThermalForecast, TakesCoolantAndCuttingFromTheProgram) {
       << "nothing is cut";
 }
 
-// Out at 30 mm/s and back as a rapid, dwells between: about half of the time is cut, and the level
-// lies between those of running and cutting in that proportion.
+// Out at 30 mm/s and back as a rapid, dwells in between: about half of the time is cutting, and the
+// level lies between those of running and cutting in that proportion.
 TEST(ThermalForecast, OnlyFeedMovesHeatLikeCutting) {
   const Scratch scratch;
   const std::string machine =
@@ -84,7 +84,7 @@ TEST(ThermalForecast, StartsFromWhatTheMachineHasDone) {
   EXPECT_NEAR(answer["axes"][0]["end_um"].get<double>(), 49.0785 / std::exp(1.0), 1e-4);
 }
 
-// A sensor that was not given is named; given, the note goes.
+// A missing sensor is named; once given, the note disappears.
 TEST(ThermalForecast, SaysWhichTemperaturesItTakesForGranted) {
   const Scratch scratch;
   const std::string work = scratch.file("work.toml", R"(

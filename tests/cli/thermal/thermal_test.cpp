@@ -115,7 +115,7 @@ TEST(ThermalPlan, OfTwoAxesGoesIntoAProgramAndIsAdapted) {
         const List times = written[axis]["transitions"][i]["t_min"];
         return std::accumulate(times.begin(), times.end(), 0.0);
       };
-      EXPECT_NEAR(minutes_of("X"), minutes_of("Z"), 1e-9) << "to the last digit that is written";
+      EXPECT_NEAR(minutes_of("X"), minutes_of("Z"), 1e-9) << "to the last written digit";
     }
   }
 }

@@ -12,11 +12,11 @@ namespace steadyrest::chatter::offline {
 namespace {
 
 // AVX2 has 16 registers: six for the column, six in flight, the rest for factors.
-constexpr std::size_t kMostWides = 6;  ///< rows over four that registers hold beside the rest
+constexpr std::size_t kMostWides = 6;  ///< rows over four that registers hold with everything else
 using Wide = double __attribute__((vector_size(kRowsAtOnce * sizeof(double))));
 
-// always_inline: the bodies must be compiled inside the function that has the AVX2 target; on their
-// own they would be built for the baseline.
+// always_inline: the bodies must be compiled inside the function with the AVX2 target; separately
+// they would be built for the baseline.
 [[gnu::always_inline]] inline void load(const double* from, Wide& to) {
   std::memcpy(&to, from, sizeof to);
 }
@@ -24,7 +24,7 @@ using Wide = double __attribute__((vector_size(kRowsAtOnce * sizeof(double))));
   std::memcpy(to, &from, sizeof from);
 }
 
-/// Each of the columns less `column` times its number in `row`; 4·Count rows.
+/// Subtracts from each column `column` times its number in `row`; 4·Count rows.
 template <std::size_t Count>
 [[gnu::always_inline]] inline void subtract_rows(double* matrix, std::size_t stride,
                                                  std::size_t columns, const double* what,
@@ -64,7 +64,7 @@ template <std::size_t Count>
   }
 }
 
-/// Rows in blocks that registers hold.
+/// Rows in blocks that fit the registers.
 [[gnu::always_inline]] inline void subtract_lanes(double* matrix, std::size_t stride,
                                                   std::size_t columns, const double* what,
                                                   const double* factor) {
@@ -72,7 +72,7 @@ template <std::size_t Count>
   for (; row + kMostWides * kRowsAtOnce <= stride; row += kMostWides * kRowsAtOnce) {
     subtract_rows<kMostWides>(matrix + row, stride, columns, what + row, factor);
   }
-  // What six do not divide: pairs, then at most one single.
+  // The remainder of the division by six: pairs, then at most one single.
   for (; row + 2 * kRowsAtOnce <= stride; row += 2 * kRowsAtOnce) {
     subtract_rows<2>(matrix + row, stride, columns, what + row, factor);
   }

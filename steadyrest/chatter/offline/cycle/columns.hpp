@@ -5,14 +5,14 @@
 
 /// Sums over the columns of a matrix, four rows at a time.
 ///
-/// The matrix stands by columns, `stride` apart, a multiple of four rows with what fills it up. On
-/// x86-64 with AVX2, seen when the program runs, four rows take one register; the numbers are the
-/// same on every machine, since no product is fused with a sum.
+/// The matrix is stored by columns, `stride` apart, padded to a multiple of four rows. On x86-64
+/// with AVX2, detected at run time, four rows take one register; the numbers are the same on every
+/// machine, since no product is fused with a sum.
 namespace steadyrest::chatter::offline {
 
 constexpr std::size_t kRowsAtOnce = 4;
 
-/// The least multiple of kRowsAtOnce that holds so many rows.
+/// The least multiple of kRowsAtOnce that holds this many rows.
 constexpr std::size_t filled_up(std::size_t rows) noexcept {
   return (rows + kRowsAtOnce - 1) / kRowsAtOnce * kRowsAtOnce;
 }

@@ -10,7 +10,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// make() settles the length of the period, plan() in delay_cycle_plan.cpp makes the matrices, and
+// make() sets the length of the period, plan() in delay_cycle_plan.cpp builds the matrices, and
 // set_depth() the inverses. advance() then walks the pieces of one pass: right side from the modes'
 // state and the delayed displacements, one small solve, new displacements in place of the old ones.
 // retreat() is its transpose; growth_course needs single rows of the map, and with the transpose
@@ -41,8 +41,9 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
   const auto whole = [&out](double angle_rad) {
     return std::max(1.0, std::round(angle_rad / out.pass_rad_)) * out.pass_rad_;
   };
-  // The course that a machine makes of a law has any length. Stretching it to whole passes changes
-  // its timing by half a pass at most; with a remainder there would be no principal period.
+  // The speed that a machine really follows may have a period of any length. Stretching it to whole
+  // passes changes its timing by at most half a pass; with a remainder there would be no principal
+  // period.
   const SpeedProfile speed =
       config.course.empty()
           ? SpeedProfile(config.speed_rev_s, config.modulation)
@@ -73,7 +74,7 @@ kernel::outcome::Result<DelayCycle> DelayCycle::make(const Process& process, con
     return std::unexpected(std::move(*refusal));
   }
   out.period_s_ = speed.time_s(static_cast<double>(out.passes_) * out.pass_rad_);
-  // Last, after every refusal: planning allocates and fills all matrices.
+  // Last, after all refusals: planning allocates and fills all matrices.
   out.plan(speed, config);
   return out;
 }
@@ -83,7 +84,7 @@ void DelayCycle::set_depth(double depth_mm) {
   for (auto& pass : pieces_) {
     for (Piece& piece : pass) {
       if (piece.cuts) {
-        // The depth enters linearly: K and Φ stay, only (I + a·HK)⁻¹ is made for each depth.
+        // The depth enters linearly: K and Φ stay, only (I + a·HK)⁻¹ is rebuilt for each depth.
         piece.inverse.make(piece.answer, depth_mm);
       }
     }
@@ -95,8 +96,8 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
                          Eigen::Ref<Eigen::VectorXd> out) const {
   const Index n = piece.nodes;
   out.setZero();
-  // Pieces that do not cut have no slot. A tooth that cuts reads where the tooth in front of it
-  // cut, so a read from such a piece has H = 0.
+  // Pieces that do not cut have no slot. A cutting tooth reads where the previous tooth cut, so a
+  // read from such a piece has H = 0.
   for (const Delayed& term : piece.delayed) {
     for (Index i = 0; i < n; ++i) {
       const Read& read = term.read[static_cast<std::size_t>(i)];
@@ -122,8 +123,8 @@ void DelayCycle::delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& 
 }
 
 void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
-  // A piece's values of this pass take the place of the last one's as soon as it is passed: no
-  // delay is longer than a pass.
+  // A piece's values replace those of the last pass as soon as it is passed: no delay is longer
+  // than a pass.
   modal_ = state.head(modal_size());
   for (Piece& piece : pieces_[pass]) {
     if (!piece.cuts) {
@@ -162,7 +163,7 @@ void DelayCycle::advance(std::size_t pass, Eigen::Ref<Eigen::VectorXd> state) {
       modal_ = piece.e * modal_;
       modal_.noalias() += piece.r * solved_;
     }
-    // In place: no delay is longer than a pass, so the values of the pass before are used up now.
+    // In place: no delay is longer than a pass, so the previous pass' values are no longer needed.
     before = piece.x;
   }
   state.head(modal_size()) = modal_;
@@ -233,7 +234,7 @@ void DelayCycle::retreat(std::size_t pass, Eigen::Ref<Eigen::VectorXd> row) {
   row.head(modal_size()) = modal;
 }
 
-// A Ref is a view, cheap to hand on.
+// A Ref is a view, cheap to pass on.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void DelayCycle::apply(Eigen::Ref<Eigen::VectorXd> state) {
   for (std::size_t p = 0; p < passes_; ++p) {
@@ -254,7 +255,7 @@ std::vector<DelayCycle::Sample> DelayCycle::last_pass(std::size_t pass) const {
     // Time since the piece's start: ∫dθ/Ω to each node.
     const Eigen::VectorXd since = gauss.integral * piece.sigma_s;
     for (Index i = 0; i < piece.nodes; ++i) {
-      // The first n numbers of a piece are along x; along y follows behind them.
+      // The first n numbers of a piece are along x; those along y follow.
       out.push_back({t + since[i], gauss.weight[i] * piece.sigma_s[i], piece.x[i]});
     }
     t += gauss.weight.dot(piece.sigma_s);

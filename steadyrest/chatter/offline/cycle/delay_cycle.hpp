@@ -16,17 +16,17 @@
 
 /// The linear map of a vibration over one principal period of the cut, spectrally accurate.
 ///
-/// The spindle's angle θ is the independent variable: the delay is then the tooth pitch whatever
-/// the speed does, and teeth enter and leave at fixed angles. The period is cut into pieces within
-/// which everything is smooth. In each piece the modes' equations
+/// The spindle's angle θ is the independent variable: the delay is then the tooth pitch at any
+/// speed, and teeth enter and leave at fixed angles. The period is divided into pieces within which
+/// everything is smooth. In each piece the modes' equations
 ///   dq/dθ = v/Ω,  dv/dθ = (−2ζω·v − ω²·q + 1000/m·shape·F)/Ω,
 ///   F = −a·Σ_j [H_j·(x(θ) − x(θ − δ_j)) + P_j/(Ω/2π)·ẋ]
 /// are collocated at Gauss–Legendre nodes. With K the modes' answer to forces at the nodes and
 /// Φ·s that to the state at the piece's start, the forces follow from (I + a·(HK + PK̇))·F =
-/// −a·(HΦ + PΦ̇)·s + a·Σ H_j·x_delayed; the depth a enters linearly (but for helical teeth), so that
-/// K is made once for a speed. With one delay and no damping the displacements themselves follow
-/// without F: (I + a·KH)·(x − x_delayed) = Φ·s − x_delayed. The error falls exponentially with the
-/// nodes: at the default accuracy multipliers are good to 1e-9.
+/// −a·(HΦ + PΦ̇)·s + a·Σ H_j·x_delayed; the depth a enters linearly (except with helical teeth), so
+/// K is built once for a speed. With one delay and no damping the displacements follow without F:
+/// (I + a·KH)·(x − x_delayed) = Φ·s − x_delayed. The error falls exponentially with the nodes: at
+/// the default accuracy multipliers are good to 1e-9.
 ///
 /// State: q and v/ω of each mode, then the displacements at the nodes of the cutting pieces within
 /// the longest delay before the period's end. Unit: mm.
@@ -37,15 +37,15 @@ class DelayCycle {
   struct Config {
     double speed_rev_s = 0.0;  ///< mean, > 0
     Modulation modulation;
-    /// When not empty it counts instead of `modulation`: one period of the speed, stretched to the
-    /// nearest whole number of passes.
+    /// If not empty, it replaces `modulation`: one period of the speed, stretched to the nearest
+    /// whole number of passes.
     std::vector<SpeedRamp> course;
     double most_depth_mm = 1.0;  ///< set_depth() stays accurate up to here
-    double fineness = 1.0;       ///< nodes over the usual; for convergence studies
+    double fineness = 1.0;       ///< number of nodes over the default; for convergence studies
   };
 
   /// Refuses a modulation whose period shares no multiple with the tooth pitch below 4096 pitches,
-  /// and what is beyond_reach().
+  /// and anything beyond_reach().
   static kernel::outcome::Result<DelayCycle> make(const Process& process, const Config& config);
 
   /// Depth of cut in mm, ≥ 0. Must be called before apply().
@@ -70,8 +70,8 @@ class DelayCycle {
   /// Over the whole period.
   void apply(Eigen::Ref<Eigen::VectorXd> state);
 
-  /// The displacement along x at the nodes of the pass that advance() did last, with the time since
-  /// the period's start and the weight of each node in an integral over time.
+  /// The displacement along x at the nodes of the last pass that advance() did, with the time since
+  /// the period's start and each node's weight in an integral over time.
   struct Sample {
     double t_s = 0.0;
     double weight_s = 0.0;
@@ -80,10 +80,10 @@ class DelayCycle {
   [[nodiscard]] std::vector<Sample> last_pass(std::size_t pass) const;
 
  private:
-  /// Where a delayed displacement is read: values of a piece of this pass or of the one before.
+  /// Where a delayed displacement is read: values of a piece in this pass or the previous one.
   struct Read {
     std::size_t piece = 0;   ///< within the pass
-    bool before = true;      ///< of the pass before
+    bool before = true;      ///< of the previous pass
     Eigen::Index node = 0;   ///< the node itself …
     Eigen::RowVectorXd row;  ///< … or, when not empty, weights of all its nodes
   };
@@ -103,7 +103,7 @@ class DelayCycle {
     std::vector<Delayed> delayed;
     SmallInverse inverse;    ///< of I + a·answer at the present depth
     Eigen::VectorXd x;       ///< displacements when last passed
-    Eigen::Index slot = -1;  ///< where they stand in the state; −1: nobody reads them
+    Eigen::Index slot = -1;  ///< their place in the state; −1: never read
   };
 
   DelayCycle() = default;
@@ -117,12 +117,12 @@ class DelayCycle {
   [[nodiscard]] Read read_at(double angle_rad) const;
   void delayed(const Piece& piece, const Eigen::Ref<Eigen::VectorXd>& state,
                Eigen::Ref<Eigen::VectorXd> out) const;
-  /// Adds forces' weights to those of the displacements that delayed() made them of.
+  /// Adds the forces' weights to those of the displacements from which delayed() made them.
   void undelayed(const Piece& piece, const Eigen::VectorXd& forces,
                  Eigen::Ref<Eigen::VectorXd> row) const;
 
   Process process_;
-  Eigen::Index components_ = 1;  ///< 1: x alone vibrates
+  Eigen::Index components_ = 1;  ///< 1: only x vibrates
   bool plain_ = true;            ///< one delay and no process damping
   double pass_rad_ = 0.0;
   double period_s_ = 0.0;

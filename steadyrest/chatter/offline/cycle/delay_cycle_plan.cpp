@@ -7,7 +7,7 @@
 #include <steadyrest/chatter/offline/cycle/reach.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// The period in pieces, and the matrices of each.
+// Divides the period into pieces and builds the matrices of each.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -17,7 +17,7 @@ using kernel::units::kTurn;
 /// Angle of the fastest oscillation in one piece, and nodes for it: 1e-9 in the multipliers.
 constexpr double kCyclePiecePhase = 14.0;
 // A polynomial at Gauss nodes converges once it has more than π nodes for each wave (Gottlieb and
-// Orszag 1977). 0.75 per radian are 4.7 a wave; the constant buys the digits. Longer pieces would
+// Orszag 1977). 0.75 per radian are 4.7 per wave; the constant adds the digits. Longer pieces would
 // need fewer nodes in all, but each inverse costs the cube of its nodes.
 constexpr double kNodesPerRadian = 0.75;
 constexpr double kNodesAtLeast = 11.0;
@@ -28,12 +28,12 @@ constexpr double kNodesAtLeast = 11.0;
 std::vector<DelayCycle::Piece> DelayCycle::pieces_of_pass(const SpeedProfile& speed,
                                                           const Config& config) const {
   const CuttingCoefficients coefficients(process_, depth_mm_);
-  // At the slowest speed a given angle lasts longest and holds the most waves; pieces that do there
-  // do everywhere.
+  // At the slowest speed a given angle lasts longest and holds the most waves; pieces sized for it
+  // suffice everywhere.
   const double slowest_rev_s = speed.slowest_rad_s() / kTurn;
   const double fastest = fastest_rad_s(process_, depth_mm_, slowest_rev_s);
   // The speed's kinks of every law period fold onto one pass: all passes share their borders, so
-  // that a displacement and its delayed twin sit at the same node.
+  // that a displacement and its delayed twin are at the same node.
   std::vector<double> of_speed;
   for (std::size_t r = 0; r < law_periods_; ++r) {
     for (const double c : speed.corners_rad()) {
@@ -63,14 +63,13 @@ std::vector<DelayCycle::Piece> DelayCycle::pieces_of_pass(const SpeedProfile& sp
 
 void DelayCycle::plan(const SpeedProfile& speed, const Config& config) {
   // Sized for the greatest depth: the cutting stiffness a·K raises the frequencies that the nodes
-  // must resolve, so smaller depths are resolved all the more.
+  // must resolve, so smaller depths are resolved even better.
   depth_mm_ = config.most_depth_mm;
   std::vector<Piece> pass = pieces_of_pass(speed, config);
   state_size_ = modal_size();
   for (Piece& piece : pass) {
     if (piece.cuts) {
-      // Only cutting pieces are read by the next tooth, so only their displacements belong to the
-      // state.
+      // The next tooth reads only cutting pieces, so only their displacements belong to the state.
       piece.slot = state_size_;
       state_size_ += piece.nodes * components_;
     }
@@ -104,7 +103,7 @@ void DelayCycle::fill(const SpeedProfile& speed, std::size_t pass, std::size_t i
   }
 }
 
-/// KH and RH of all teeth; what else there is of K is not needed.
+/// KH and RH of all teeth; nothing else of K is needed.
 void DelayCycle::fill_plain(Piece& piece) const {
   const GaussNodes& gauss = GaussNodes::of(piece.nodes);
   const CuttingCoefficients coefficients(process_, depth_mm_);
@@ -165,7 +164,7 @@ DelayCycle::Read DelayCycle::read_at(double angle_rad) const {
   const bool before = angle_rad < 0.0;
   // No tooth's pitch exceeds a revolution, so one pass back is always enough.
   const double within = before ? angle_rad + pass_rad_ : angle_rad;
-  // Borders and nodes are the same in all passes, so the first one answers for each.
+  // Borders and nodes are the same in all passes, so the first one serves for all.
   const auto& pass = pieces_[0];
   std::size_t i = 0;
   while (i + 1 < pass.size() && pass[i].end_rad <= within) {

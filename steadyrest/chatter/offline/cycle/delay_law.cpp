@@ -58,7 +58,7 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
   const double length = config.period_s / pieces;
   out.nodes_ =
       std::min(static_cast<Index>(std::ceil(kLawPieceNodes * config.fineness)), GaussNodes::kMost);
-  // A delay may exceed the period; its extremes are only sampled, hence the margin.
+  // A delay may exceed the period; only samples of its extremes are known, hence the margin.
   out.history_ = static_cast<Index>(std::ceil(1.001 * most / length)) + 1;
   out.terms_ = config.terms.size();
   out.fill_piece(config, length);
@@ -69,7 +69,7 @@ kernel::outcome::Result<DelayLaw> DelayLaw::make(const Config& config) {
       for (const Term& term : config.terms) {
         const double at = (p + gauss.node[i]) * length;
         const double before = gauss.node[i] - term.delay_s(at) / length;  // in pieces from p
-        // At least one piece back, whatever rounding makes of a delay just above a piece.
+        // At least one piece back, however a delay just above a piece is rounded.
         const double back = std::max(1.0, -std::floor(before));
         reads.push_back(
             {static_cast<Index>(back), term.stiffness_1_s2 * gauss.interpolation(before + back)});

@@ -12,11 +12,11 @@
 /// One mode under delays that are prescribed over time, spectrally accurate:
 ///   ẍ + 2ζω·ẋ + ω²·x = Σ_j κ_j·(x(t − τ_j(t)) − x(t)),  τ_j of period T.
 ///
-/// For laws that give the delay and not the speed (turning with the delay modulated as a sine, two
-/// cutters), where the angle of the spindle is of no help. T is cut into even pieces shorter than
-/// every delay; in each the equation is collocated at Gauss–Legendre nodes, delayed values come
-/// from the polynomials of the pieces before. The delays must be smooth; then the error falls
-/// exponentially with the nodes, at the default to 1e-10. Unit of the state is free.
+/// For laws that give the delay, not the speed (turning with the delay modulated as a sine, two
+/// cutters), where the spindle angle does not help. T is divided into even pieces shorter than
+/// every delay; in each the equation is collocated at Gauss–Legendre nodes, and delayed values come
+/// from the polynomials of earlier pieces. The delays must be smooth; the error then falls
+/// exponentially with the nodes, to 1e-10 at the default. The state may have any unit.
 namespace steadyrest::chatter::offline {
 
 class DelayLaw {
@@ -30,13 +30,13 @@ class DelayLaw {
     double damping_ratio = 0.0;  ///< ζ
     std::vector<Term> terms;
     double period_s = 1.0;  ///< T > 0
-    double fineness = 1.0;  ///< nodes over the usual; for convergence studies
+    double fineness = 1.0;  ///< number of nodes over the default; for convergence studies
   };
 
   /// Refuses an ω or T that is not above 0 and a delay that is not above T/10 000.
   static kernel::outcome::Result<DelayLaw> make(const Config& config);
 
-  /// x and ẋ/ω, then x at the nodes of the pieces before, the latest first.
+  /// x and ẋ/ω, then x at the nodes of the previous pieces, latest first.
   [[nodiscard]] Eigen::Index state_size() const noexcept { return 2 + history_ * nodes_; }
   /// Over T.
   void apply(Eigen::Ref<Eigen::VectorXd> state) const;

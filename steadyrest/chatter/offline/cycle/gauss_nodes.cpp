@@ -30,7 +30,7 @@ GaussNodes make(Index n) {
   Eigen::VectorXd x(n);
   Eigen::VectorXd w(n);
   for (Index i = 0; i < n; ++i) {
-    // The usual first guess for the zeros of P_n; a few of Newton's steps finish it.
+    // The usual first guess for the zeros of P_n; a few Newton steps finish it.
     double z = -std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) /
                          (static_cast<double>(n) + 0.5));
     double slope = 1.0;
@@ -97,7 +97,7 @@ Eigen::RowVectorXd GaussNodes::interpolation(double x) const {
 }
 
 const GaussNodes& GaussNodes::of(Index n) {
-  // Asked for from all threads of a lobe map; each size is made once and then only read.
+  // All threads of a lobe map use these; each size is built once and then only read.
   static std::array<GaussNodes, static_cast<std::size_t>(kMost) + 1> made;
   static std::array<std::once_flag, static_cast<std::size_t>(kMost) + 1> once;
   const auto slot = static_cast<std::size_t>(n);

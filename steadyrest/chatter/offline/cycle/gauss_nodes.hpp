@@ -14,10 +14,10 @@ struct GaussNodes {
   Eigen::MatrixXd integral2;    ///< S·S
   Eigen::VectorXd barycentric;  ///< n, weights of Lagrange's interpolation
 
-  /// Row of weights that gives the value at x from the values at the nodes.
+  /// Weights that give the value at x from the values at the nodes.
   [[nodiscard]] Eigen::RowVectorXd interpolation(double x) const;
 
-  /// The nodes for n; made once, safe to call from several threads. 1 ≤ n ≤ kMost.
+  /// The nodes for n; built once, safe to call from several threads. 1 ≤ n ≤ kMost.
   static const GaussNodes& of(Eigen::Index n);
   static constexpr Eigen::Index kMost = 64;
 };

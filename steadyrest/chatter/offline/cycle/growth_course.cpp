@@ -9,31 +9,31 @@
 #include <steadyrest/chatter/offline/cycle/growth_course.hpp>
 #include <steadyrest/chatter/offline/cycle/multipliers.hpp>
 
-// ‖Φ‖_∞ is the largest row sum of moduli: the growth of the one vibration, bounded by 1 everywhere
-// at the start, that drives this row hardest. Constant speed needs the rows of powers of one map
-// and takes them from the adjoint; a modulated period needs a product of different maps and carries
-// all columns.
+// ‖Φ‖_∞ is the largest row sum of moduli: the growth of the vibration, bounded by 1 everywhere at
+// the start, that drives this row hardest. Constant speed needs the rows of powers of one map and
+// gets them from the adjoint; a modulated period needs a product of different maps and carries all
+// columns.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
 
-// From which pass the growth is worst is not known beforehand. With hundreds of passes in a period
+// The worst starting pass is not known in advance. With hundreds of passes in a period,
 // neighbouring starts differ by one pass in hundreds.
 constexpr std::size_t kMostStarts = 16;
-constexpr Index kMostRows = 200;          ///< that are followed one by one
+constexpr Index kMostRows = 200;          ///< followed one by one
 constexpr std::size_t kLeastWindow = 20;  ///< passes
-constexpr double kDied = 1e-4;            ///< of its peak, then it is followed no longer
+constexpr double kDied = 1e-4;            ///< of its peak; then following ends
 
-/// Ends the course where it has died.
+/// Whether the vibration has died, which ends the course.
 bool died(const std::vector<double>& log_growth, double peak) {
   const double now = log_growth.back();
-  // Both: a vibration that fell from a high peak may still be larger than it began.
+  // Both conditions: a vibration that fell from a high peak may still be larger than at its start.
   return now < peak + std::log(kDied) && now < 0.0;
 }
 
-/// Where all passes are the same map P: row i of P^k is e_iᵀ·P^k, so that each row is followed by
-/// itself, and the sum of its moduli is that row's growth. A low speed has thousands of rows, which
+/// For passes with the same map P: row i of P^k is e_iᵀ·P^k, so each row can be followed
+/// separately, and the sum of its moduli is its growth. A low speed has thousands of rows, which
 /// change little from one to the next: some are followed, then the neighbours of the worst.
 class EvenPasses {
  public:
@@ -48,8 +48,8 @@ class EvenPasses {
   GrowthCourse course(Index modal_rows) {
     const Index apart = (rows_ + kMostRows - 1) / kMostRows;
     std::set<Index> wanted;
-    // q and v/ω of the modes are few and unlike each other, so all of them are followed; nodes
-    // beside each other are nearly alike.
+    // q and v/ω of the modes are few and unlike each other, so all are followed; neighbouring nodes
+    // are nearly alike.
     for (Index i = 0; i < rows_; i += i < modal_rows ? 1 : apart) {
       wanted.insert(i);
     }
@@ -95,7 +95,7 @@ class EvenPasses {
       if (!(sum > 0.0) || !std::isfinite(sum)) {
         return;
       }
-      // Growth of 10¹² and more is ordinary at low speed: kept as a logarithm.
+      // Growth of 10¹² and more is common at low speed: kept as a logarithm.
       row /= sum;
       log_size += std::log(sum);
       if (log_size > log_growth_[k]) {
@@ -111,8 +111,8 @@ class EvenPasses {
   std::vector<Index> worst_row_;
 };
 
-/// The map from the pass `begin` on, all of its columns: advance() costs so little that whatever
-/// would leave columns out costs more.
+/// The map from the pass `begin` on, with all columns: advance() is so cheap that leaving columns
+/// out would cost more.
 GrowthCourse course_from(DelayCycle& cycle, std::size_t begin, std::size_t window) {
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(cycle.state_size(), cycle.state_size());
   double log_scale = 0.0;

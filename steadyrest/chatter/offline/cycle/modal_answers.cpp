@@ -9,16 +9,16 @@
 #include <steadyrest/chatter/offline/cycle/small_inverse.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// One piece at a time: mode by mode the equation of motion is turned into an integral equation and
-// solved at the Gauss nodes for unit start values and unit forces. The columns of the solution are
-// the matrices Φ, K, E and R that every solver of this folder builds on.
+// For one piece, each mode's equation of motion is turned into an integral equation and solved at
+// the Gauss nodes for unit start values and unit forces. The columns of the solution are the
+// matrices Φ, K, E and R that every solver of this folder builds on.
 namespace steadyrest::chatter::offline {
 namespace {
 
 using Eigen::Index;
 using kernel::units::kTurn;
 
-// Corners closer than this are one corner and its rounding.
+// Corners closer than this are one corner, apart by rounding.
 constexpr double kSameAngle = 1e-10;  ///< rad
 
 double modulo(double angle, double period) {
@@ -33,9 +33,9 @@ Index directions(const Process& process) noexcept {
                                                                                              : 2;
 }
 
-// Forces of the delayed displacements only drive; what oscillates by itself at a frozen angle is
-// λ²·v + λ·(D + 1000·Bᵀ·P·B)·v + (diag ω² + 1000·a·BᵀHB)·v = 0, with H = Σ_j H_j, D = diag 2ζω and
-// the columns of B shape/√m. Times v* for |v| = 1 it is λ² + λ·d + κ = 0, d ≥ 0, and
+// Delayed displacements only drive; the free oscillation at a frozen angle is λ²·v + λ·(D +
+// 1000·Bᵀ·P·B)·v + (diag ω² + 1000·a·BᵀHB)·v = 0, with H = Σ_j H_j, D = diag 2ζω and the columns of
+// B shape/√m. Times v* for |v| = 1 it is λ² + λ·d + κ = 0, d ≥ 0, and
 //   |κ| ≤ v*·(diag ω² + 1000·a·‖H‖·BᵀB)·v ≤ the largest eigenvalue Λ of that matrix.
 // With s² = d²/4 − κ the oscillation is |Im s|, which is largest for d = 0: |Im λ|² ≤ (|κ| +
 // Re κ)/2 ≤ Λ. Process damping decays at no more than its own d ≤ 1000·‖P‖·‖BᵀB‖.
@@ -43,7 +43,7 @@ double fastest_rad_s(const Process& process, double depth_mm, double speed_rev_s
   if (process.modes.empty()) {
     return 0.0;
   }
-  // Straight edges are the worst case, so the coefficients are asked at no depth.
+  // Straight edges are the worst case, so the coefficients are taken at zero depth.
   const double at_once = CuttingCoefficients(process, 0.0).most_at_once();
   const double stiffness =
       depth_mm * at_once * std::hypot(process.cut.tangential_n_mm2, process.cut.radial_n_mm2);
@@ -99,8 +99,8 @@ std::vector<double> corners_of_pass(const Process& process, const CuttingCoeffic
 
 bool cuts_at(const CuttingCoefficients& coefficients, double pass_rad, double angle_rad) noexcept {
   for (std::size_t j = 0; j < coefficients.teeth(); ++j) {
-    // All teeth fold onto one pass: it cuts if any tooth cuts at any of the angles that are the
-    // same place in the pass.
+    // All teeth fold onto one pass: it cuts if any tooth cuts at any of the angles that fold onto
+    // this place.
     for (double turn = 0.0; turn < kTurn - kSameAngle; turn += pass_rad) {
       if (coefficients.stiffness(j, angle_rad + turn).cwiseAbs().maxCoeff() > 0.0) {
         return true;
@@ -145,7 +145,7 @@ ModalAnswers modal_answers(const Process& process, const GaussNodes& gauss,
       inverse.apply({right.col(col).data(), static_cast<std::size_t>(n)},
                     {v.col(col).data(), static_cast<std::size_t>(n)});
     }
-    // From v everything else follows by one more integration, without another solve.
+    // Everything else follows from v by one more integration, without another solve.
     Eigen::MatrixXd q = s * v;
     q.col(0).array() += 1.0;
     const Eigen::RowVectorXd q_end = end * v;

@@ -11,7 +11,7 @@
 #include <steadyrest/chatter/offline/cycle/multipliers.hpp>
 
 // Arnoldi's method needs only products with the map, which cost a pass each, and finds the
-// outermost multipliers in a few tens of them. Where the vibration grows by many orders inside a
+// outermost multipliers in a few tens of them. Where the vibration grows by many orders within a
 // slow period and dies again, the product of passes is rounding noise; there the discrete QR method
 // of Lyapunov exponents (Benettin et al., Meccanica 15 (1980) 9) orthonormalises at each pass and
 // adds logarithms.
@@ -24,7 +24,7 @@ using Eigen::Index;
 constexpr Index kMostKrylov = 90;
 constexpr Index kPerKrylov = 8;  ///< of the state: at low speed many multipliers are nearly alike
 constexpr Index kMostAtLowSpeed = 300;
-constexpr double kAlike = 0.99;  ///< of the largest modulus: these have to settle with it
+constexpr double kAlike = 0.99;  ///< of the largest modulus: these must settle with it
 constexpr Index kFirstKrylov = 6;
 constexpr Index kKrylovStep = 4;
 constexpr Index kLeastBasis = 2;  ///< vectors of the QR method: the leading ones may be a pair
@@ -33,8 +33,8 @@ constexpr Index kLeastBasis = 2;  ///< vectors of the QR method: the leading one
 constexpr double kSafeLogGrowth = 14.0;
 constexpr int kMostPeriods = 16;
 
-// A fixed seed: the same cut gives the same digits in every run. Gaussian entries leave no
-// direction out.
+// A fixed seed: the same cut gives the same digits in every run. Gaussian entries omit no
+// direction.
 Eigen::VectorXd start_vector(Index size) {
   std::mt19937_64 random(20260401);
   std::normal_distribution<double> normal;
@@ -65,7 +65,7 @@ Ritz ritz(const Eigen::MatrixXd& h, const Eigen::MatrixXd& v, Index m, std::size
   const Eigen::MatrixXcd vectors = eigen.eigenvectors();
   const Eigen::VectorXcd y = vectors.col(order[0]).normalized();
   out.residual = 0.0;
-  // One that has settled may hide another of nearly its modulus that has not.
+  // A settled one may hide another of nearly the same modulus that has not settled.
   const double alike = kAlike * std::abs(values[order[0]]);
   for (const Index i : order) {
     if (std::abs(values[i]) < alike) {
@@ -100,13 +100,12 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
     apply(w);
     ++applied;
     const double grown = w.norm();
-    // Very slow laws overflow within one period; the answer "unstable by far" is all that is
-    // needed.
+    // Very slow laws overflow within one period; "far beyond stable" is then answer enough.
     if (!std::isfinite(grown)) {
       return beyond(v.col(0));
     }
-    // Classical Gram–Schmidt twice: once loses orthogonality when the map grows a vector by many
-    // orders.
+    // Classical Gram–Schmidt twice: a single pass loses orthogonality when the map grows a vector
+    // by many orders.
     for (int twice = 0; twice < 2; ++twice) {
       const Eigen::VectorXd c = v.leftCols(k + 1).transpose() * w;
       w -= v.leftCols(k + 1) * c;
@@ -121,7 +120,7 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
       if (out.residual < tolerance || whole) {
         return out;
       }
-      // An eigenvalue problem of the whole matrix after each step would cost more than the steps.
+      // Solving the whole eigenvalue problem after each step would cost more than the steps.
       look = std::min(look + std::max(kKrylovStep, look / 8), most);
     }
     v.col(k + 1) = w / left;
@@ -129,8 +128,8 @@ Ritz arnoldi(const Map& apply, Index size, std::size_t wanted, double tolerance,
   return ritz(h, v, most, wanted);
 }
 
-/// A basis that is driven through the period, kept orthonormal, and the triangular map that the
-/// steps so far were: what went in = basis·triangle·e^log_scale.
+/// A basis driven through the period and kept orthonormal, and the triangular map of the steps so
+/// far: start vectors become basis·triangle·e^log_scale.
 struct Frame {
   Eigen::MatrixXd basis;
   Eigen::MatrixXd triangle;
@@ -148,7 +147,7 @@ struct Frame {
     log_scale += std::log(scale);
   }
 
-  /// Through one period; false: it grew beyond all numbers.
+  /// Drives through one period; false: it overflowed.
   bool drive(DelayCycle& cycle) {
     triangle = Eigen::MatrixXd::Identity(basis.cols(), basis.cols());
     log_scale = 0.0;
@@ -174,9 +173,9 @@ std::vector<Complex> eigenvalues(const Eigen::MatrixXd& map) {
 }
 
 /// The period's map within the subspace that the vectors settle on has the dominant multipliers as
-/// its eigenvalues; all directions are renewed at each pass, so that none is lost in another's
-/// rounding. Each column depends on those before it alone: vectors beyond the wanted ones would
-/// change nothing.
+/// its eigenvalues; all directions are re-orthonormalised at each pass, so none is lost in
+/// another's rounding. Each column depends only on those before it: vectors beyond the wanted ones
+/// would change nothing.
 std::vector<Complex> discrete_qr(DelayCycle& cycle, std::size_t wanted, double tolerance,
                                  Multipliers& out) {
   const Index size = cycle.state_size();
@@ -190,8 +189,8 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, std::size_t wanted, double t
   double before = 1e300;
   std::vector<Complex> value;
   for (int period = 0; period < kMostPeriods; ++period) {
-    // The basis at the period's end is that at the next one's start, so that it settles on the
-    // dominant directions from period to period.
+    // The basis at the period's end starts the next period, so it settles on the dominant
+    // directions from period to period.
     const Eigen::MatrixXd start = frame.basis;
     if (!frame.drive(cycle)) {
       out.log_modulus = {kBeyondLog};
@@ -199,21 +198,19 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, std::size_t wanted, double t
       return {1.0};
     }
     out.passes_done += cycle.passes() * static_cast<std::size_t>(k);
-    // The triangle gives the period's map in the new basis; their product brings it back to the
-    // old one.
+    // The triangle gives the period's map in the new basis; the product converts it to the old one.
     value = eigenvalues(start.transpose() * frame.basis * frame.triangle);
     const double log_modulus = std::log(std::max(std::abs(value[0]), 1e-300)) + frame.log_scale;
     out.residual = std::abs(log_modulus - before);
     out.log_modulus = {log_modulus};
-    // Not after the first period: two that agree by chance before the basis has settled prove
-    // nothing.
+    // Not after the first period: a chance agreement before the basis has settled proves nothing.
     if (period > 1 && out.residual < tolerance * (1.0 + std::abs(log_modulus))) {
       break;
     }
     before = log_modulus;
   }
   value.resize(std::min(value.size(), wanted));
-  // Only the ratios are known from the scaled map; the scale is in the first one's logarithm.
+  // The scaled map gives only the ratios; the scale is in the first one's logarithm.
   for (std::size_t i = 1; i < value.size(); ++i) {
     out.log_modulus.push_back(out.log_modulus[0] +
                               std::log(std::max(std::abs(value[i]), 1e-300) / std::abs(value[0])));
@@ -226,7 +223,7 @@ std::vector<Complex> discrete_qr(DelayCycle& cycle, std::size_t wanted, double t
   return value;
 }
 
-/// ln of the largest growth from one pass to a later one of the solution that starts so.
+/// ln of the largest growth from one pass to a later one, for the solution with this start.
 double log_growth_within(DelayCycle& cycle, Eigen::VectorXd state) {
   double log_size = 0.0;
   double least = 0.0;
@@ -262,7 +259,7 @@ Multipliers multipliers(DelayCycle& cycle, std::size_t wanted, double tolerance)
   Multipliers out = multipliers_of([&](const auto& state) { cycle.apply(state); },
                                    cycle.state_size(), wanted, tolerance);
   out.passes_done *= cycle.passes();
-  // Out of range over the period may still be within it from pass to pass.
+  // A growth out of range over the period may still be in range from pass to pass.
   if (cycle.passes() > 1 &&
       (out.log_modulus[0] >= kBeyondLog ||
        log_growth_within(cycle, out.vector) - out.log_modulus[0] > kSafeLogGrowth)) {

@@ -10,17 +10,17 @@
 /// Characteristic multipliers of a cut.
 ///
 /// The dominant multipliers come from Arnoldi's method on the map of one period. Slow modulation
-/// lets a vibration grow by 10¹⁵ and die again within a period; a product of that range has lost
-/// its eigenvalues to rounding, so there the map is driven pass by pass with a basis that is made
-/// orthonormal anew each time (discrete QR).
+/// lets a vibration grow by 10¹⁵ and die again within a period; a product of that range loses its
+/// eigenvalues to rounding, so the map is then driven pass by pass with a basis re-orthonormalised
+/// each time (discrete QR).
 namespace steadyrest::chatter::offline {
 
-/// ln of what is told where a vibration grows beyond a double's range.
+/// ln of the value reported where a vibration grows beyond a double's range.
 inline constexpr double kBeyondLog = 700.0;
 
 struct Multipliers {
-  /// Of the principal period, the largest first; at least one. From discrete QR: over the modulus
-  /// of the first, which may be beyond a double's range.
+  /// Of the principal period, the largest first; at least one. From discrete QR: divided by the
+  /// modulus of the first, which may be beyond a double's range.
   std::vector<std::complex<double>> value;
   std::vector<double> log_modulus;  ///< ln|μ| over the principal period
   Eigen::VectorXd vector;           ///< real part of the dominant solution at the period's start

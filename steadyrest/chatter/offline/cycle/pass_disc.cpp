@@ -8,7 +8,7 @@
 
 // Taylor coefficients by Cauchy's integral: on the rim u = e^{iφ}, f_k is the mean of f·e^{−ikφ},
 // and the trapezium rule on a circle converges exponentially. g is then one short polynomial
-// instead of a product of matrices. A disc that does not pay is not made; the caller falls back on
+// instead of a product of matrices. A disc that does not pay is not built; the caller falls back on
 // PassMatrix.
 namespace steadyrest::chatter::offline {
 namespace {
@@ -17,14 +17,14 @@ using Complex = PassMatrix::Complex;
 using Lanes = PassMatrix::Lanes;
 
 constexpr std::size_t kLanes = PassMatrix::kLanes;
-constexpr std::size_t kStep = 2 * kLanes;  ///< of the terms: each point of the rim gives two
+constexpr std::size_t kStep = 2 * kLanes;  ///< of the term count: each rim point gives two
 constexpr std::size_t kMostRimTerms = 64;
 constexpr std::size_t kTail = 3;         ///< terms that must have died away
 constexpr double kLeastRimTerm = 1e-13;  ///< over 1, or over the rim's largest by …
 constexpr double kRimRounding = 3e-16;   ///< … this
-constexpr double kMostOnRim = 3e4;       ///< beyond, its rounding shows within
+constexpr double kMostOnRim = 3e4;       ///< beyond this, its rounding shows within
 
-/// Four points in one register; four registers keep its units busy through their latency.
+/// Four points in one register; four registers hide the latency of the arithmetic units.
 using Wide = double __attribute__((vector_size(kLanes * sizeof(double))));
 constexpr std::size_t kBlock = 4;
 struct Points {
@@ -86,8 +86,8 @@ bool PassDisc::holds(double depth_mm, double reach_mm) const noexcept {
 std::optional<PassDisc> PassDisc::make(const PassMatrix& pass, double center_mm, double radius_mm,
                                        std::size_t terms) {
   PassDisc out(pass, center_mm, radius_mm);
-  // Half as many terms more each time: a guess that is short costs little, and growing faster would
-  // overshoot where the last few would have done.
+  // Grows by half each time: a low guess costs little, and growing faster would overshoot where a
+  // few more would do.
   for (std::size_t n = (terms / kStep + 1) * kStep; n <= kMostRimTerms;
        n += std::max(n / 2, kStep) / kStep * kStep) {
     if (out.sample(n)) {
@@ -112,7 +112,7 @@ PassDisc::Rim PassDisc::rim(std::size_t terms) const {
     Lanes z;
     for (std::size_t i = 0; i < kLanes; ++i) {
       // Angles at half steps come in conjugate pairs, and none lies on the real axis: f(z̄) = f̄(z)
-      // gives the lower half for nothing.
+      // gives the lower half for free.
       const double angle =
           2.0 * std::numbers::pi * (static_cast<double>(j + i) + 0.5) / static_cast<double>(terms);
       out.back[j + i] = std::polar(1.0, -angle);
@@ -130,7 +130,7 @@ PassDisc::Rim PassDisc::rim(std::size_t terms) const {
   return out;
 }
 
-/// The coefficients by the mean over the rim, f_k = Σ value·e^(−ikφ); uses the rim up.
+/// The coefficients by the mean over the rim, f_k = Σ value·e^(−ikφ); consumes the rim.
 void PassDisc::transform(Rim& rim, std::size_t terms) {
   const std::size_t functions = pass_->functions();
   const std::size_t points = rim.points;
@@ -139,7 +139,7 @@ void PassDisc::transform(Rim& rim, std::size_t terms) {
   const Complex* const back = rim.back.data();
   for (std::size_t f = 0; f < functions; ++f) {
     Complex* const v = &rim.value[f * points];
-    // The real part counts for both points of a pair. Each pass over the rim turns the values on by
+    // The real part counts for both points of a pair. Each pass over the rim rotates the values by
     // e^{−iφ}, so no sine is computed here.
     for (std::size_t k = 0; k < terms; ++k) {
       double sum = 0.0;
@@ -153,7 +153,7 @@ void PassDisc::transform(Rim& rim, std::size_t terms) {
   }
 }
 
-/// Drops the terms at the end that say nothing; false: they have not died away.
+/// Drops negligible terms at the end; false: they have not died away.
 bool PassDisc::cut_tail(double least) {
   const std::size_t functions = pass_->functions();
   const std::size_t terms = terms_;
@@ -169,7 +169,7 @@ bool PassDisc::cut_tail(double least) {
     --needed;
   }
   // Aliasing folds the coefficients beyond `terms` back onto the first ones. Several small ones in
-  // a row show that there is nothing left to fold.
+  // a row show that nothing is left to fold.
   if (needed + kTail > terms) {
     return false;
   }
@@ -181,9 +181,9 @@ bool PassDisc::cut_tail(double least) {
   return true;
 }
 
-/// Coefficients carry the rim's rounding, 3e-16 of its largest value, wherever in the disc they are
-/// used; beyond kMostOnRim that is more than 1e-11, and g is wanted near its zeros.
-/// False: more terms are needed; then `terms_` is 0 where no number of them will do.
+/// Coefficients carry the rim's rounding, 3e-16 of its largest value, throughout the disc; beyond
+/// kMostOnRim that exceeds 1e-11, and g is needed near its zeros. False: more terms are needed;
+/// then `terms_` is 0 where no number of them will do.
 bool PassDisc::sample(std::size_t terms) {
   Rim on_rim = rim(terms);
   if (!(on_rim.largest < kMostOnRim)) {

@@ -17,7 +17,7 @@
 /// are entire in z and real on the real axis, so their values at n/2 points of a half circle give n
 /// coefficients of Σ f_k·u^k, u = (z − centre)/radius. One disc serves all ξ of a circle and many
 /// depths a, and g costs n multiplications instead of the product of all pieces. Over the disc the
-/// series repeats PassMatrix to 1e-12 of the largest value on its rim.
+/// series reproduces PassMatrix to 1e-12 of the largest value on its rim.
 namespace steadyrest::chatter::offline {
 
 class PassDisc {
@@ -25,13 +25,13 @@ class PassDisc {
   using Complex = PassMatrix::Complex;
   using Lanes = PassMatrix::Lanes;
 
-  /// Empty: the values on the rim are so large, or so many terms are needed, that PassMatrix itself
-  /// is the better choice. `terms`: a guess of how many are needed. The disc must lie where `pass`
-  /// is to be used; `pass` must outlive this.
+  /// Empty where the values on the rim are so large, or so many terms are needed, that PassMatrix
+  /// itself is the better choice. `terms`: a guess of how many are needed. The disc must lie where
+  /// `pass` is valid; `pass` must outlive this.
   [[nodiscard]] static std::optional<PassDisc> make(const PassMatrix& pass, double center_mm,
                                                     double radius_mm, std::size_t terms);
 
-  /// Are all z with |z − a| ≤ `reach_mm` within the disc?
+  /// Whether all z with |z − a| ≤ `reach_mm` are within the disc.
   [[nodiscard]] bool holds(double depth_mm, double reach_mm) const noexcept;
   [[nodiscard]] std::size_t terms() const noexcept { return terms_; }
 

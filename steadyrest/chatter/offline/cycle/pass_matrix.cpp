@@ -10,10 +10,10 @@
 #include <steadyrest/chatter/offline/cycle/piece_terms.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// The constructor cuts the pass into pieces and stores each as a power series in z; values() sums
-// the series and multiplies the pieces at four z at a time; g_of() makes det(I − ξ·M) of the
-// product. One speed costs thousands of g, so the lanes and the number of terms decide how long a
-// lobe map takes.
+// The constructor divides the pass into pieces and stores each as a power series in z; values()
+// sums the series and multiplies the pieces at four z at a time; g_of() computes det(I − ξ·M) from
+// the product. One speed costs thousands of g, so the lanes and the number of terms decide how long
+// a lobe map takes.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -23,7 +23,7 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Short pieces need few terms, long ones few products; the terms fall as phase^(2k)/(2k)!.
+// Short pieces need few terms, long pieces few products; the terms fall as phase^(2k)/(2k)!.
 constexpr double kPiecePhase = 5.0;  ///< of the fastest oscillation
 
 /// N×N matrices by rows, one in each lane.
@@ -36,8 +36,8 @@ struct Matrices {
   std::array<Wide, N * N> im{};
 };
 
-/// From the left by Σ term[k]·z^k. Real polynomials at complex points need half of Horner's work:
-/// b_k = c_k + 2·Re z·b_{k+1} − |z|²·b_{k+2} (Knuth, TAOCP 2, 4.6.4).
+/// Multiplies from the left by Σ term[k]·z^k. Real polynomials at complex points need half of
+/// Horner's work: b_k = c_k + 2·Re z·b_{k+1} − |z|²·b_{k+2} (Knuth, TAOCP 2, 4.6.4).
 template <std::size_t N>
 [[gnu::always_inline]] inline void step_lanes(const double* number, std::size_t terms,
                                               Matrices<N>& m) {
@@ -103,7 +103,7 @@ double largest(const PassMatrix::Lanes& z) {
 
 std::size_t terms_for(const std::vector<double>& reach_mm, double size_mm) {
   std::size_t terms = reach_mm.size() - 1;
-  // Near z = 0 a few terms do.
+  // Near z = 0 a few terms suffice.
   while (terms > 1 && size_mm <= reach_mm[terms - 1]) {
     --terms;
   }
@@ -122,7 +122,7 @@ Matrices<N> product(const AllSeries& all, const std::vector<double>& number,
       m.re[(N + 1) * row][i] = 1.0;
     }
   }
-  // The lane with the largest |z| needs the most terms; the others ride along.
+  // The lane with the largest |z| needs the most terms; the others use as many.
   const double size = largest(z);
   for (const auto& series : all) {
     step<N>(&number[series.begin], terms_for(series.reach_mm, size), m);
@@ -155,7 +155,7 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
   const CuttingCoefficients coefficients(process, depth_mm);
   const double pass_rad = kTurn / static_cast<double>(process.tool.teeth);
   const double pass_s = pass_rad / (kTurn * speed_rev_s);
-  // |z| takes the depth's place in the cutting stiffness, so the greatest |z| sets the fastest
+  // |z| replaces the depth in the cutting stiffness, so the greatest |z| sets the fastest
   // oscillation.
   const double fastest = fastest_rad_s(process, most_z_mm, speed_rev_s);
   const std::vector<double> corner = corners_of_pass(process, coefficients, pass_rad);
@@ -171,8 +171,8 @@ PassMatrix::PassMatrix(const Process& process, double speed_rev_s, double most_z
         {process, coefficients, speed_rev_s, corner[i], length, static_cast<std::size_t>(pieces)});
   }
   for (const Series& series : series_) {
-    // Liouville: det M is that of the free vibration for every z, since forces depend on
-    // displacement alone; term 0 of each piece is its map at z = 0.
+    // Liouville: det M is that of the free vibration for every z, since forces depend only on
+    // displacement; term 0 of each piece is its map at z = 0.
     determinant_ *=
         Eigen::Map<const RowMajor>(&number_[series.begin], order_, order_).determinant();
   }
@@ -185,7 +185,7 @@ void PassMatrix::add_free(const Eigen::MatrixXd& e) {
   Eigen::Map<RowMajor>(&number_[series_.back().begin], order_, order_) = e;
 }
 
-/// The pieces of one stretch side by side: the modes' answers are the same in all of them.
+/// The pieces of one stretch side by side: the modes respond alike in all of them.
 void PassMatrix::add_cutting(const Stretch& stretch) {
   const PieceTerms terms(stretch, static_cast<std::size_t>(order_), most_z_mm_);
   for (std::size_t p = 0; p < stretch.pieces; ++p) {
@@ -198,7 +198,7 @@ void PassMatrix::add_cutting(const Stretch& stretch) {
         size[t] = std::max(size[t], std::abs(number));
       }
     }
-    // From the last term down: with t terms the largest term left out is at most kLeastTerm as long
+    // From the last term down: with t terms the largest omitted term is at most kLeastTerm as long
     // as |z|^t·size stays below it.
     double reach = most_z_mm_ * 1.0000001;
     for (std::size_t t = terms.count(); t-- > 1;) {

@@ -17,9 +17,9 @@
 /// matrix M(z) of one pass has μ as an eigenvalue,
 ///   g(ξ) = det(I − ξ·M(a·(1 − ξ))) = 0.
 /// g is entire in ξ; the dominant multiplier is 1/ξ of its smallest zero. M is a product of short
-/// pieces, each a power series in z whose terms fall as 1/(2k)!. With straight teeth M depends
-/// on z alone and serves all depths, with helical ones it holds for one. Relative
-/// error of M 1e-12 for |z| ≤ `most_z_mm`; beyond it is not to be used.
+/// pieces, each a power series in z whose terms fall as 1/(2k)!. With straight teeth M depends only
+/// on z and serves all depths; with helical teeth it holds for one. Relative error of M: 1e-12 for
+/// |z| ≤ `most_z_mm`; invalid beyond.
 namespace steadyrest::chatter::offline {
 
 struct Stretch;
@@ -27,22 +27,22 @@ struct Stretch;
 class PassMatrix {
  public:
   using Complex = std::complex<double>;
-  /// So many z or ξ at once, for little more than the price of one.
+  /// Number of z or ξ at once, at little more than the cost of one.
   static constexpr std::size_t kLanes = 4;
   using Lanes = std::array<Complex, kLanes>;
 
   /// Even pitch, no process damping.
   [[nodiscard]] static bool simple(const Process& process) noexcept;
 
-  /// The process must be `simple()`. `depth_mm` matters for helical teeth alone.
+  /// The process must be `simple()`. `depth_mm` matters only for helical teeth.
   PassMatrix(const Process& process, double speed_rev_s, double most_z_mm, double depth_mm);
 
-  /// What g is made of besides ξ: the trace of M where M is 2×2 (its determinant does not
-  /// depend on z, by Liouville), else its entries by columns.
+  /// The number of functions that g needs in addition to ξ: the trace of M where M is 2×2 (its
+  /// determinant does not depend on z, by Liouville), else its entries by columns.
   [[nodiscard]] std::size_t functions() const noexcept { return functions_; }
-  /// At four z, `functions()` of them from `out` on.
+  /// Computes `functions()` values at four z, from `out` on.
   void values(const Lanes& z, Lanes* out) const;
-  /// g of four ξ from those of z = a·(1 − ξ).
+  /// g at four ξ from the values at z = a·(1 − ξ).
   [[nodiscard]] Lanes g_of(const Lanes& xi, const Lanes* value) const;
 
   [[nodiscard]] Complex g(Complex xi, double depth_mm) const;
@@ -53,7 +53,7 @@ class PassMatrix {
   /// M of one piece is Σ term[k]·z^k; the terms by rows from `begin` on.
   struct Series {
     std::size_t begin = 0;
-    std::vector<double> reach_mm;  ///< |z| up to which that many terms suffice
+    std::vector<double> reach_mm;  ///< |z| up to which as many terms suffice
   };
   void add_free(const Eigen::MatrixXd& e);
   void add_cutting(const Stretch& stretch);

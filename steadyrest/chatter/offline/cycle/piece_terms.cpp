@@ -70,7 +70,7 @@ class Pieces {
     return out;
   }
 
-  /// R·F_{k+1} from what x_k is.
+  /// R·F_{k+1} from x_k.
   [[nodiscard]] Rows next() {
     for (std::size_t row = 0; row < nodes_; ++row) {
       const std::size_t node = row % static_cast<std::size_t>(kNodes);
@@ -145,8 +145,7 @@ PieceTerms::PieceTerms(const Stretch& stretch, std::size_t order, double most_z_
     for (const double number : term_.back()) {
       largest = std::max(largest, std::abs(number));
     }
-    // At the greatest |z| asked for; the terms fall as 1/(2k)!, so all later ones are smaller
-    // still.
+    // At the greatest |z| required; the terms fall as 1/(2k)!, so all later ones are smaller still.
     if (largest * power < kLeastTerm) {
       break;
     }

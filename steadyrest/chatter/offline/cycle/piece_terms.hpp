@@ -14,9 +14,9 @@
 /// at the end is E·s + R·F.
 namespace steadyrest::chatter::offline {
 
-inline constexpr double kLeastTerm = 1e-14;  ///< of a series in z: the first to be left out
+inline constexpr double kLeastTerm = 1e-14;  ///< of a series in z: the first to be omitted
 
-/// Where nothing but the forces changes, cut into even pieces.
+/// A part of the pass where only the forces change, divided into even pieces.
 struct Stretch {
   const Process& process;
   const CuttingCoefficients& coefficients;

@@ -11,9 +11,9 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// The work grows with the waves in the period: nodes go with waves, matrices with their square.
-// Each bound below turns a cost or a loss of digits into a limit that a machinist can check, and
-// the out_of_reach says which speed and depth would be accepted.
+// The work grows with the waves in the period: nodes in proportion, matrices with the square. Each
+// bound below turns a cost or a loss of digits into a limit that a machinist can check, and the
+// out_of_reach refusal says which speed and depth would be accepted.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -22,13 +22,13 @@ using kernel::outcome::Refusal;
 using kernel::units::kTurn;
 
 // These catch a figure in the process file that is a million times off before it costs minutes and
-// gigabytes. Real cuts are far inside.
+// gigabytes. Real cuts are well inside.
 constexpr double kMostWaves = 300.0;    ///< between two teeth
-constexpr double kMostDamped = 1000.0;  ///< likewise, the rate of process damping counted in
+constexpr double kMostDamped = 1000.0;  ///< likewise, including the rate of process damping
 constexpr double kLeastWaves = 1e-4;    ///< of the slowest mode, likewise
 constexpr double kMostInPeriod = 3e4;   ///< waves in the principal period: some 1 GB
 constexpr double kMostWinding = 16.0;   ///< turns of a helical edge round the tool
-constexpr double kMostDepth_mm = 1e5;   ///< of all machines
+constexpr double kMostDepth_mm = 1e5;   ///< more than any machine
 constexpr int kHalvings = 80;
 
 constexpr const char* kCheck =
@@ -51,8 +51,8 @@ double winding(const Process& process, double depth_mm) noexcept {
 template <class Fits>
 double last_fit(double fits_at, double fails_at, const Fits& fits) {
   for (int i = 0; i < kHalvings; ++i) {
-    // The range spans up to 24 decades, so it is halved in its logarithm.
-    // Two roots, not the root of the product, which may overflow.
+    // The range spans up to 24 decades, so bisect its logarithm. Two roots, not the root of the
+    // product, which may overflow.
     const double middle = std::sqrt(fits_at) * std::sqrt(fails_at);
     (fits(middle) ? fits_at : fails_at) = middle;
   }
@@ -64,12 +64,11 @@ template <class Fits>
 std::string allowed(double speed_rev_s, double depth_mm, const Fits& fits) {
   constexpr double kFar = 1e12;
   std::string out;
-  // A faster spindle and a smaller depth both mean fewer waves. Either is named alone if it
-  // suffices.
+  // A faster spindle and a smaller depth both mean fewer waves. Each is named if it suffices alone.
   if (fits(speed_rev_s * kFar, depth_mm)) {
     const double least = last_fit(speed_rev_s * kFar, speed_rev_s,
                                   [&](double speed) { return fits(speed, depth_mm); });
-    // Rounded to the safe side, so that the speed named is accepted when it is typed back.
+    // Rounded to the safe side, so that the named speed is accepted when typed in.
     out = fmt::format("at this depth from {:.4g} rpm on", 60.0 * least * 1.0001);
   }
   if (fits(speed_rev_s, depth_mm / kFar)) {
@@ -113,7 +112,7 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
                     most_depth_mm, turns, kMostWinding, most_depth_mm * kMostWinding / turns),
         "give a smaller depth, or check diameter_mm and helix_deg of [tool]");
   }
-  // Process damping adds a rate of decay, not an oscillation; it is counted against a wider bound.
+  // Process damping adds a rate of decay, not an oscillation; it has a wider bound.
   Process undamped = process;
   undamped.cut.process_damping_n_mm = 0.0;
   const double in_period = kMostInPeriod / static_cast<double>(passes);
@@ -132,8 +131,8 @@ std::optional<Refusal> beyond_reach(const Process& process, double slowest_rev_s
                     allowed(slowest_rev_s, most_depth_mm, fits)),
         kCheck);
   }
-  // An upper bound on the speed: beyond it the multipliers only come together at 1, where ln ρ
-  // loses its digits.
+  // An upper bound on the speed: beyond it the multipliers merely converge on 1, where ln ρ loses
+  // its digits.
   double lowest_hz = process.modes.empty() ? 0.0 : process.modes[0].frequency_hz;
   for (const Mode& mode : process.modes) {
     lowest_hz = std::min(lowest_hz, mode.frequency_hz);

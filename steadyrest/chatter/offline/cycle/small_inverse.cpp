@@ -22,8 +22,8 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
     }
     to[j] += 1.0;
   }
-  // Gauss–Jordan, step k: the row is divided by its pivot and taken out of all other rows. Column k
-  // is then a unit vector and need not be stored; column k of the inverse grows in its place.
+  // Gauss–Jordan, step k: divide the row by its pivot and eliminate it from all other rows. Column
+  // k is then a unit vector and need not be stored; column k of the inverse takes its place.
   for (std::size_t k = 0; k < size_; ++k) {
     double* const own = &number_[k * stride_];
     std::size_t p = k;
@@ -39,7 +39,7 @@ void SmallInverse::make(const Eigen::MatrixXd& m, double a) {
     for (std::size_t j = 0; j < size_; ++j) {
       double& row = number_[j * stride_ + k];
       factor_[j] = row * inverse;
-      // What is left of it after the elimination.
+      // What remains of it after the elimination.
       row = 0.0;
     }
     std::copy_n(own, stride_, column_.begin());

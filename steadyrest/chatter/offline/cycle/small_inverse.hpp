@@ -9,9 +9,9 @@
 
 /// (I + a·M)⁻¹ for matrices of some tens of rows, and its products with vectors.
 ///
-/// Gauss and Jordan's elimination in place with row pivots: n³ multiplications along whole columns,
-/// four numbers at a time. At this size that is several times quicker than what a library does for
-/// large ones. The result is the same on every machine: no product is fused with a sum.
+/// Gauss–Jordan elimination in place with row pivots: n³ multiplications along whole columns, four
+/// numbers at a time. At this size that is several times faster than a library's method for large
+/// matrices. The result is the same on every machine: no product is fused with a sum.
 namespace steadyrest::chatter::offline {
 
 class SmallInverse {
@@ -27,8 +27,8 @@ class SmallInverse {
  private:
   std::size_t size_ = 0;
   std::size_t stride_ = 0;      ///< of the columns, a multiple of four
-  std::vector<double> number_;  ///< by columns, filled up with zeros
-  std::vector<double> column_;  ///< while it is made
+  std::vector<double> number_;  ///< by columns, padded with zeros
+  std::vector<double> column_;  ///< scratch for make()
   std::vector<double> factor_;
   std::vector<std::size_t> pivot_;
 };

@@ -15,7 +15,7 @@ constexpr double kRealMultiplier = 1e-6;  ///< |Im μ| of a real multiplier, rel
 constexpr std::size_t kMostLinePasses = 400;
 constexpr double kMostLogModulus = 300.0;
 constexpr double kMostLines = 4000.0;
-// A line needs four nodes to a wave at least to be told from its alias.
+// A line needs at least four nodes per wave to be told from its alias.
 constexpr double kLinesPerSample = 0.25;
 
 /// Displacements through one principal period.
@@ -29,15 +29,15 @@ std::vector<DelayCycle::Sample> samples_of(DelayCycle& cycle, Eigen::VectorXd& s
   return out;
 }
 
-/// μ = e^{λT}: the vibration is e^{λt} times something periodic; of its lines (arg μ + 2πk)/T the
-/// strongest.
+/// The strongest of the lines (arg μ + 2πk)/T of the vibration, which is e^{λt} times something
+/// periodic, μ = e^{λT}.
 std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& found) {
-  // Long periods have thousands of lines of nearly equal strength: "the strongest" says nothing
+  // Long periods have thousands of lines of nearly equal strength: "the strongest" means nothing
   // there.
   if (cycle.passes() > kMostLinePasses || std::abs(found.log_modulus[0]) > kMostLogModulus) {
     return std::nullopt;
   }
-  // From discrete QR the value is a direction alone.
+  // A value from discrete QR is only a direction.
   const Complex mu = found.value[0] / std::abs(found.value[0]);
   const double period = cycle.period_s();
   // Two periods of the real part give the complex solution: Im from x(t + T) = Re(μ·z).
@@ -58,8 +58,8 @@ std::optional<double> strongest_line_hz(DelayCycle& cycle, const Multipliers& fo
     const double x = first[i].x_mm;
     // x(t + T)/|μ| = Re(μ·z) = Re μ·x − Im μ·y with μ on the unit circle, solved for y.
     const double y = real ? 0.0 : (x * mu.real() - second[i].x_mm) / mu.imag();
-    // With the growth taken out the rest is periodic: its Fourier sums over the Gauss weights, all
-    // lines at the price of one complex product each by turning every term on from k to k + 1.
+    // Without the growth the rest is periodic: Fourier sums over the Gauss weights, one complex
+    // product per line and node by rotating every term from k to k + 1.
     term[i] = first[i].weight_s * Complex(x, y) * std::exp(-growth * t) *
               std::polar(1.0, -(turn - base * most) * t);
     rotor[i] = std::polar(1.0, -base * t);
@@ -101,7 +101,7 @@ Stability stability(DelayCycle& cycle, const StabilityOptions& options) {
   Stability out;
   out.passes = cycle.passes();
   out.law_periods = cycle.law_periods();
-  // The principal period may hold several periods of the law; what is reported is per law period.
+  // The principal period may hold several periods of the law; the result is per law period.
   out.log_radius = found.log_modulus[0] / static_cast<double>(cycle.law_periods());
   out.log_radius_per_pass = found.log_modulus[0] / static_cast<double>(cycle.passes());
   out.stable = out.log_radius < 0.0;

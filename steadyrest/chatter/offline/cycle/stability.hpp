@@ -12,11 +12,11 @@
 
 /// Is the cut stable at this speed and depth, and how much may a vibration grow before it dies?
 ///
-/// Spectral radius ρ < 1 is needed, but with slow modulation not enough: a vibration grows while
-/// the speed passes through what is unstable. Peak growth is the worst of all vibrations: the
+/// Spectral radius ρ < 1 is necessary but, with slow modulation, not enough: a vibration grows
+/// while the speed passes through unstable ranges. Peak growth is the worst of all vibrations: the
 /// largest later displacement over the largest within one pass before, max ‖Φ(t₂, t₁)‖_∞ over pass
-/// boundaries t₁ < t₂ within two principal periods (20 passes at least; free vibration counts as
-/// q and q̇/ω).
+/// boundaries t₁ < t₂ within two principal periods (at least 20 passes; free vibration counts as q
+/// and q̇/ω).
 namespace steadyrest::chatter::offline {
 
 enum class ChatterType : std::uint8_t {
@@ -34,12 +34,12 @@ struct Stability {
   std::complex<double> multiplier;       ///< dominant, over the principal period
   ChatterType type = ChatterType::none;  ///< of the dominant multiplier when unstable
   /// The strongest line of the dominant vibration e^{λt}·p(t), p repeating with the principal
-  /// period. The multiplier e^{λT} gives a frequency but for multiples of 1/T: at constant speed
-  /// the strongest line stands out, under modulation there are lines of nearly its strength 1/T
-  /// apart. Empty beyond 400 passes.
+  /// period. The multiplier e^{λT} gives a frequency up to multiples of 1/T: at constant speed the
+  /// strongest line stands out, under modulation lines 1/T apart are nearly as strong. Empty beyond
+  /// 400 passes.
   std::optional<double> frequency_hz;
   double frequency_step_hz = 0.0;  ///< 1/T
-  double peak_growth = 1.0;        ///< see above; only when asked for, else 1
+  double peak_growth = 1.0;        ///< see above; only on request, else 1
   std::size_t passes = 1;          ///< in the principal period
   std::size_t law_periods = 1;
 };
@@ -53,7 +53,7 @@ struct StabilityOptions {
 /// At the cycle's present depth.
 [[nodiscard]] Stability stability(DelayCycle& cycle, const StabilityOptions& options);
 
-/// The same of a point; the depth is `config.most_depth_mm`. Refuses what DelayCycle refuses.
+/// The same at one point; the depth is `config.most_depth_mm`. Refuses what DelayCycle refuses.
 [[nodiscard]] kernel::outcome::Result<Stability> stability_at(const Process& process,
                                                               const DelayCycle::Config& config,
                                                               const StabilityOptions& options);

@@ -8,8 +8,8 @@
 #include <steadyrest/chatter/offline/depth/border_line.hpp>
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
-// border_line() gives the border as a curve; what a speed is worth is the curve's minimum within
-// the tolerance about it; take_peak() then takes maxima off that second curve, the highest first,
+// border_line() gives the border as a curve; a speed's worth is the curve's minimum within the
+// tolerance about it; take_peak() then removes maxima from that second curve, the highest first,
 // each with its slopes, so that the next one comes from another lobe.
 namespace steadyrest::chatter::offline {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kNextSpeed = 1.2;
 constexpr double kFall = 0.98;  ///< between two maxima
 constexpr double kSameDepth = 1e-6;
 
-/// Border over speed, its greatest depth where there is none.
+/// Border over speed; the greatest depth where there is none.
 class Curve {
  public:
   Curve(const BorderLine& line, double most_mm) : speed_rev_s_(line.speed_rev_s) {
@@ -58,7 +58,7 @@ class Curve {
   std::vector<double> depth_mm_;
 };
 
-/// The slowest speed that is worth a look; empty: the solver reaches none.
+/// The slowest speed worth considering; empty: the solver reaches none.
 std::optional<double> slowest(const Process& process, const BestSpeedsConfig& config) {
   // Waves go with 1/n: at this speed there are kMostUsefulWaves between two teeth.
   const double lobes = free_waves(process, config.max_rev_s) / kMostUsefulWaves * config.max_rev_s;
@@ -76,7 +76,7 @@ struct Peak {
   std::size_t last = 0;
 };
 
-/// The highest that is left; of equals the last. Takes it and its slopes out of `left`.
+/// The highest one left; of equals the last. Removes it and its slopes from `left`.
 std::optional<Peak> take_peak(const std::vector<double>& worth, std::vector<bool>& left) {
   std::optional<std::size_t> top;
   for (std::size_t i = 0; i < worth.size(); ++i) {
@@ -114,7 +114,7 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
   }
   const double low = 1.0 - config.tolerance_ratio;
   const double high = 1.0 + config.tolerance_ratio;
-  // Beyond both ends by the tolerance, since the minimum about the last speed reaches there.
+  // Beyond both ends by the tolerance, since the minimum about the last speed reaches that far.
   const auto line = border_line(process, {.speed_rev_s = {*from * low, config.max_rev_s * high},
                                           .most_depth_mm = config.most_depth_mm,
                                           .modulation = {}});
@@ -130,10 +130,11 @@ Result<std::vector<BestSpeed>> best_speeds(const Process& process, const BestSpe
   std::vector<double> worth;
   worth.reserve(speed.size());
   for (const double n : speed) {
-    // A change of all natural frequencies by a factor is a change of the speed by it.
+    // Changing all natural frequencies by a factor amounts to changing the speed by it.
     worth.push_back(curve.lowest(n * low, n * high));
   }
-  // The curve shows "no border" as the greatest depth; a caller must not take that for a border.
+  // The curve shows "no border" as the greatest depth; the caller must not mistake that for a
+  // border.
   const auto below_most = [&](double depth_mm) {
     return depth_mm < config.most_depth_mm * (1.0 - kSameDepth) ? std::optional(depth_mm)
                                                                 : std::nullopt;

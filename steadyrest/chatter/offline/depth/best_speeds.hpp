@@ -10,10 +10,10 @@
 
 /// The best constant speeds of a cut on a spindle, one from each lobe.
 ///
-/// The cusp between two lobes is the deepest place and no place to cut: a half percent of the
-/// frequency beside it lies the flank. A speed n is worth what the border is at the lowest within
-/// n·(1 ± tolerance), since a change of all frequencies is a change of the speed; the best speeds
-/// are the highest of its maxima, the faster of equals first, parted by a fall of 2 % at least.
+/// The cusp between two lobes is the deepest place but no place to cut: half a percent of the
+/// frequency away is the flank. A speed n is worth the lowest border within n·(1 ± tolerance),
+/// since changing all frequencies amounts to changing the speed; the best speeds are the highest
+/// maxima of that worth, the faster of equals first, separated by a dip of at least 2 %.
 namespace steadyrest::chatter::offline {
 
 struct BestSpeedsConfig {
@@ -31,7 +31,7 @@ struct BestSpeed {
 };
 
 /// The best first. Lobes beyond 25 waves between two teeth are too narrow to aim at and left out,
-/// unless the spindle is so slow that it has no others. Empty where the solver reaches no speed.
+/// unless the spindle is too slow for any others. Empty where the solver reaches no speed.
 [[nodiscard]] kernel::outcome::Result<std::vector<BestSpeed>> best_speeds(
     const Process& process, const BestSpeedsConfig& config);
 

@@ -17,7 +17,7 @@
 
 // Adaptive bisection in rounds: first_spans() puts six points on each lobe, each round evaluates
 // the middles of all open spans in parallel, and halved() keeps those whose middle was off the
-// line. spend() bounds the work where a point is dear.
+// line. spend() bounds the work where points are expensive.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -26,10 +26,10 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr double kOfDepth = 1e-2;  ///< tolerance
-constexpr double kOfMost = 5e-4;   ///< of the greatest depth, beside that
-constexpr double kNarrow = 3e-4;   ///< of a lobe's width, to which cusps and jumps are closed in on
+constexpr double kOfMost = 5e-4;   ///< of the greatest depth, in addition
+constexpr double kNarrow = 3e-4;   ///< of a lobe's width: how closely cusps and jumps are located
 constexpr double kPerLobe = 6.0;
-constexpr double kFrom = 0.5;    ///< of the lowest border of all lobes, from which it is sought
+constexpr double kFrom = 0.5;    ///< of the lowest border of all lobes, where the search begins
 constexpr double kMiddle = 0.5;  ///< of the tolerance: a bow is deepest in its middle
 constexpr std::size_t kQuickPoints = 20'000;
 constexpr std::size_t kSlowPoints = 200;
@@ -43,8 +43,8 @@ struct Point {
 struct Span {
   Point from;
   Point to;
-  double doubt_mm = 0.0;  ///< how far the line was off there when last looked at
-  bool calm = false;      ///< then it was within tolerance
+  double doubt_mm = 0.0;  ///< how far the line was off there when last checked
+  bool calm = false;      ///< that was within tolerance
 };
 
 class Line {
@@ -61,7 +61,7 @@ class Line {
                            [](double speed) { return Point{.speed_rev_s = speed}; });
     evaluate(points);
     // A slow cut (law, uneven pitch, process damping, helix) rebuilds its map for each depth: there
-    // the number of points is what costs.
+    // the number of points is the cost.
     left_ = quick_ ? kQuickPoints : std::max(kSlowPoints, points.size());
     for (std::vector<Span> open = refused_ ? std::vector<Span>{} : first_spans(points);
          !open.empty() && !refused_;) {
@@ -108,7 +108,7 @@ class Line {
     return point.depth_mm.value_or(config_.most_depth_mm);
   }
 
-  /// Cuts the gaps between the given speeds so that each lobe has its points.
+  /// Divides the gaps between the given speeds so that each lobe gets its points.
   std::vector<Span> first_spans(std::vector<Point>& points) {
     std::vector<double> parts;
     double sum = 0.0;
@@ -133,8 +133,8 @@ class Line {
     evaluate(more);
     left_ -= std::min(left_, more.size());
     points.insert(points.end(), more.begin(), more.end());
-    // Only when every lobe has been seen: otherwise the lowest of them might be missing and the
-    // search would begin above it.
+    // Only once every lobe has been seen: otherwise the lowest might be missing and the search
+    // would begin above it.
     if (share == 1.0) {
       from_mm_ =
           kFrom * std::ranges::min(points | std::views::transform([this](const Point& point) {
@@ -151,18 +151,18 @@ class Line {
     return out;
   }
 
-  /// Leaves of the spans those that the work allowed is enough for, the worst.
+  /// Keeps only the worst spans, as many as the remaining work allows.
   void spend(std::vector<Span>& open) {
     if (open.size() > left_) {
       settled_ = false;
-      // The worst first, so that what runs out of work is the least visible.
+      // The worst first, so that the spans left unrefined are the least visible.
       std::ranges::sort(open, std::ranges::greater{}, &Span::doubt_mm);
       open.resize(left_);
     }
     left_ -= open.size();
   }
 
-  /// What is left to do once the middles are known.
+  /// The spans still open once the middles are known.
   std::vector<Span> halved(const std::vector<Span>& open, std::vector<Point>& points) {
     std::vector<Point> middles;
     middles.reserve(open.size());
@@ -181,8 +181,8 @@ class Line {
       // One wave between two teeth spans n/k of the speed at k waves.
       const double lobe =
           span.to.speed_rev_s / std::max(1.0, free_waves(process_, span.to.speed_rev_s));
-      // One calm middle may be chance, where the line happens to cross the border; two in a row are
-      // not. A jump onto an island never calms down, so it ends by width.
+      // One middle within tolerance may be chance, where the line happens to cross the border; two
+      // in a row are not. A jump onto an island never calms down, so it ends by width.
       if ((calm && span.calm) || width <= kNarrow * lobe) {
         continue;
       }

@@ -11,17 +11,16 @@
 
 /// The border of the lobes as a line: the lowest depth with ρ = 1 over the speed.
 ///
-/// Between the speeds that are asked for it is halved until the line through its points is within
-/// 1 % of the depth and 0.05 % of the greatest depth of the border, cusps between lobes and jumps
-/// onto islands included, there to 3e-4 of a lobe's width in speed. It starts from six points on
-/// each lobe (on each wave that the fastest mode makes more or fewer between two teeth), so that no
-/// lobe is passed over, however few speeds are given. A span counts as settled when its middle and
-/// the one before lie on the line. Between them the border is sought from half of its lowest depth
-/// up.
+/// Spans between the given speeds are halved until the line through the points is within 1 % of the
+/// depth plus 0.05 % of the greatest depth of the border; cusps between lobes and jumps onto
+/// islands are located to 3e-4 of a lobe's width in speed. It starts from six points on each lobe
+/// (each wave more or fewer of the fastest mode between two teeth), so no lobe is missed, however
+/// few speeds are given. A span counts as settled when its middle and the previous one lie on the
+/// line. The search for each border starts at half of the lowest one found.
 namespace steadyrest::chatter::offline {
 
 struct BorderLineConfig {
-  std::vector<double> speed_rev_s;  ///< rising, each > 0, at least one; all are in the line
+  std::vector<double> speed_rev_s;  ///< rising, each > 0, at least one; all become points
   double most_depth_mm = 1.0;       ///< > 0
   Modulation modulation;
   unsigned threads = 0;  ///< 0: as many as the machine has
@@ -30,13 +29,13 @@ struct BorderLineConfig {
 struct BorderLine {
   std::vector<double> speed_rev_s;              ///< rising
   std::vector<std::optional<double>> depth_mm;  ///< to 1e-9; empty: stable up to the greatest depth
-  /// False: the work allowed (20 000 points, where each depth needs the whole map of the cut as
-  /// many as there are speeds, 200 at least) was spent before all of it was within tolerance; the
-  /// worst places were refined first.
+  /// False: the allowed work was spent before the whole line was within tolerance; the worst places
+  /// were refined first. Allowed are 20 000 points, or, where each depth needs the whole map of the
+  /// cut, as many as there are speeds, at least 200.
   bool settled = true;
 };
 
-/// `progress` as lobe_map() has it. Refuses what DepthLine refuses, and speeds that do not rise.
+/// `progress` as in lobe_map(). Refuses what DepthLine refuses, and speeds that do not rise.
 [[nodiscard]] kernel::outcome::Result<BorderLine> border_line(
     const Process& process, const BorderLineConfig& config,
     const std::function<void(double)>& progress = {});

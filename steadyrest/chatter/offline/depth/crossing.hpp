@@ -13,13 +13,13 @@ struct DepthValue {
 
 /// Between a depth with a value below 0 and a greater one with a value of 0 or above, to 1e-10 of
 /// the depth. Illinois: regula falsi that halves the ordinate of an end that stays, so that both
-/// ends close in; ln ρ is smooth but for exchanges of the lead.
+/// ends close in; ln ρ is smooth except where another multiplier becomes dominant.
 template <typename Function>
 [[nodiscard]] double crossing(const Function& value, DepthValue below, DepthValue above) {
   constexpr double kBracket = 1e-10;   // of the depth
   constexpr double kOnBorder = 1e-12;  // of the value
   constexpr int kMostSteps = 60;
-  constexpr int kBisect = 12;  // each of so many steps halves the bracket, come what may
+  constexpr int kBisect = 12;  // one step in this many bisects the bracket
   int stayed = 0;              // 1: the upper end, −1: the lower one
   for (int i = 0; i < kMostSteps && above.depth_mm - below.depth_mm > kBracket * above.depth_mm;
        ++i) {

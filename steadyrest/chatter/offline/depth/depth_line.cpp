@@ -22,8 +22,8 @@ using kernel::units::kTurn;
 
 constexpr double kTolerance = 1e-10;  ///< of the multipliers
 
-/// The free vibration that dies most slowly.
-/// At depth 0 only the modes' own damping counts: ln ρ = −ζω·T of the most persistent one.
+/// The decay of the most persistent free vibration. At depth 0 only the modes' own damping counts:
+/// ln ρ = −ζω·T of that mode.
 double least_decay_1_s(const Process& process) {
   double least = process.modes[0].damping_ratio * process.modes[0].frequency_hz;
   for (const Mode& mode : process.modes) {
@@ -61,13 +61,13 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
   const double decay = least_decay_1_s(process);
   const bool straight =
       process.tool.helix_rad == 0.0 || process.cut.operation == Operation::turning;
-  // DelayCycle refuses by itself; the tracker does not, so its reach is checked here.
+  // DelayCycle checks its own reach; the tracker does not, so check it here.
   if (constant) {
     if (auto refused = beyond_reach(process, speed_rev_s, most_depth_mm)) {
       return std::unexpected(std::move(*refused));
     }
   }
-  // With helix and several modes each depth needs its matrices anew and the tracker gains nothing.
+  // With helix and several modes each depth needs new matrices, and the tracker gains nothing.
   if (constant && PassMatrix::simple(process) && (straight || process.modes.size() == 1)) {
     out.tracker_ = std::make_unique<DepthTracker>(process, speed_rev_s, most_depth_mm);
     out.free_log_radius_ = -decay / (speed_rev_s * static_cast<double>(process.tool.teeth));
@@ -78,7 +78,7 @@ Result<DepthLine> DepthLine::make(const Process& process, double speed_rev_s,
     return std::unexpected(cycle.error());
   }
   out.free_log_radius_ = -decay * cycle->period_s() / static_cast<double>(cycle->law_periods());
-  // A product with the map touches each number of the state once in each pass.
+  // A product with the map touches each number of the state once per pass.
   out.work_ = static_cast<std::size_t>(cycle->state_size()) * cycle->passes();
   // Straight teeth: the depth only scales the forces, so one cycle serves all depths.
   if (straight) {
@@ -104,7 +104,7 @@ double DepthLine::log_radius(double depth_mm) {
   }
   DelayCycle::Config config = config_;
   config.most_depth_mm = depth_mm;
-  // What make() accepts at the greatest depth it accepts at every smaller one.
+  // make() accepts at every smaller depth what it accepts at the greatest.
   auto cycle = DelayCycle::make(process_, config).value();
   return of(cycle, depth_mm);
 }

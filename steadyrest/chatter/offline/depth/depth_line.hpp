@@ -9,18 +9,18 @@
 #include <steadyrest/chatter/offline/depth/depth_tracker.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
-/// ln ρ over the depth of cut at one speed, by the quickest method that is exact for the process.
+/// ln ρ over the depth of cut at one speed, by the fastest method that is exact for the process.
 ///
-/// Even pitch, constant speed, no process damping: DepthTracker, with helix where there is one mode
-/// (with several it gains nothing, since each depth has its own matrices). Else the DelayCycle,
-/// made once for all depths; with helix, where the engagement depends on the depth, for each depth
-/// anew.
+/// Even pitch, constant speed, no process damping: DepthTracker, with helix only for one mode (with
+/// several it gains nothing, since each depth has its own matrices). Otherwise the DelayCycle,
+/// built once for all depths, or with helix, where the engagement depends on the depth, once per
+/// depth.
 namespace steadyrest::chatter::offline {
 
 class DepthLine {
  public:
-  /// Refuses what DelayCycle refuses, a process without modes, a speed or a depth that is not above
-  /// 0, an RVA outside 0 … 1 and an RVF that is not above 0.
+  /// Refuses what DelayCycle refuses, a process without modes, a speed or depth not above 0, an RVA
+  /// outside 0 … 1 and an RVF not above 0.
   static kernel::outcome::Result<DepthLine> make(const Process& process, double speed_rev_s,
                                                  const Modulation& modulation,
                                                  double most_depth_mm);
@@ -31,9 +31,9 @@ class DepthLine {
 
   [[nodiscard]] const Process& process() const noexcept { return process_; }
 
-  /// DepthTracker's way: a depth costs some tens of microseconds.
+  /// Uses DepthTracker: a depth costs some tens of microseconds.
   [[nodiscard]] bool quick() const noexcept { return tracker_ != nullptr; }
-  /// What a depth costs where it is not quick: numbers of the state times passes of the period.
+  /// The cost of a depth where it is not quick: size of the state times passes of the period.
   [[nodiscard]] std::size_t work() const noexcept { return work_; }
 
   /// The crossing of ρ = 1 between a stable and an unstable depth, to 1e-10 of the depth.

@@ -5,26 +5,26 @@
 
 #include <steadyrest/chatter/offline/depth/limit_depth.hpp>
 
-// Marching from below, not bisection over the whole range: a cut may be stable again above an
-// unstable island, and the lowest crossing is the one that a tool meets on its way in.
+// Marches up from below instead of bisecting the whole range: a cut may be stable again above an
+// unstable island, and the lowest crossing is the one that a tool meets first.
 namespace steadyrest::chatter::offline {
 
 namespace {
 constexpr double kFirst = 1.0 / 256.0;  ///< of the greatest depth
 constexpr double kLeastFirst = 1e-7;
-// ln ρ changes on the scale of the depth itself, so a step in proportion resolves it alike
+// ln ρ changes on the scale of the depth itself, so proportional steps resolve it equally
 // everywhere.
 constexpr double kGrowth = 0.06;  ///< step over depth
 constexpr double kGolden = 0.3819660112501051;
-constexpr double kNarrowest = 1e-4;  ///< of the depth: islands thinner than this are left
-constexpr double kPeak = 3.0;        ///< of the fall to the sides, by which a maximum may be higher
+constexpr double kNarrowest = 1e-4;  ///< of the depth: thinner islands are ignored
+constexpr double kPeak = 3.0;  ///< a maximum may exceed the middle by this times the side fall
 constexpr int kMostSections = 40;
 
 }  // namespace
 
 // Small gain: a·Σ‖H_j‖·max|1 − e^{−iωT}|·max‖G(iω)‖ < 1 with ‖H_j‖ ≤ |(Kt, Kr)| and
-// |1 − e^{−iωT}| ≤ 2. |G| of a mode is largest, 1/(2ζ√(1−ζ²)·k), at ω·√(1−2ζ²); from ζ = 1/√2 on
-// it has no peak and is largest at standstill, 1/k.
+// |1 − e^{−iωT}| ≤ 2. |G| of a mode is largest, 1/(2ζ√(1−ζ²)·k), at ω·√(1−2ζ²); from ζ = 1/√2 on it
+// has no peak and is largest at ω = 0, 1/k.
 double safe_depth_mm(const Process& process) {
   double most_mm_n = 0.0;
   for (const Mode& mode : process.modes) {
@@ -42,9 +42,9 @@ std::optional<double> island_mm(DepthLine& line, const std::array<double, 3>& de
   auto [a, m, b] = depth_mm;
   auto [fa, fm, fb] = log_radius;
   for (int i = 0; i < kMostSections && b - a > kNarrowest * b; ++i) {
-    // How high it can be: the steeper fall, carried on over the top.
-    // ln ρ is smooth away from changes of the leading multiplier, so it cannot rise much more
-    // steeply near the top than it falls at the sides.
+    // The greatest possible height: the steeper fall extended over the top. ln ρ is smooth where
+    // the leading multiplier does not change, so it cannot rise much more steeply near the top than
+    // it falls at the sides.
     const double slope = std::max((fm - fa) / (m - a), (fm - fb) / (b - m));
     if (fm + kPeak * slope * std::max(m - a, b - m) < 0.0) {
       return std::nullopt;
@@ -73,7 +73,7 @@ std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm, doub
                                   kFirst * most_depth_mm);
   std::array<double, 3> depth{from_mm, 0.0, 0.0};
   std::array<double, 3> log_radius{line.log_radius(from_mm), 0.0, 0.0};
-  // The hint was too deep: begin at 0, where every cut is stable.
+  // The hint was too deep: start at 0, where every cut is stable.
   if (log_radius[0] >= 0.0) {
     depth[0] = 0.0;
     log_radius[0] = line.log_radius(0.0);
@@ -81,7 +81,7 @@ std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm, doub
   std::size_t seen = 1;
   while (depth[seen - 1] < most_depth_mm) {
     const double low = depth[seen - 1];
-    // Even steps near 0, then in proportion to the depth.
+    // Even steps near 0, then proportional to the depth.
     const double high = std::min(most_depth_mm, low + std::max(first, kGrowth * low));
     const double log_high = line.log_radius(high);
     if (seen == 3) {

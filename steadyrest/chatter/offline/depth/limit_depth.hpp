@@ -15,26 +15,27 @@ namespace steadyrest::chatter::offline {
 /// `most_depth_mm`.
 ///
 /// Depths are tried in steps of 1/256 of the greatest, or of the depth below which no speed is
-/// unstable where that is less, growing to 6 % of the depth. Where ρ has a
-/// maximum among them that may pass 1, by the slopes on its sides, it is sought by golden sections,
-/// so that an unstable island narrower than the steps is found. One that leaves no trace in ρ at
-/// the depths about it, where another multiplier leads for less than a step, can still be missed.
-/// Refuses what DepthLine refuses.
+/// unstable if that is less, growing to 6 % of the depth. A maximum of ρ among them that may exceed
+/// 1, judged by the slopes on its sides, is searched by golden section, so that unstable islands
+/// narrower than the steps are found. An island that leaves no trace in ρ at the depths around it,
+/// where another multiplier leads for less than a step, can still be missed. Refuses what DepthLine
+/// refuses.
 [[nodiscard]] kernel::outcome::Result<std::optional<double>> limit_depth_mm(
     const Process& process, double speed_rev_s, const Modulation& modulation, double most_depth_mm);
 
-/// A depth in mm below which no constant speed is unstable (process damping left out), whatever the
-/// phases and directions: all teeth are taken to cut at once, all modes to answer at their largest.
+/// A depth in mm below which no constant speed is unstable (ignoring process damping), whatever the
+/// phases and directions: it assumes that all teeth cut at once and all modes respond at their
+/// largest.
 [[nodiscard]] double safe_depth_mm(const Process& process);
 
-/// A depth in mm with ρ ≥ 1 beside a maximum of ρ that was seen at `middle_mm`: between the depths
-/// on its sides, ln ρ at all three below 0 and highest in the middle. Empty: ρ stays below 1.
+/// A depth in mm with ρ ≥ 1 near a maximum of ρ seen at `middle_mm`, between the depths on either
+/// side; ln ρ is below 0 at all three and highest in the middle. Empty: ρ stays below 1.
 [[nodiscard]] std::optional<double> island_mm(DepthLine& line,
                                               const std::array<double, 3>& depth_mm,
                                               const std::array<double, 3>& log_radius);
 
-/// The same along a line that is made already; nothing is sought below `from_mm`, unless it is
-/// unstable there.
+/// The same along an existing line; the search starts at `from_mm`, unless the cut is unstable
+/// there.
 [[nodiscard]] std::optional<double> limit_depth_mm(DepthLine& line, double most_depth_mm,
                                                    double from_mm = 0.0);
 

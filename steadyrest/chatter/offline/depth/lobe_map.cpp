@@ -64,15 +64,15 @@ Result<LobeMap> lobe_map(const Process& process, const LobeMapConfig& config,
   std::mutex mutex;
   std::optional<Refusal> refused;
   std::size_t done = 0;
-  // One task is one speed with all its depths in rising order: the tracker goes on from the depth
-  // before.
+  // One task is one speed with all its depths in rising order: the tracker continues from the
+  // previous depth.
   const auto one = [&](std::size_t speed) {
     auto line = DepthLine::make(process, config.speed_rev_s[speed], config.modulation,
                                 config.depth_mm.back());
     if (line) {
       fill(*line, speed, map);
     }
-    // A refusal of one speed refuses the map: a row of zeros would look like a border.
+    // If one speed is refused, so is the map: a row of zeros would look like a border.
     const std::scoped_lock lock(mutex);
     if (!line && !refused) {
       refused = line.error();

@@ -7,8 +7,8 @@
 #include <steadyrest/kernel/units/constants.hpp>
 
 // Two uses of one eigenvalue: zero_order_lobes() goes along the chatter frequency and gives depth
-// and speeds of every lobe in closed form; zero_order_limit_mm() is asked for one speed, where the
-// closed form does not apply, and looks for the frequencies at which the depth comes out real.
+// and speeds of every lobe in closed form; zero_order_limit_mm() treats one speed, where the closed
+// form does not apply, and searches for the frequencies at which the depth is real.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -30,7 +30,7 @@ std::array<double, 4> primitive(double phi, double kr) noexcept {
           0.5 * (-s + 2.0 * phi + kr * c), 0.5 * (-c - 2.0 * kr * phi - kr * s)};
 }
 
-/// The two Λ at ω; with one direction alone, one: the other is infinite.
+/// The two Λ at ω; with only one direction, the other is infinite.
 Pair eigenvalues(const Process& process, const std::array<double, 4>& alpha, double w) {
   Complex xx;
   Complex xy;
@@ -55,7 +55,7 @@ Pair eigenvalues(const Process& process, const std::array<double, 4>& alpha, dou
 Pair continued(const Pair& before, const Pair& now) {
   const double straight = std::abs(now[0] - before[0]) + std::abs(now[1] - before[1]);
   const double crossed = std::abs(now[1] - before[0]) + std::abs(now[0] - before[1]);
-  // The square root jumps between its branches along ω; a sign change across such a jump is no
+  // The square root jumps between its branches along ω; a sign change across such a jump is not a
   // border.
   return crossed < straight ? Pair{now[1], now[0]} : now;
 }
@@ -132,7 +132,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
     const double high = kTurn * step_hz * (static_cast<double>(i) + 0.5);
     const Pair at_high = continued(at_low, eigenvalues(process, alpha, high));
     for (std::size_t branch = 0; branch < 2; ++branch) {
-      // 1/Λ = 0: one direction alone vibrates, and the second eigenvalue is at infinity.
+      // 1/Λ = 0: only one direction vibrates, and the second eigenvalue is at infinity.
       if (std::abs(at_low[branch]) == 0.0 || std::abs(at_high[branch]) == 0.0) {
         continue;
       }
@@ -156,7 +156,7 @@ std::optional<double> zero_order_limit_mm(const Process& process, double speed_r
           b = middle;
         }
       }
-      // Im a changes sign through infinity as well: that is a pole of the depth, no border.
+      // Im a also changes sign through infinity: that is a pole of the depth, not a border.
       const bool pole = std::abs(found) > kReach || std::abs(found.imag()) > 1e-6 * found.real();
       if (!pole && found.real() > 0.0 && (!least || found.real() < *least)) {
         least = found.real();

@@ -13,7 +13,7 @@
 #include <steadyrest/chatter/offline/plan/override_course.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// The cheapest question comes first: drive and override, then stability of the given cut, growth of
+// The cheapest check comes first: drive and override, then stability of the given cut, growth of
 // one vibration, the share of possible cuts, growth of the worst vibration, and last the law as the
 // override writes it. An alternative that fails keeps its reason for the report.
 namespace steadyrest::chatter::offline {
@@ -38,12 +38,12 @@ std::optional<DelayCycle> cycle_at(const Process& process, double speed_rev_s,
   return std::move(*made);
 }
 
-/// ln of the growth of one vibration over three periods, from its least to its greatest after
-/// that: a lower bound of the peak growth, and near to it where one solution leads.
+/// ln of the growth of one vibration over three periods, from its minimum to its later maximum: a
+/// lower bound of the peak growth, and close to it where one solution leads.
 double log_growth_seen(DelayCycle& cycle) {
   Eigen::VectorXd state = Eigen::VectorXd::Zero(cycle.state_size());
   for (Eigen::Index i = 0; i < state.size(); ++i) {
-    // Any start that has a share of every solution does; a formula instead of a generator gives the
+    // Any start with a share of every solution will do; a formula instead of a generator gives the
     // same start everywhere.
     state[i] = std::sin(1.0 + 2.3 * static_cast<double>(i));
   }
@@ -58,7 +58,7 @@ double log_growth_seen(DelayCycle& cycle) {
     }
     scale += std::log(size);
     state /= size;
-    // From its least size on: a vibration that first dies and then grows counts from the bottom.
+    // From its minimum on: a vibration that first dies and then grows counts from the bottom.
     least = std::min(least, scale);
     most = std::max(most, scale - least);
   }
@@ -93,7 +93,7 @@ double AlternativeCheck::probability(const Alternative& a, double depth_mm) cons
 double AlternativeCheck::likely_depth_mm(const Alternative& a) const {
   double low = 0.0;
   double high = depth_mm_;
-  // Taken as falling with the depth. Islands are left to the limit depth.
+  // Assumed to fall with the depth. Islands are left to the limit depth.
   while (high - low > 0.01 * depth_mm_) {
     const double middle = 0.5 * (low + high);
     (probability(a, middle) >= options_->least_probability ? low : high) = middle;
@@ -133,8 +133,8 @@ void AlternativeCheck::step(Alternative& a) const {
     return;
   }
   a.limit_depth_mm = limit_depth_mm(*line, most_depth_mm_).value_or(kInfinity);
-  // Above a lower border the cut may be stable again; whether it can be reached is
-  // reject_below_depth()'s question.
+  // Above a lower border the cut may be stable again; reject_below_depth() decides whether it can
+  // be reached.
   a.stable = *a.limit_depth_mm > depth_mm_ || line->log_radius(depth_mm_) < 0.0;
   reject_below_depth(a);
   reject_unlikely(a);
@@ -176,8 +176,8 @@ void AlternativeCheck::judge(Alternative& law) const {
     }
     return log_growth > most;
   };
-  // One vibration costs three periods, the worst of all costs a basis of them: what rejects cheaply
-  // comes first.
+  // One vibration costs three periods, the worst of all a whole basis: the cheap rejection comes
+  // first.
   if (too_much(log_growth_seen(*cycle), true)) {
     return;
   }
@@ -190,7 +190,7 @@ void AlternativeCheck::judge(Alternative& law) const {
   }
 }
 
-/// What the override makes of the law: its steps, scans and slew, the drive's ramps.
+/// Checks the law as the override writes it: its steps, scans and slew, the drive's ramps.
 void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
   auto course = override_course(*machine_, speed(law), law.modulation);
   if (!course) {
@@ -198,7 +198,7 @@ void AlternativeCheck::reject_unstable_as_written(Alternative& law) const {
     return;
   }
   DelayCycle::Config config;
-  // The course replaces the law; the mean speed below only scales what is not given by it.
+  // The course replaces the law; the mean speed below only scales what the course does not give.
   config.course = std::move(*course);
   config.speed_rev_s = speed(law);
   config.most_depth_mm = depth_mm_;
@@ -234,8 +234,7 @@ void AlternativeCheck::limit(Alternative& law) const {
     return;
   }
   law.limit_depth_mm = limit_depth_mm(*line, most_depth_mm_).value_or(kInfinity);
-  // The one reason is "unstable" without a depth; reject_below_depth() says it again with the
-  // depth.
+  // The only reason is "unstable" without a depth; reject_below_depth() repeats it with the depth.
   if (law.reasons.size() == 1 && !law.stable) {
     law.reasons.clear();
   }

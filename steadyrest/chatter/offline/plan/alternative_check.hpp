@@ -5,26 +5,26 @@
 
 #include <steadyrest/chatter/offline/plan/planner.hpp>
 
-/// The planner's questions about one alternative. Internal to the planner.
+/// The planner's checks of one alternative. Internal to the planner.
 namespace steadyrest::chatter::offline {
 
 class AlternativeCheck {
  public:
-  /// Refers to all three, which must live on.
+  /// Refers to all three, which must outlive it.
   AlternativeCheck(const Process& process, const kernel::machine::Machine& machine,
                    double programmed_rev_s, double depth_mm, double most_depth_mm,
                    const PlanOptions& options);
 
-  /// An override step: everything about it. `demand` must be filled.
+  /// Checks everything about an override step. `demand` must be filled.
   void step(Alternative& alternative) const;
-  /// A law: is it stable as the figures are given? ln ρ per pass; infinity: no principal period.
+  /// Whether a law is stable with the given figures. ln ρ per pass; infinity: no principal period.
   [[nodiscard]] double log_radius(Alternative& law) const;
-  /// A law that is stable: growth and probability, the cheapest reason to reject it first.
+  /// Growth and probability of a stable law, the cheapest reason to reject it first.
   void judge(Alternative& law) const;
-  /// Fills limit_depth_mm of a law, unless its period is too long for that; of a rejected one also
-  /// unless many waves between two teeth make it too dear.
+  /// Fills limit_depth_mm of a law, unless its period is too long; for a rejected law also unless
+  /// many waves between two teeth make it too expensive.
   void limit(Alternative& law) const;
-  /// The greatest depth up to the wanted one, to 1 %, at which the probability is reached.
+  /// The greatest depth up to the wanted one, to 1 %, that reaches the probability.
   [[nodiscard]] double likely_depth_mm(const Alternative& a) const;
 
  private:

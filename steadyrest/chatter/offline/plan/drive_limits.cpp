@@ -9,9 +9,8 @@
 #include <steadyrest/chatter/offline/plan/same.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// Each check adds its own violations and none stops at the first: the report shows everything that
-// a law asks too much of. most_rvf() then searches by bisection, since every demand grows with the
-// RVF.
+// Each check adds its own violations and none stops at the first: the report shows every limit that
+// a law exceeds. most_rvf() then bisects, since every demand grows with the RVF.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -20,7 +19,7 @@ using online::Law;
 using online::SpeedLaw;
 
 constexpr std::size_t kPhases = 1024;  ///< a multiple of the random law's knots
-// Fewer than eight scans a period leave little of a sine or triangle but a square.
+// Fewer than eight scans per period turn a sine or triangle into little more than a square.
 constexpr double kLeastScans = 8.0;
 constexpr double kMostRampShare = 0.2;
 constexpr double kMostLevelError = 0.25;  ///< of the amplitude
@@ -29,7 +28,7 @@ bool jumps(Law law) {
   return law == Law::square || law == Law::pulse || law == Law::stop;
 }
 
-/// Mean force along the cut times its path in one revolution, N·mm: W·s at 1 rev/s after 1e-3.
+/// Mean force along the cut times its path in one revolution, N·mm; times 1e-3, W·s at 1 rev/s.
 double work_per_rev_n_mm(const Process& process, double depth_mm) {
   const Cut& cut = process.cut;
   if (cut.operation == Operation::turning) {
@@ -49,7 +48,7 @@ double rpm(double rev_s) {
   return 60.0 * rev_s;
 }
 
-/// Two numbers with as many decimals, two at least, as it takes to tell them apart.
+/// Two numbers with as many decimals as needed to tell them apart, at least two.
 struct Apart {
   std::string needed;
   std::string given;
@@ -71,7 +70,7 @@ void add(DriveDemand& out, DriveLimit limit, std::string reason) {
 
 }  // namespace
 
-/// S as the limits need it.
+/// The properties of S that the limits need.
 struct DriveLimits::Shape {
   double low = 0.0;
   double high = 0.0;
@@ -152,7 +151,7 @@ DriveLimits::Shape DriveLimits::shape(const Modulation& modulation) const {
     const double next = out.at[(i + 1) % kPhases];
     double slope = std::abs(next - out.at[i]) * static_cast<double>(kPhases);
     double value = std::max(next, out.at[i]);
-    // In closed form: differences over a step would fall short of the greatest slope.
+    // In closed form: finite differences would underestimate the greatest slope.
     if (modulation.law == Law::sine) {
       slope = kTurn * std::abs(std::cos(kTurn * static_cast<double>(i) / kPhases));
       value = out.at[i];
@@ -189,7 +188,7 @@ DriveDemand DriveLimits::modulated(double programmed_rev_s, const Modulation& mo
   return out;
 }
 
-/// Each phase at the nearest step.
+/// Checks each phase at the nearest step.
 void DriveLimits::check_levels(double speed, const Modulation& m, const Shape& s,
                                DriveDemand& out) const {
   const std::vector<double> steps = writable(speed);
@@ -338,7 +337,7 @@ std::optional<double> DriveLimits::most_rvf(double programmed_rev_s, Modulation 
   if (follows(high)) {
     return high;
   }
-  // Halved on the logarithmic scale, since RVF spans decades; 40 halvings leave some 1e-11.
+  // Bisects on a logarithmic scale, since RVF spans decades; 40 halvings leave some 1e-11.
   for (int i = 0; i < 40; ++i) {
     const double middle = std::sqrt(low * high);
     (follows(middle) ? low : high) = middle;

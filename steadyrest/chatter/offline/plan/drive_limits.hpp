@@ -18,21 +18,21 @@
 /// Laws with jumps (square, pulse, stop) ramp at the drive's acceleration a: the ramp RVA·N₀·(max S
 /// − min S)/a may take a fifth of the law's shortest part.
 /// Power: J·ω·dω/dt at its greatest and the cut's own; torque: J·dω/dt and the cut's own; heat: the
-/// root of the mean square of both. The cut: Kt and the edge on the mean chip, at the mean speed.
-/// Override: its steps must come within a quarter of the amplitude of the law; a period has at
-/// least 8 scans; the envelope's slew, and one step a scan where the word is walked, count like an
-/// acceleration. Dead time shifts a law that is written ahead and limits nothing.
-/// Speed monitor: the set-point moves with the override, so the actual speed is off by one step or
-/// by what the law moves within one scan (swept), or by the whole jump while it ramps.
+/// RMS of both. The cut: Kt and the edge on the mean chip, at the mean speed. Override: its steps
+/// must come within a quarter of the amplitude of the law; a period has at least 8 scans; the
+/// envelope's slew, and one step per scan where the word is walked, count like an acceleration.
+/// Dead time only shifts a law written ahead and limits nothing. Speed monitor: the set-point moves
+/// with the override, so the actual speed is off by one step or by the law's change within one scan
+/// (swept), or by the whole jump while it ramps.
 namespace steadyrest::chatter::offline {
 
 enum class DriveLimit : std::uint8_t {
   speed,         ///< spindle's limits
-  levels,        ///< the override's steps or the envelope cannot write it
+  levels,        ///< the override's steps or the envelope do not allow it
   scan,          ///< too few scans in a period
   acceleration,  ///< of the drive
   slew,          ///< of the envelope
-  walk,          ///< a word that is walked step by step
+  walk,          ///< a word walked step by step
   ramp,          ///< jumps take too much of the law's parts
   power,
   torque,
@@ -42,13 +42,13 @@ enum class DriveLimit : std::uint8_t {
 
 struct DriveViolation {
   DriveLimit limit = DriveLimit::speed;
-  std::string reason;  ///< in words, with the value needed and the value there is
+  std::string reason;  ///< in words, with the needed and the available value
 };
 
 struct DriveDemand {
   double acceleration_rev_s2 = 0.0;  ///< the greatest
-  double power_w = 0.0;              ///< the greatest, with the cut's
-  double torque_n_m = 0.0;           ///< the greatest, with the cut's
+  double power_w = 0.0;              ///< the greatest, including the cut's
+  double torque_n_m = 0.0;           ///< the greatest, including the cut's
   double rms_torque_n_m = 0.0;
   double off_ratio = 0.0;             ///< actual speed off its set-point, over the set-point
   std::vector<double> written_ratio;  ///< the override's steps that the law uses, rising
@@ -66,11 +66,11 @@ class DriveLimits {
   DriveLimits(const kernel::machine::Machine& machine, const Process& process, double depth_mm,
               const Options& options);
 
-  /// A constant speed at the override `ratio` of the programmed one; the ratio is taken as it is.
+  /// A constant speed at the override `ratio` of the programmed one; the ratio is not checked.
   [[nodiscard]] DriveDemand constant(double programmed_rev_s, double ratio) const;
   /// A law about the programmed speed. `modulation.rva` 0 … below 1, `rvf` > 0.
   [[nodiscard]] DriveDemand modulated(double programmed_rev_s, const Modulation& modulation) const;
-  /// The greatest RVF within `low` … `high` that can be followed; all limits grow with it. Empty:
+  /// The greatest RVF within `low` … `high` that can be followed; all demands grow with it. Empty:
   /// not even `low`.
   [[nodiscard]] std::optional<double> most_rvf(double programmed_rev_s, Modulation modulation,
                                                double low, double high) const;

@@ -25,7 +25,7 @@ constexpr double kCycle_s = 0.002;
 constexpr double kSettle_s = 2.0;  ///< fade and slew
 constexpr double kAtOnce = 1e-9;   ///< of a cycle: the ramp of a drive without a limit
 
-/// One override as the control sees it: scanned, then late.
+/// One override as the control sees it: scanned, then delayed.
 class LateWord {
  public:
   LateWord(const OverrideTable& table, double cycle_s)
@@ -56,12 +56,12 @@ Result<Modulator> modulator_of(Machine machine, double programmed_rev_s, const M
   machine.chatter.period_s = 1.0 / (m.rvf * programmed_rev_s);
   machine.chatter.mean_ratio = 1.0;
   machine.chatter.seed = m.seed;
-  // Always on: there is no program here to switch it.
+  // Always on: no program switches it here.
   machine.chatter.m_code_on = 0;
   return Modulator::make(machine);
 }
 
-/// Adds a ramp, to the last one where that goes on as steeply.
+/// Adds a ramp, extending the last one if the slope is the same.
 void add(std::vector<SpeedRamp>& course, const SpeedRamp& ramp) {
   if (ramp.duration_s <= 0.0) {
     return;
@@ -76,7 +76,7 @@ void add(std::vector<SpeedRamp>& course, const SpeedRamp& ramp) {
   course.push_back(ramp);
 }
 
-// The same channel as in the cycle, so that steps, walks and slew are those of the real machine.
+// The same channel as in the real cycle, so that steps, walks and slew are the machine's.
 Result<Channel> spindle_channel(const Machine& machine) {
   return Channel::make({.table = machine.spindle_override,
                         .min_ratio = machine.envelope.min_spindle_ratio,
@@ -94,8 +94,8 @@ kernel::signal::Frame frame_in_cut(const Machine& machine, double programmed_rev
   frame.programmed_feed_mm_s = 1.0;
   frame.path_speed_mm_s = 1.0;
   frame.spindle_programmed_rev_s = programmed_rev_s;
-  // The operator's switch at its highest step, so that the panel clips nothing; the planner says in
-  // a note how high it must be.
+  // The operator's switch is at its highest step, so that the panel clips nothing; a note of the
+  // planner says how high it must be.
   frame.spindle.panel_ratio = *std::ranges::max_element(machine.spindle_override.ratio);
   frame.spindle.effective_ratio = 1.0;
   return frame;
@@ -115,8 +115,8 @@ Result<std::vector<SpeedRamp>> override_course(const Machine& machine, double pr
   }
   const double period_s = 1.0 / (modulation.rvf * programmed_rev_s);
   const double scans = std::max(1.0, std::round(period_s / machine.spindle_override.scan_period_s));
-  // Whole cycles per scan and whole scans per period, or the course would not repeat and could not
-  // be a period of the solver.
+  // Whole cycles per scan and whole scans per period; otherwise the course would not repeat and
+  // could not be a period for the solver.
   const double per_scan = std::max(1.0, std::round(period_s / scans / kCycle_s));
   const auto cycles = static_cast<std::size_t>(scans * per_scan);
   const double dt_s = period_s / static_cast<double>(cycles);

@@ -14,9 +14,9 @@ namespace {
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
-constexpr double kDepthsOver = 5.0;  ///< limit depths up to so many times the wanted one
-constexpr double kDeepest_mm = 1e4;  ///< no tool cuts as deep
-// Process damping grows as the waves on the flank get shorter, which means at low speed. Ten waves
+constexpr double kDepthsOver = 5.0;  ///< limit depths up to this many times the wanted one
+constexpr double kDeepest_mm = 1e4;  ///< no tool cuts this deep
+// Process damping grows as the waves under the flank get shorter, that is, at low speed. Ten waves
 // between two teeth is a cautious threshold for the note.
 constexpr double kManyWaves = 10.0;
 
@@ -70,12 +70,12 @@ std::optional<Refusal> fault_of_options(double depth, const PlanOptions& o) {
   return std::nullopt;
 }
 
-/// Of the mode that gives way most.
+/// Frequency of the most compliant mode.
 double softest_hz(const Process& process) {
   double most = 0.0;
   double out = 0.0;
   for (const Mode& mode : process.modes) {
-    // Compliance at resonance, 1/(2ζk), but for a factor common to all modes.
+    // Compliance at resonance, 1/(2ζk), up to a factor common to all modes.
     const double k = mode.mass_kg * mode.frequency_hz * mode.frequency_hz;
     const double way = 1.0 / (k * std::max(mode.damping_ratio, 1e-6));
     if (way > most) {

@@ -12,8 +12,8 @@
 #include <steadyrest/chatter/offline/plan/same.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// Constant steps before laws: on the slot benchmark 110 % carries 2.77 mm where 100 % carries 0.41
-// mm, and the best laws of ±20 % about as much. A constant step also leaves the drive alone. Laws
+// Constant steps come before laws: on the slot benchmark 110 % allows 2.77 mm against 0.41 mm at
+// 100 %, and the best laws of ±20 % about as much. A constant step also spares the drive. Laws
 // follow by rising amplitude, and the first amplitude with an accepted law ends the search: a
 // larger one only loads the drive more.
 namespace steadyrest::chatter::offline {
@@ -101,8 +101,8 @@ void Planner::choose(PlanDecision decision, const Alternative& chosen) {
 void Planner::steps(const AlternativeCheck& check) {
   std::vector<double> ratios = limits_.writable(speed_);
   if (std::ranges::none_of(ratios, [](double r) { return std::abs(r - 1.0) < kSame; })) {
-    // The programmed speed is judged even where the table has no step of 100 %: it is what the
-    // others are measured against.
+    // The programmed speed is checked even if the table has no 100 % step: the others are compared
+    // with it.
     ratios.push_back(1.0);
   }
   std::ranges::sort(ratios);
@@ -120,14 +120,14 @@ const Alternative* Planner::best_step() const {
   for (const Alternative& a : out_.alternatives) {
     highest = a.accepted() ? std::max(highest, *a.probability) : highest;
   }
-  // Shares that differ by a sample or so are the same within what so few samples can tell.
+  // Shares that differ by a sample or so count as equal: so few samples cannot tell them apart.
   const double tie = kTie / static_cast<double>(options_.uncertainty.samples);
   const Alternative* best = nullptr;
   for (const Alternative& a : out_.alternatives) {
     if (!a.accepted() || *a.probability < highest - tie) {
       continue;
     }
-    // Ratios rise: of two that are equally far the later one is the faster.
+    // Ratios rise: of two at the same distance the later is the faster.
     if (best == nullptr || std::abs(a.ratio - 1.0) <= std::abs(best->ratio - 1.0) + kSame) {
       best = &a;
     }
@@ -140,7 +140,7 @@ std::vector<double> Planner::amplitudes() const {
   if (out.empty()) {
     for (const double ratio : limits_.writable(speed_)) {
       const double rva = std::abs(ratio - 1.0);
-      // The override writes distances of its steps from 100 %, no amplitude between them.
+      // The override can only write the distances of its steps from 100 %, no amplitude in between.
       if (rva > kSame && rva < 0.95) {
         out.push_back(rva);
       }
@@ -159,7 +159,8 @@ std::vector<double> Planner::amplitudes() const {
   return out;
 }
 
-/// RVF that the drive can follow, the fastest first, each a whole number of passes.
+/// RVFs that the drive can follow, the fastest first, each with a whole number of passes per
+/// period.
 std::vector<double> Planner::frequencies(Modulation law) const {
   const double per_rev = process_.even_pitch() ? static_cast<double>(process_.tool.teeth) : 1.0;
   std::vector<double> wanted = options_.rvf;
@@ -175,8 +176,8 @@ std::vector<double> Planner::frequencies(Modulation law) const {
   }
   std::vector<double> out;
   for (const double rvf : wanted) {
-    // A whole number of passes in a period, rounded to the slower side, which the drive follows all
-    // the more; else the solver has no principal period.
+    // A whole number of passes per period, rounded to the slower side, which is easier on the
+    // drive; otherwise the solver has no principal period.
     const double rounded = per_rev / std::max(1.0, std::ceil(per_rev / rvf - 1e-6));
     law.rvf = rounded;
     if ((out.empty() || out.back() != rounded) && limits_.modulated(speed_, law).possible()) {
@@ -186,7 +187,7 @@ std::vector<double> Planner::frequencies(Modulation law) const {
   return out;
 }
 
-/// Of one law at one amplitude the fastest frequency that is accepted, else what came nearest.
+/// For one law at one amplitude the fastest accepted frequency, else the one that came nearest.
 Alternative Planner::best_of(const AlternativeCheck& check, Modulation law) const {
   const std::vector<double> rvf = frequencies(law);
   Alternative out;
@@ -222,8 +223,8 @@ Alternative Planner::best_of(const AlternativeCheck& check, Modulation law) cons
       least = log_radius;
       out = a;
     }
-    // Slower ones grow more: after a few stable frequencies were rejected the rest is not worth its
-    // time.
+    // Slower ones grow more: after a few stable frequencies have been rejected, the rest is not
+    // worth the time.
     if (judged == kMostJudged) {
       break;
     }
@@ -307,7 +308,7 @@ void Planner::explain_nothing(const AlternativeCheck& check) {
   }
 }
 
-/// What a number cannot say.
+/// Adds the notes.
 void Planner::explain(const AlternativeCheck& check) {
   if (auto ignored = process_damping_ignored(process_, speed_)) {
     note(std::move(*ignored));

@@ -19,8 +19,8 @@
 /// An alternative is accepted when the cut is stable from depth 0 up to the wanted one, when the
 /// share of possible cuts (Uncertainty) that are stable at the wanted depth reaches
 /// `least_probability`, when the drive and the override can follow it, and for a law when a
-/// vibration grows by no more than `most_growth` on its way (see Stability) and the cut is stable
-/// and grows no more under the staircase too that the override makes of the law.
+/// vibration grows by at most `most_growth` on its way (see Stability), both under the law and
+/// under the staircase that the override makes of it.
 ///   keep      100 % is accepted.
 ///   constant  else the accepted override step with the highest probability; of equals (within 1.5
 ///             samples) the one nearest to 100 %, then the faster.
@@ -40,16 +40,16 @@ struct Alternative {
   Modulation modulation;  ///< Law::constant for an override step
   double ratio = 1.0;     ///< mean speed over the programmed one
   DriveDemand demand;
-  bool stable = false;                   ///< at the wanted depth, as the figures are given
+  bool stable = false;                   ///< at the wanted depth, with the given figures
   std::optional<double> limit_depth_mm;  ///< lowest border, infinity: none up to most_depth_mm;
                                          ///< empty: not computed
   std::optional<double> probability;     ///< share of possible cuts that are stable
   std::optional<double> peak_growth;
-  std::optional<double> log_radius;  ///< of a law: ln ρ over its period, as the law has it
-  /// The same with the speed that the machine makes of it (override_course); of laws alone that
-  /// everything else speaks for.
+  std::optional<double> log_radius;  ///< of a law: ln ρ over its period, for the ideal law
+  /// The same with the machine's real speed (override_course); only for laws that pass everything
+  /// else.
   std::optional<double> written_log_radius;
-  bool growth_is_lower_bound = false;  ///< it was enough to reject the alternative
+  bool growth_is_lower_bound = false;  ///< enough to reject the alternative
   std::vector<std::string> reasons;    ///< why it is rejected; empty: accepted
 
   [[nodiscard]] bool accepted() const noexcept { return reasons.empty(); }
@@ -59,14 +59,14 @@ struct PlanOptions {
   double least_probability = 0.95;  ///< 0 … 1
   double most_growth = 20.0;        ///< ≥ 1
   double most_depth_mm = 0.0;  ///< limit depths are sought up to here; 0: five times the wanted
-  double least_rvf = 0.01;     ///< slowest law that is tried, > 0
+  double least_rvf = 0.01;     ///< slowest law tried, > 0
   Uncertainty uncertainty;
   DriveLimits::Options drive;
   std::vector<online::Law> laws{online::Law::triangle, online::Law::sine, online::Law::square,
                                 online::Law::pulse, online::Law::stop};
   std::vector<double> rva;  ///< empty: from the override's steps
   std::vector<double> rvf;  ///< empty: see above
-  bool try_steps = true;    ///< false: laws alone
+  bool try_steps = true;    ///< false: only laws
   std::function<void(double share, std::string_view what)> progress;  ///< from one thread
 };
 
@@ -82,7 +82,7 @@ struct Plan {
   std::optional<double> helping_ratio;  ///< laws alone were asked for and none helps: the override
                                         ///< step that would
   std::optional<double> chatter_frequency_hz;  ///< at the programmed speed when unstable
-  std::vector<std::string> notes;              ///< what the user should know, in words
+  std::vector<std::string> notes;              ///< for the user, in words
 };
 
 /// Refuses a speed or depth that is not above 0, options out of range and a process without modes.

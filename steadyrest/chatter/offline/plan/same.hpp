@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// When two speeds or ratios of a plan are one.
+/// When two speeds or ratios of a plan count as equal.
 namespace steadyrest::chatter::offline {
 
 inline constexpr double kSame = 1e-9;  ///< relative

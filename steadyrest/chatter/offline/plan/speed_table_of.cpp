@@ -23,8 +23,8 @@ kernel::outcome::Result<void> add_depths(const Process& process,
                                          const std::vector<double>& programmed_rev_s,
                                          double most_depth_mm, online::SpeedTable::Config& config) {
   std::vector<double> speeds;
-  // The border only at speeds that the override can make: the table on line picks steps, so depths
-  // between them would never be read.
+  // The border only at speeds that the override can write: the online table picks steps, so depths
+  // in between would never be read.
   for (const double programmed : programmed_rev_s) {
     for (const double ratio : config.step_ratio) {
       const double speed = ratio * programmed;
@@ -35,7 +35,7 @@ kernel::outcome::Result<void> add_depths(const Process& process,
   }
   std::ranges::sort(speeds);
   for (const double speed : speeds) {
-    // Steps of different programmed speeds may meet; the table asks for rising speeds.
+    // Steps of different programmed speeds may coincide; the table requires rising speeds.
     if (!config.speed_rev_s.empty() && speed <= config.speed_rev_s.back() * (1.0 + kSame)) {
       continue;
     }
@@ -44,7 +44,7 @@ kernel::outcome::Result<void> add_depths(const Process& process,
       return std::unexpected(limit.error());
     }
     config.speed_rev_s.push_back(speed);
-    // Stable as far as was sought: the table has no word for more.
+    // Stable as far as searched: the table cannot express more.
     config.limit_depth_mm.push_back(limit->value_or(most_depth_mm));
   }
   return {};

@@ -8,8 +8,8 @@
 
 #include <steadyrest/chatter/offline/plan/uncertainty.hpp>
 
-// A Latin hypercube (McKay, Beckman and Conover 1979): each figure's distribution is cut into as
-// many equally likely parts as there are samples, and each part is drawn from once. The share of
+// A Latin hypercube (McKay, Beckman and Conover 1979): each figure's distribution is divided into
+// as many equally likely parts as there are samples, with one draw from each part. The share of
 // stable cuts then scatters less than with independent draws.
 namespace steadyrest::chatter::offline {
 namespace {
@@ -53,7 +53,7 @@ std::vector<Process> possible_cuts(const Process& process, const Uncertainty& of
     const std::vector<double> damping = column(of.samples, state);
     for (std::size_t i = 0; i < of.samples; ++i) {
       Mode& mode = out[i].modes[m];
-      // Mass and frequency stand for a measured stiffness k = m·ω²: k stays, so m falls as f rises.
+      // Mass and frequency represent a measured stiffness k = m·ω²: k stays, so m falls as f rises.
       const double factor = std::max(kLeastFrequencyFactor, 1.0 + of.frequency * frequency[i]);
       mode.frequency_hz *= factor;
       mode.mass_kg /= factor * factor;

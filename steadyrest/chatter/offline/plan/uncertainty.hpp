@@ -7,11 +7,11 @@
 
 #include <steadyrest/chatter/offline/process/process.hpp>
 
-/// What is not known of a cut: relative standard deviations of its figures.
+/// The uncertainty of a cut: relative standard deviations of its figures.
 ///
-/// A Latin hypercube: of n samples each figure takes every n-th part of its distribution once, so
-/// that a share of stable samples is known to about 1/n where one figure decides. Frequencies
-/// f·(1 + σg) and damping ratios ζ·e^{σg} vary for each mode by itself, Kt and Kr by k·e^{σg}; g
+/// A Latin hypercube: over n samples each figure takes every n-th part of its distribution once, so
+/// the share of stable samples is known to about 1/n where one figure decides. Frequencies f·(1 +
+/// σg) and damping ratios ζ·e^{σg} vary independently for each mode, Kt and Kr by k·e^{σg}; g
 /// is normal with variance 1. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
 namespace steadyrest::chatter::offline {
 

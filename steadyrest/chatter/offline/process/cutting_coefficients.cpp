@@ -12,7 +12,7 @@ namespace {
 
 using kernel::units::kTurn;
 
-// Corners closer than this are one corner and its rounding.
+// Corners closer than this are one corner, apart by rounding.
 constexpr double kSameCorner = 1e-10;  ///< rad
 
 double within_turn(double angle) noexcept {
@@ -43,7 +43,7 @@ CuttingCoefficients::CuttingCoefficients(const Process& process, double depth_mm
   damping_n_s_ = cut_.process_damping_n_mm / (std::numbers::pi * process.tool.diameter_mm);
   double offset = 0.0;
   for (std::size_t j = 0; j < process.tool.teeth; ++j) {
-    // Tooth 0 is the reference; pitch_rad(j) leads from tooth j to the one in front of it.
+    // Tooth 0 is the reference; pitch_rad(j) is the angle from tooth j to the one in front of it.
     offset += j == 0 ? 0.0 : process.pitch_rad(j);
     offset_rad_.push_back(offset);
   }
@@ -61,9 +61,9 @@ Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad
     return {s * s, s * c, c * c};
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  // The edge covers [φ − lag, φ]; a long one may wind round the tool more than once.
+  // The edge covers [φ − lag, φ]; a long edge may wind round the tool more than once.
   const double tip = within_turn(angle_rad - offset_rad_[tooth]);
-  // Mean over the edge's height of what each slice does at its own angle.
+  // Mean over the edge's height of each slice's contribution at its own angle.
   for (double shift = 0.0; shift > -lag_rad_ - kTurn; shift -= kTurn) {
     const double high = std::min(tip, exit_rad_ + shift);
     const double low = std::max(tip - lag_rad_, entry_rad_ + shift);
@@ -77,7 +77,7 @@ Eigen::Vector3d CuttingCoefficients::squares(std::size_t tooth, double angle_rad
 Eigen::Matrix2d CuttingCoefficients::stiffness(std::size_t tooth, double angle_rad) const noexcept {
   Eigen::Matrix2d h;
   if (cut_.operation == Operation::turning) {
-    // Turning: the chip is measured along x alone, so displacements along y do not enter.
+    // Turning: the chip is measured only along x, so displacements along y do not enter.
     h << cut_.radial_n_mm2, 0.0, cut_.tangential_n_mm2, 0.0;
     return h;
   }
@@ -100,7 +100,7 @@ Eigen::Matrix2d CuttingCoefficients::damping(std::size_t tooth, double angle_rad
     return p;
   }
   const Eigen::Vector3d q = squares(tooth, angle_rad);
-  // n·nᵀ: damping acts along the chip's thickness alone.
+  // n·nᵀ: damping acts only along the chip's thickness.
   p << q[0], q[1], q[1], q[2];
   return damping_n_s_ * p;
 }
@@ -121,9 +121,9 @@ std::vector<double> CuttingCoefficients::corners_rad(std::size_t tooth) const {
 }
 
 // H_j = (Kr·I + Kt·J)·n·nᵀ with J a quarter turn, and ‖Kr·I + Kt·J‖ = |(Kt, Kr)|: what remains is
-// the larger eigenvalue of Σ n·nᵀ over the m teeth that cut, (m + |Σ e^{2iφ_j}|)/2. It is the same
-// until a tooth enters or leaves, since all turn together. A helical edge is a mean of straight
-// ones, and the norm of a mean is at most the largest norm.
+// the larger eigenvalue of Σ n·nᵀ over the m teeth that cut, (m + |Σ e^{2iφ_j}|)/2. It stays the
+// same until a tooth enters or leaves, since all turn together. A helical edge is a mean of
+// straight ones, and the norm of a mean is at most the largest norm.
 double CuttingCoefficients::most_at_once() const {
   if (cut_.operation == Operation::turning) {
     return static_cast<double>(teeth());

@@ -7,12 +7,12 @@
 
 #include <steadyrest/chatter/offline/process/process.hpp>
 
-/// What a tooth answers to a change of its chip, by the spindle's angle θ.
+/// The force response of a tooth to a change of its chip, by spindle angle θ.
 ///
-/// Tooth j stands at φ_j = θ − Σ_{i=1…j} pitch_i and cuts while entry ≤ φ_j ≤ exit, the angle taken
-/// within one turn. On Δ = (x, y) less what the tooth in front left, it answers with
+/// Tooth j is at φ_j = θ − Σ_{i=1…j} pitch_i and cuts while entry ≤ φ_j ≤ exit, the angle taken
+/// within one turn. To Δ = (x, y) minus the surface left by the tooth in front it responds with
 /// F = −a·H_j(θ)·Δ, H = u·nᵀ with n = (sin φ, cos φ), u = Kt·(cos φ, −sin φ) + Kr·(sin φ, cos φ);
-/// and on the velocity with F = −a·P_j(θ)·(ẋ, ẏ), P = C/v·n·nᵀ. With helix both are the mean over
+/// and to the velocity with F = −a·P_j(θ)·(ẋ, ẏ), P = C/v·n·nᵀ. With helix both are the mean over
 /// the height 0 … a, in closed form; they then depend on the depth. Unit of H: N/mm², of P:
 /// N·s/mm². Source: Altintas and Budak, CIRP Annals 44 (1995) 357; reference values and angles:
 /// Insperger and Stépán.
@@ -20,18 +20,17 @@ namespace steadyrest::chatter::offline {
 
 class CuttingCoefficients {
  public:
-  /// `depth_mm` matters for helical teeth alone.
+  /// `depth_mm` matters only for helical teeth.
   CuttingCoefficients(const Process& process, double depth_mm);
 
   [[nodiscard]] std::size_t teeth() const noexcept { return offset_rad_.size(); }
   [[nodiscard]] Eigen::Matrix2d stiffness(std::size_t tooth, double angle_rad) const noexcept;
   /// At 1 rev/s of the spindle; divide by the speed.
   [[nodiscard]] Eigen::Matrix2d damping(std::size_t tooth, double angle_rad) const noexcept;
-  /// Angles within [0, 2π) at which an answer of this tooth is not smooth.
+  /// Angles within [0, 2π) at which this tooth's response is not smooth.
   [[nodiscard]] std::vector<double> corners_rad(std::size_t tooth) const;
-  /// How many teeth's stiffness acts in one direction, where most do: the largest ‖Σ_j H_j(θ)‖₂
-  /// over
-  /// |(Kt, Kr)|. Of straight edges; helical ones have no more.
+  /// The most teeth whose stiffness acts in one direction: the largest ‖Σ_j H_j(θ)‖₂ over |(Kt,
+  /// Kr)|. For straight edges; helical ones never have more.
   [[nodiscard]] double most_at_once() const;
 
  private:

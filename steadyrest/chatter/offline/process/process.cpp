@@ -18,9 +18,9 @@ double Process::entry_rad() const noexcept {
   if (cut.operation == Operation::turning || cut.direction == Direction::up) {
     return 0.0;
   }
-  // Angles from the normal to the feed, in the direction of rotation: up milling starts with a chip
-  // of no thickness at 0, down milling leaves with one at π. The two formulas agree at a/D = 0.5;
-  // only other immersions show a mix-up.
+  // Angles from the normal to the feed, in the direction of rotation: up milling starts with zero
+  // chip thickness at 0, down milling ends with it at π. The two formulas agree at a/D = 0.5; only
+  // other immersions reveal a mix-up.
   return std::acos(std::clamp(2.0 * cut.radial_immersion - 1.0, -1.0, 1.0));
 }
 

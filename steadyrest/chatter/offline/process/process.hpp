@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// One cut: what vibrates, what cuts it and how wide. Inner units: mm, s, N, kg, rad.
+/// One cut: what vibrates, the tool, and the width of cut. Internal units: mm, s, N, kg, rad.
 namespace steadyrest::chatter::offline {
 
 enum class Operation : std::uint8_t { milling, turning };

@@ -16,9 +16,9 @@
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
-// The keys of each section are in process_keys.cpp with their ranges. What a table of keys cannot
-// say is checked here: which keys belong to milling or turning, which exclude one another, which
-// need a third. Faults are gathered, so that one run shows them all.
+// The keys of each section are in process_keys.cpp with their ranges. Checked here is what a table
+// of keys cannot express: which keys belong to milling or turning, which exclude one another, which
+// need a third. Faults are collected, so that one run shows them all.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -31,11 +31,11 @@ using passport::Key;
 using passport::line_of;
 using passport::SectionReader;
 
-/// People write 51.429 for 360/7; the rest is shared out.
+/// People write 51.429 for 360/7; the remainder is distributed.
 constexpr double kPitchSumDeg = 0.01;
 constexpr std::size_t kMostModes = 64;
 
-/// It counts from the process file's folder.
+/// Relative to the process file's folder.
 std::filesystem::path response_path(const std::string& process, const std::string& response) {
   return std::filesystem::path(process).parent_path() / response;
 }
@@ -68,7 +68,7 @@ class FileReader {
   }
 
  private:
-  /// What was given of the section; empty when the section is absent.
+  /// The keys given in the section; empty when the section is absent.
   template <class S>
   Given section(const toml::table& root, std::string_view name, std::span<const Key<S>> keys,
                 S& out, bool mandatory = true) {
@@ -206,12 +206,12 @@ class FileReader {
     FrfKeys keys;
     const std::size_t before = faults_.list.size();
     const Given given = SectionReader<FrfKeys>(faults_, frf_keys(), "[[frf]]").read(table, keys);
-    // A measured file is read only for a section without a fault: the fit takes seconds.
+    // A measured file is read only if its section has no fault: the fit takes seconds.
     if (faults_.list.size() != before) {
       return;
     }
     const auto path = response_path(faults_.file, keys.file);
-    // Its modes would count twice.
+    // Otherwise its modes would count twice.
     if (!measured_.emplace(path.lexically_normal(), keys.axis).second) {
       faults_.add(given.at({"file"}), fmt::format("[[frf]] file = \"{}\" a second time", keys.file),
                   "name each response once for an axis");
@@ -221,8 +221,8 @@ class FileReader {
     const auto fit = responses ? fit_modes(*responses, {}) : std::unexpected(responses.error());
     if (!fit) {
       Refusal why = fit.error();
-      // The fault is reported at the process file's line; the response's own place goes into its
-      // words.
+      // The fault is reported at the process file's line; the place in the response goes into the
+      // text.
       why.file = path.string();
       const std::string to_do = std::exchange(why.to_do, "");
       std::string what = kernel::outcome::text(why);
@@ -281,7 +281,7 @@ class FileReader {
   std::set<std::pair<std::filesystem::path, ModeKeys::Axis>> measured_;  ///< files fitted so far
 };
 
-/// toml++ throws on a syntax error; that ends here.
+/// toml++ throws on a syntax error; it is caught here.
 Process parse_toml(std::string_view text, Faults& faults) {
   constexpr std::size_t kShown = 200;
   try {

@@ -11,7 +11,7 @@
 /// The process file's schema: one table for each section, one row for each key.
 namespace steadyrest::chatter::offline {
 
-/// A [[mode]] as it stands in the file.
+/// A [[mode]] as written in the file.
 struct ModeKeys {
   enum class Axis : std::uint8_t { x, y };
   Axis axis = Axis::x;

@@ -6,7 +6,7 @@
 #include <steadyrest/chatter/offline/process/speed_profile.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
-// The solver wants the speed over the angle, a law gives it over time. With u the phase of the law,
+// The solver needs the speed over the angle; a law gives it over time. With u the phase of the law,
 // θ(u) = P·(u + RVA·∫S), P the angle of one period; phase() inverts it. A course of ramps needs no
 // inversion: on each ramp Ω² is linear in the angle.
 namespace steadyrest::chatter::offline {
@@ -53,7 +53,7 @@ SpeedProfile::SpeedProfile(const std::vector<SpeedRamp>& course, double period_r
       slowest_rad_s_(kTurn * course.front().from_rev_s),
       period_rad_(period_rad),
       constant_(false) {
-  // Stretched in time, not in speed: the speeds are what the machine made of the law.
+  // Stretched in time, not in speed: the speeds are the machine's own.
   const double stretch = period_rad / angle_rad(course);
   Part next{0.0, 0.0, 0.0, 0.0};
   for (const SpeedRamp& ramp : course) {
@@ -67,7 +67,7 @@ SpeedProfile::SpeedProfile(const std::vector<SpeedRamp>& course, double period_r
   next.angle_rad = period_rad;
   parts_.push_back(next);
   mean_rad_s_ = period_rad / next.time_s;
-  // Each corner begins a new piece in the solver; a staircase of hundreds would cost more than its
+  // Each corner begins a new piece in the solver; hundreds of stairs would cost more than their
   // kinks matter.
   for (std::size_t k = 0; course.size() <= kMostCorners && k < course.size(); ++k) {
     corners_rad_.push_back(parts_[k].angle_rad);
@@ -91,7 +91,7 @@ double SpeedProfile::phase(double angle_rad) const noexcept {
     const double off = u + rva_ * law_.integral(u) - want;
     (off > 0.0 ? high : low) = u;
     double next = u - off / (1.0 + rva_ * law_.at(u));
-    // At a jump of the law Newton's step may leave the bracket; halving cannot.
+    // At a jump of the law a Newton step may leave the bracket; halving cannot.
     if (!(next > low && next < high)) {
       next = 0.5 * (low + high);
     }

@@ -30,11 +30,10 @@ class SpeedProfile {
  public:
   SpeedProfile(double mean_rev_s, const Modulation& modulation);
   /// One period of a course, which then repeats: θ(t) = θ₀ + Ω₀·t + Ω̇·t²/2 on each ramp, so Ω² =
-  /// Ω₀² + 2Ω̇·(θ − θ₀). Its durations are stretched together to fill the angle; not empty. Ends
-  /// of ramps are corners up to 64 of them; of more none is, and what is smooth between is known to
-  /// less.
+  /// Ω₀² + 2Ω̇·(θ − θ₀). Its durations are stretched together to fill the angle; not empty. The
+  /// ends of up to 64 ramps are corners; with more ramps none is, and the accuracy is lower.
   SpeedProfile(const std::vector<SpeedRamp>& course, double period_rad);
-  /// Angle of a course that is not stretched.
+  /// Angle of a course without stretching.
   [[nodiscard]] static double angle_rad(const std::vector<SpeedRamp>& course) noexcept;
 
   [[nodiscard]] bool constant() const noexcept { return constant_; }

@@ -32,7 +32,7 @@ std::optional<Refusal> given_twice(std::span<const Frf> responses) {
 
 std::optional<Refusal> no_more_than_noise(const Eigen::ArrayXd& w, const Eigen::ArrayXcd& h,
                                           std::size_t modes, double residual) {
-  // c and d are real: real parts only. Scaled, so that both columns are of one order.
+  // c and d are real: real parts only. Scaled, so that both columns are of the same order.
   Eigen::MatrixXd columns(w.size(), 2);
   columns << Eigen::VectorXd::Ones(w.size()), (w.minCoeff() / w).square().matrix();
   const Eigen::VectorXd real = h.real().matrix();

@@ -14,8 +14,8 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
-// Names and units of a header are read apart, so that any order of differentiation and any length
-// unit comes down to displacement in mm/N here, once.
+// Names and units of a header are read separately, so that any order of differentiation and any
+// length unit is converted to displacement in mm/N once, here.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -37,8 +37,7 @@ Column column_of(std::string_view name) {
   return out;
 }
 
-/// What a response's unit is of displacement: mm/N for one of it, and how often it is
-/// differentiated.
+/// A response's unit: mm/N per unit, and how often it is differentiated.
 struct Unit {
   std::string_view name;
   double mm_n;

@@ -12,11 +12,11 @@
 
 /// A measured frequency response: displacement over force at the tool's tip.
 ///
-/// CSV: a head `frequency_hz,real_um_N,imag_um_N` or `frequency_hz,magnitude_m_N,phase_deg`, then
-/// rows, as table::RowReader takes them; `coherence` may follow. The unit stands in the head (m/N,
-/// mm/N or um/N, written `_um_N`, `(um/N)` or `[µm/N]`) or in a row of units. Accelerance A
-/// (m/s2/N, mm/s2/N, g/N) and mobility V (m/s/N, mm/s/N) become displacement by H = A/(iω)² = −A/ω²
-/// and H = V/(iω).
+/// CSV: a header `frequency_hz,real_um_N,imag_um_N` or `frequency_hz,magnitude_m_N,phase_deg`, then
+/// rows, as read by table::RowReader; `coherence` may follow. The unit is in the header (m/N, mm/N
+/// or um/N, written `_um_N`, `(um/N)` or `[µm/N]`) or in a row of units. Accelerance A (m/s2/N,
+/// mm/s2/N, g/N) and mobility V (m/s/N, mm/s/N) become displacement by H = A/(iω)² = −A/ω² and H =
+/// V/(iω).
 namespace steadyrest::chatter::offline {
 
 struct Frf {
@@ -24,12 +24,12 @@ struct Frf {
   std::vector<std::complex<double>> compliance_mm_n;
   std::vector<double> coherence;  ///< 0 … 1, as many; empty: not recorded
   int measured_order = 0;  ///< 0: a displacement was measured, 1: a velocity, 2: an acceleration
-  std::string file;        ///< it was read from
+  std::string file;        ///< its source
 };
 
-/// All responses of a file, universal file format 58 or CSV, told apart by its first line.
-/// Refused: no file, fewer than kLeastPoints points, an unknown unit, frequencies that do not rise,
-/// what is no number; each by its line.
+/// All responses of a file, universal file format 58 or CSV, recognised by its first line. Refused
+/// by line: no file, fewer than kLeastPoints points, an unknown unit, frequencies that do not rise,
+/// a value that is not a number.
 [[nodiscard]] kernel::outcome::Result<std::vector<Frf>> read_frf(const std::string& path,
                                                                  const table::Format& format = {});
 [[nodiscard]] kernel::outcome::Result<Frf> parse_frf_csv(std::string_view text,
@@ -47,7 +47,7 @@ inline constexpr std::size_t kLeastPoints = 8;
   return measured;
 }
 
-/// A compliance in mm/N that can be worked with: finite, and so is its square.
+/// A usable compliance in mm/N: finite, and so is its square.
 [[nodiscard]] inline bool possible(const std::complex<double>& compliance_mm_n) noexcept {
   return std::abs(compliance_mm_n) <= 1e12;
 }

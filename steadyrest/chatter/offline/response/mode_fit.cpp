@@ -16,7 +16,7 @@
 
 // Orders rise one by one: with_one_more() adds a mode where the residual stands out, refine() moves
 // all modes by Levenberg–Marquardt with the linear parameters solved inside, estimate_noise()
-// renews the weights, and the criterion decides whether the mode was worth its three parameters.
+// updates the weights, and the criterion decides whether the mode was worth its three parameters.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -33,7 +33,7 @@ using kernel::outcome::Result;
 constexpr double kLeastFittedDamping = 1e-5;
 constexpr double kMostFittedDamping = 0.5;
 constexpr Index kBackground = 2;  ///< c and d
-// Logarithms keep ω and ζ above 0 and give steps of equal relative size whatever the mode.
+// Logarithms keep ω and ζ above 0 and give steps of equal relative size for every mode.
 constexpr Index kPerMode = 3;  ///< ln ω, ln ζ, gain
 constexpr int kRounds = 4;     ///< of noise and modes in turn
 
@@ -46,7 +46,7 @@ struct Model {
   [[nodiscard]] Index modes() const { return static_cast<Index>(w.size()); }
 };
 
-/// What is measured and how much each point is trusted.
+/// The measurement and the weight of each point.
 struct Data {
   ArrayXd w;
   Eigen::ArrayXcd h;
@@ -89,8 +89,8 @@ MatrixXd weighted(const Data& data, const Eigen::MatrixXcd& m) {
 /// Least squares for the linear parameters.
 void solve_linear(const Data& data, Model& model) {
   const MatrixXd a = weighted(data, columns(data, model));
-  // Columns of modes and background differ by orders of magnitude; without scaling the rank
-  // decision of QR drops the small ones.
+  // Columns of modes and background differ by orders of magnitude; without scaling, QR's rank
+  // decision would drop the small ones.
   const VectorXd scale = a.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const VectorXd y =
       (a * scale.asDiagonal()).colPivHouseholderQr().solve(weighted(data, data.h.matrix()).col(0));
@@ -138,7 +138,7 @@ void refine(const Data& data, Model& model, int most_steps) {
     bool better = false;
     while (!better && lambda < 1e8) {
       MatrixXd damped = normal;
-      // Marquardt's scaling: the damping goes with each parameter's own curvature.
+      // Marquardt's scaling: the damping is proportional to each parameter's own curvature.
       damped.diagonal() *= 1.0 + lambda;
       const VectorXd move = damped.ldlt().solve(gradient);
       Model next = model;
@@ -168,7 +168,7 @@ void refine(const Data& data, Model& model, int most_steps) {
   }
 }
 
-/// s and r of σ² = s² + r²·|H|² by maximum likelihood, from what the model leaves; −2 ln L.
+/// Estimates s and r of σ² = s² + r²·|H|² from the residual by maximum likelihood; returns −2 ln L.
 double estimate_noise(Data& data, const Model& model) {
   const Eigen::ArrayXcd fitted = response(data, model);
   const ArrayXd left = (data.h - fitted).abs2();
@@ -202,7 +202,7 @@ double estimate_noise(Data& data, const Model& model) {
   return best;
 }
 
-/// A mode more, where what is left stands out most against the noise.
+/// Adds a mode where the residual stands out most against the noise.
 Model with_one_more(const Data& data, const Model& model) {
   const ArrayXd left = model.linear.size() == 0
                            ? ArrayXd(data.h.abs() * data.weight)
@@ -217,7 +217,7 @@ Model with_one_more(const Data& data, const Model& model) {
   }
   std::ranges::sort(peaks, [&](Index a, Index b) { return left[a] > left[b]; });
   peaks.resize(std::min<std::size_t>(peaks.size(), 6));
-  // A mode beside a known one leaves its mark upon it: those places are tried as well.
+  // A mode next to a known one distorts that one: those places are tried too.
   std::vector<double> places;
   places.reserve(peaks.size() + 2 * model.w.size());
   for (const Index i : peaks) {
@@ -250,7 +250,7 @@ Model with_one_more(const Data& data, const Model& model) {
 bool sound(const Data& data, const Model& model) {
   for (Index k = 0; k < model.modes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
-    // A mode at a bound, or outside the band, stands for the background or for noise.
+    // A mode at a bound or outside the band represents background or noise.
     if (!(model.linear[k] > 0.0) || model.damping[at] >= kMostFittedDamping ||
         model.damping[at] <= kLeastFittedDamping || model.w[at] < 0.9 * data.w.minCoeff() ||
         model.w[at] > 1.1 * data.w.maxCoeff()) {
@@ -297,7 +297,7 @@ Data gather(std::span<const Frf> responses, const ModeFitConfig& config) {
   if (!w.empty()) {
     // Geometric: the background terms go with powers of ω.
     out.middle_w = std::exp(out.w.log().mean());
-    // Before anything is known: a tenth of the response and of its mean.
+    // Initial guess: a tenth of the response and of its mean.
     out.weight = (out.h.abs2() + out.h.abs2().mean()).rsqrt() * 10.0;
   }
   return out;
@@ -339,14 +339,14 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
       break;
     }
     double likelihood = 0.0;
-    // Noise and modes depend on each other: the weights come from the noise, the noise from what
-    // the modes leave.
+    // Noise and modes depend on each other: the weights come from the noise, the noise from the
+    // residual.
     for (int round = 0; round < kRounds; ++round) {
       refine(data, next, kSteps);
       likelihood = estimate_noise(data, next);
     }
     model = next;
-    // BIC (Schwarz 1978): the two more unknowns are s and r of the noise; each point counts twice,
+    // BIC (Schwarz 1978): the two extra unknowns are s and r of the noise; each point counts twice,
     // real and imaginary.
     criterion.push_back(likelihood + static_cast<double>(unknowns + 2) *
                                          std::log(2.0 * static_cast<double>(data.w.size())));
@@ -355,7 +355,7 @@ Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& c
       best = result_of(data, next);
       least = criterion.back();
     }
-    // Two orders in a row that are worse than the best.
+    // Stops after two orders in a row worse than the best.
     if (config.order == 0 && n >= 2 && criterion.back() > least + 20.0 &&
         criterion[n - 2] > least) {
       break;

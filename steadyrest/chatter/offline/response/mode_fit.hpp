@@ -8,14 +8,14 @@
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
-/// Modes out of measured responses of one point in one direction (drive point).
+/// Modes from measured responses of one point in one direction (drive point).
 ///
-/// H(ω) = Σ_k (1000/m_k)/(ω_k² − ω² + 2iζ_k·ω_k·ω) + c − d/ω², mm/N; c and d stand for what lies
-/// above and below the band. Modes are added one by one where the rest is largest, then all are
-/// moved together by Gauss–Newton steps (Levenberg, Marquardt). The noise of a point is taken as
-/// σ² = s² + r²·|H|² with s and r found by maximum likelihood; the order is that of the smallest
-/// Bayesian information criterion (Schwarz, Ann. Stat. 6 (1978) 461). Accuracy: 1 … 5 % of noise,
-/// 10 points within the half-power band: frequency to 0.1 %, damping and mass to 5 %.
+/// H(ω) = Σ_k (1000/m_k)/(ω_k² − ω² + 2iζ_k·ω_k·ω) + c − d/ω², mm/N; c and d represent the modes
+/// above and below the band. Modes are added one by one where the residual is largest, then all are
+/// moved together by Gauss–Newton steps (Levenberg, Marquardt). The noise of a point is σ² = s² +
+/// r²·|H|² with s and r from maximum likelihood; the order minimises the Bayesian information
+/// criterion (Schwarz, Ann. Stat. 6 (1978) 461). Accuracy: 1 … 5 % of noise, 10 points within the
+/// half-power band: frequency to 0.1 %, damping and mass to 5 %.
 namespace steadyrest::chatter::offline {
 
 struct FittedMode {
@@ -27,14 +27,14 @@ struct FittedMode {
 
 struct ModeFitConfig {
   std::size_t most_modes = 8;  ///< 1 … 16
-  std::size_t order = 0;       ///< so many modes; 0: by the criterion
+  std::size_t order = 0;       ///< number of modes; 0: by the criterion
   double least_frequency_hz = 0.0;
   double most_frequency_hz = 1e9;
 };
 
 struct ModeFit {
   std::vector<FittedMode> modes;  ///< by rising frequency
-  double residual = 0.0;          ///< RMS of what is not explained over the RMS of the response
+  double residual = 0.0;          ///< RMS of the unexplained part over the RMS of the response
   double noise_ratio = 0.0;       ///< r
   double noise_mm_n = 0.0;        ///< s
   double upper_mm_n = 0.0;        ///< c
@@ -46,9 +46,9 @@ struct ModeFit {
 /// H of the fit at this frequency, > 0.
 [[nodiscard]] std::complex<double> response_mm_n(const ModeFit& fit, double frequency_hz) noexcept;
 
-/// Responses of the same point, measured once or several times. Refused: none, one of them twice,
-/// fewer points in the band than unknowns, no mode with positive mass, modes that explain no more
-/// than they would of noise.
+/// Responses of the same point, measured once or several times. Refused: none given, one given
+/// twice, fewer points in the band than unknowns, no mode with positive mass, modes that explain no
+/// more than they would of noise.
 [[nodiscard]] kernel::outcome::Result<ModeFit> fit_modes(std::span<const Frf> responses,
                                                          const ModeFitConfig& config);
 

@@ -13,9 +13,9 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Universal files are Fortran records of 80 columns: −1 opens and closes a dataset, five title
-// lines, record 6 tells the function, record 7 the form of the data, records 8 to 11 the axes.
-// Other datasets between the responses are passed over; a truncated one is refused, since a cut-off
-// response fits to modes that are not there.
+// lines, record 6 gives the function, record 7 the form of the data, records 8 to 11 the axes.
+// Other datasets between the responses are skipped; a truncated one is refused, since a cut-off
+// response would fit modes that do not exist.
 namespace steadyrest::chatter::offline {
 namespace {
 
@@ -324,7 +324,7 @@ class UffReader {
                    "export with rising frequencies");
       }
       last = f;
-      // Division by (iω)² or iω: at 0 Hz acceleration and velocity say nothing of displacement.
+      // Division by (iω)² or iω: at 0 Hz acceleration and velocity say nothing about displacement.
       if (f <= 0.0) {
         continue;
       }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kUneven = 0.25;  // of a step
 
-/// The rate of a step that is nearly on a border is the border's.
+/// Snaps a rate that is nearly on a bound to the bound.
 double rate_of(double rate_hz) {
   return std::clamp(rate_hz, kLeastRateHz, kMostRateHz);
 }
@@ -84,8 +84,8 @@ class SignalSink final : public table::Sink {
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
     const double median_s = *middle;
-    // A missing sample shifts the phase of every order behind it and looks like chatter; it is
-    // refused rather than filled. The median is the step that a few gaps do not move.
+    // A missing sample shifts the phase of every later order and looks like chatter: refused rather
+    // than filled. A few gaps do not move the median step.
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (!(steps[i] > 0.0 && std::abs(steps[i] - median_s) <= kUneven * median_s)) {
         return std::unexpected(SignalFault{
@@ -96,7 +96,7 @@ class SignalSink final : public table::Sink {
       }
     }
     out_.start_s = time_s_.front();
-    // Over the whole record: one step has only the digits of its stamps.
+    // Over the whole record: a single step has only the digits of its stamps.
     out_.rate_hz = static_cast<double>(steps.size()) / (time_s_.back() - time_s_.front());
     if (auto fault = unfit_rate(out_.rate_hz)) {
       if (out_.rate_hz < kLeastRateHz) {

@@ -9,18 +9,18 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
-/// Reader of a recorded vibration, sound or power: CSV or WAV, told apart by the first bytes.
+/// Reader of a recorded vibration, sound or power: CSV or WAV, recognised by the first bytes.
 ///
-/// CSV: columns `t_s`, `value` and, where it was recorded, `speed_rpm`, found by their names,
-/// others beside them, as table::RowReader takes them; times also as stamps (ISO 8601) or sample
-/// numbers. Each step of the time is within 25 % of the median one: no sample may be missing.
+/// CSV: columns `t_s`, `value` and, if recorded, `speed_rpm`, found by name among others, as read
+/// by table::RowReader; times may also be stamps (ISO 8601) or sample numbers. Each time step must
+/// be within 25 % of the median: no sample may be missing.
 ///
 /// WAV: RIFF with PCM of 16, 24 or 32 bits or floats of 32; of several channels the first; values
 /// in ±1. It has no speed. Layout: Multimedia Programming Interface and Data Specifications 1.0
 /// (IBM, Microsoft, 1991).
 ///
-/// Refused, with line or byte: what is not so, a value that is not finite, a file that is cut
-/// off, a rate outside of 1 … 50 kHz, over 256 MB. Nothing throws.
+/// Refused, with line or byte: any other format, a value that is not finite, a truncated file, a
+/// rate outside 1 … 50 kHz, over 256 MB. Nothing throws.
 namespace steadyrest::chatter::offline {
 
 struct RecordedSignal {
@@ -33,12 +33,12 @@ struct RecordedSignal {
 [[nodiscard]] kernel::outcome::Result<RecordedSignal> read_signal(const std::string& path,
                                                                   const table::Format& format = {});
 
-/// The same of bytes; `file` is what the refusals are to call it.
+/// The same from bytes; `file` is the name in refusals.
 [[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(
     std::string_view bytes, const std::string& file, const table::Format& format = {});
 
-/// What can be read and yet not be judged: every sample the same (a sensor that is dead, saturated
-/// or not plugged in), or amplitudes whose squares, summed over a window, leave a double.
+/// Signals that can be read but not judged: every sample the same (a dead, saturated or unplugged
+/// sensor), or amplitudes whose squares, summed over a window, overflow a double.
 [[nodiscard]] std::optional<kernel::outcome::Refusal> no_signal(const RecordedSignal& signal,
                                                                 const std::string& file);
 

@@ -18,7 +18,7 @@ using SignalFault = table::Fault;
 template <class T>
 using OrFault = std::expected<T, SignalFault>;
 
-/// A rate outside of what the detector takes, with room for the rounding of time stamps.
+/// A rate outside the detector's range, with room for rounded time stamps.
 [[nodiscard]] std::optional<SignalFault> unfit_rate(double rate_hz);
 
 [[nodiscard]] OrFault<RecordedSignal> parse_csv_signal(std::string_view text,

@@ -98,7 +98,7 @@ OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::
   out.rate_hz = format.rate_hz;
   out.value.resize(size / frame);
   for (std::size_t i = 0; i < out.value.size(); ++i) {
-    // The first channel alone: a mean over microphones would cancel what they hear in antiphase.
+    // Only the first channel: a mean over microphones would cancel what they hear in antiphase.
     out.value[i] = sample_at(bytes, at + i * frame, format);
     if (!std::isfinite(out.value[i])) {
       return std::unexpected(SignalFault{
@@ -120,7 +120,7 @@ OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
         0, fmt::format("byte 8: RIFF of kind \"{}\", not WAVE", table::shown(bytes.substr(8, 4))),
         "give a WAV file"});
   }
-  // The size in the head does not count the eight bytes before it.
+  // The size in the header excludes the first eight bytes.
   if (const std::size_t riff = little_endian(bytes, 4, 4); riff + 8 > bytes.size()) {
     return std::unexpected(cut_off(4, riff, bytes.size() - 8));
   }

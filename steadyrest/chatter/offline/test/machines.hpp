@@ -8,7 +8,7 @@
 /// Machines for the planner's tests.
 namespace steadyrest::chatter::offline::test {
 
-/// A strong and light spindle with these override steps; each test takes something away.
+/// A strong and light spindle with these override steps; each test removes something.
 inline kernel::machine::Machine light_spindle(std::initializer_list<int> percent) {
   kernel::machine::Machine m;
   m.spindle.max_rev_s = 500.0;

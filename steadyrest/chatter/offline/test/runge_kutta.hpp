@@ -13,8 +13,8 @@
 #include <steadyrest/chatter/offline/process/speed_profile.hpp>
 
 /// A second opinion that shares nothing with the collocation: the delay equation of one mode along
-/// x stepped by Runge and Kutta's rule of fourth order over the spindle's angle, the delayed
-/// displacement by Hermite's cubic.
+/// x, stepped by fourth-order Runge–Kutta over the spindle angle, the delayed displacement by cubic
+/// Hermite interpolation.
 namespace steadyrest::chatter::offline::test {
 
 class RungeKutta {
@@ -91,7 +91,7 @@ class RungeKutta {
     k_ = (k_ + 1) % ring_.size();
   }
 
-  /// Keeps what vibrates now and brings it to the size 1; the size that it had.
+  /// Stores the present vibration and scales it to size 1; returns its size before.
   double normalise() {
     std::vector<double> all{s_.x, s_.v / wn_};
     for (const Knot& knot : ring_) {
@@ -110,7 +110,7 @@ class RungeKutta {
     return norm;
   }
 
-  /// y₂ = p·y₀ + q·y₁ in the least squares; μ² = p + q·μ.
+  /// y₂ = p·y₀ + q·y₁ by least squares; μ² = p + q·μ.
   [[nodiscard]] double log_of_largest() const {
     const std::size_t n = seen_.size();
     const double r1 = std::exp(log_size_[n - 2] - log_size_[n - 3]);
@@ -141,7 +141,7 @@ class RungeKutta {
   double depth_mm_;
   double step_;  ///< rad
   double wn_ = 2.0 * std::numbers::pi * mode_.frequency_hz;
-  std::vector<Stage> stage_;  ///< three in each step: just inside of its ends, and the middle
+  std::vector<Stage> stage_;  ///< three per step: just inside its ends, and the middle
   std::vector<Knot> ring_;
   std::size_t k_ = 0;
   State s_{0.4, wn_};
@@ -150,7 +150,7 @@ class RungeKutta {
 };
 
 /// ln ρ over one period of `passes`, from the plane that the vibration settles on. Entry, exit and
-/// the law's jumps must fall on the steps.
+/// the law's jumps must coincide with steps.
 inline double log_radius_by_runge_kutta(const Process& process, double speed_rev_s,
                                         const Modulation& modulation, double depth_mm,
                                         std::size_t steps_per_pass, std::size_t passes,

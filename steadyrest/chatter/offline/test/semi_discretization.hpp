@@ -10,13 +10,13 @@
 #include <steadyrest/chatter/offline/process/cutting_coefficients.hpp>
 #include <steadyrest/chatter/offline/process/process.hpp>
 
-/// First-order semi-discretization as the literature writes it, for one mode along x, straight
-/// teeth of even pitch and constant speed (Insperger, Stépán, Turi 2008), with the teeth's angles
-/// taken within one turn.
+/// First-order semi-discretization as in the literature, for one mode along x, straight teeth of
+/// even pitch and constant speed (Insperger, Stépán, Turi 2008), with the teeth's angles taken
+/// within one turn.
 namespace steadyrest::chatter::offline::test {
 
-/// |μ| of one tooth pass with m steps in it. The state is x, ẋ and the m displacements before; the
-/// transition matrix is the product of m matrices of (m + 2)².
+/// |μ| of one tooth pass with m steps in it. The state is x, ẋ and the m previous displacements;
+/// the transition matrix is the product of m matrices of (m + 2)².
 inline double radius_by_semi_discretization(const Process& process, double speed_rev_s,
                                             double depth_mm, int m) {
   const Mode& mode = process.modes[0];

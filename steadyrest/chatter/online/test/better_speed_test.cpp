@@ -42,8 +42,8 @@ BetterSpeed::Output last_output(BetterSpeed& better, const CutSignal& signal, do
     out = better.update({.value = signal.value[i],
                          .speed_rev_s = signal.speed_rev_s[i],
                          .programmed_rev_s = programmed,
-                         // Above the border at 5000 rpm, well below that at 5500: one step to the
-                         // side is the right answer.
+                         // Above the border at 5000 rpm, well below the one at 5500: one step to
+                         // the side is the right answer.
                          .depth_mm = 0.6});
     if (!out.chatter && out.reason != Reason::chatter_better_speed) {
       EXPECT_EQ(out.request.reason, Reason::none);
@@ -74,7 +74,7 @@ TEST(BetterSpeed, IsNeutralInAStableCut) {
   EXPECT_EQ(out.request.reason, Reason::none);
 }
 
-// 98 to 100 % leaves the step it is on: the cut chatters, and no request may pretend otherwise.
+// 98 to 100 % allows only the present step: the cut chatters, and no request may pretend otherwise.
 TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   BetterSpeed::Config none = config(1.0);
   none.table.min_ratio = 0.98;
@@ -86,7 +86,7 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   EXPECT_EQ(out.request.ratio, 1.0);
 }
 
-// 110 % of another speed would be a speed that nobody has asked about.
+// 110 % of another speed would be a speed that was never queried.
 TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   auto better = BetterSpeed::make(config(1.2));
   ASSERT_TRUE(better);

@@ -12,8 +12,8 @@
 
 #include <steadyrest/chatter/online/speed_law.hpp>
 
-/// A small time-domain simulation of milling, apart from the project's own: one mode in x and one
-/// in y, straight teeth, each tooth meets the surface that the five before it left and may leave
+/// A small time-domain simulation of milling, independent of the project's own: one mode in x and
+/// one in y, straight teeth; each tooth meets the surface left by the previous five and may leave
 /// the cut. Fixed step, forces held over a step.
 namespace steadyrest::chatter::online::test {
 
@@ -31,7 +31,7 @@ struct CutModel {
   double speed_rev_s = 5000.0 / 60.0;
   Law law = Law::constant;
   double rva = 0.0, rvf = 0.1;
-  bool regenerates = true;  ///< false: forced vibration alone
+  bool regenerates = true;  ///< false: only forced vibration
   bool accelerometer = false;
   double air_s = 0.0;      ///< before the cutter enters
   double kick_mm_s = 0.0;  ///< speed in x and y as it enters
@@ -82,7 +82,7 @@ class CutSimulation {
   using Pair = std::array<double, 2>;
   using Surfaces = std::array<Pair, kPasses>;
 
-  /// Where the tool was when the teeth before this one passed.
+  /// Where the tool was when the previous teeth passed.
   Surfaces look_back(std::size_t i) {
     const double pitch = 1.0 / static_cast<double>(m_.teeth);
     Surfaces old{};
@@ -190,12 +190,12 @@ inline double rms(const std::vector<double>& x, std::size_t first = 0) {
   return std::sqrt(std::max(squares / n - sum * sum / (n * n), 0.0));
 }
 
-/// Truth about a signal, from simulations beside it.
+/// The truth about a signal, from further simulations.
 struct Truth {
-  bool chatters = false;  ///< another start leads to another vibration
-  bool stable = false;    ///< another start leads to the same vibration
-  double onset_s = 0.0;   ///< what regeneration adds first reaches a tenth of its size at the end
-  double added_ratio = 0.0;  ///< RMS of what regeneration adds, over forced_rms
+  bool chatters = false;     ///< another start gives another vibration
+  bool stable = false;       ///< another start gives the same vibration
+  double onset_s = 0.0;      ///< regeneration's part first reaches a tenth of its final size
+  double added_ratio = 0.0;  ///< RMS of regeneration's part, over forced_rms
   double forced_rms = 0.0;   ///< of the vibration without regeneration
 };
 
@@ -231,7 +231,7 @@ inline Truth truth_of(const CutModel& model, const CutSignal& signal) {
   return out;
 }
 
-/// A cut drawn by chance: mode, cutter, immersion, speed, depth.
+/// A random cut: mode, cutter, immersion, speed, depth.
 inline CutModel random_cut(std::mt19937_64& rng, bool modulated) {
   const auto draw = [&](double a, double b) {
     return std::uniform_real_distribution<double>(a, b)(rng);

@@ -28,10 +28,10 @@ CutModel slot(double depth_mm) {
   return m;
 }
 
-// When chatter was first reported and when the last report ended, with what was said at the first.
+// When chatter was first reported and when the last report ended, with the first report's figures.
 struct Heard {
   double first_s = -1.0;
-  double end_s = -1.0;  ///< chatter was no longer told
+  double end_s = -1.0;  ///< chatter was no longer reported
   double frequency_hz = 0.0;
   Detector::Kind kind = Detector::Kind::none;
   Detector::Output last;
@@ -150,12 +150,12 @@ TEST(Detector, IsSilentWhereAToothOrderSweepsOverAResonance) {
     energy_ratio = std::max(energy_ratio, out.energy_ratio);
     free_ratio = std::max(free_ratio, out.free_ratio);
   }
-  EXPECT_GT(energy_ratio, 0.3);  // the ratio of energies alone takes it for chatter
+  EXPECT_GT(energy_ratio, 0.3);  // the energy ratio alone would call it chatter
   EXPECT_LT(free_ratio, 0.1);
 }
 
 TEST(Detector, IsSilentWhenTheToolEntersIntoNoiseAsLoudAsTheCut) {
-  CutModel model = slot(0.49);  // two cuts whose entry raises the energy no more than twofold
+  CutModel model = slot(0.49);  // two cuts whose entry at most doubles the energy
   model.accelerometer = true;
   model.frequency_hz = {670.0, 730.0};
   model.damping_ratio = {0.028, 0.025};
@@ -181,7 +181,7 @@ TEST(Detector, IsSilentWhenTheToolEntersIntoNoiseAsLoudAsTheCut) {
   }
 }
 
-/// In both the modulation lets vibration grow for a while in each of its periods.
+/// In both, the modulation lets vibration grow for a while in each period.
 TEST(Detector, IsSilentInCutsThatModulationKeepsStable) {
   CutModel triangle = slot(0.56);
   triangle.accelerometer = true;
@@ -215,12 +215,12 @@ TEST(Detector, IsSilentInCutsThatModulationKeepsStable) {
   }
 }
 
-/// Rates over cuts drawn by chance; bench/chatter/detector_hunt draws more of them.
+/// Rates over random cuts; bench/chatter/detector_hunt draws more of them.
 TEST(Detector, HearsModulatedCutsDrawnByChanceInTime) {
   std::mt19937_64 rng(3);
   int chattering = 0;
   int in_time = 0;
-  // Cuts that do not chatter, or too late for the record, are drawn again.
+  // Cuts that do not chatter, or too late for the record, are redrawn.
   constexpr int kCuts = kSanitized ? 1 : 15;
   while (chattering < kCuts) {
     CutModel model = random_cut(rng, true);

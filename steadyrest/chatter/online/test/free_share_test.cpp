@@ -23,8 +23,8 @@ struct Vibration {
   std::vector<double> value, angle_rev;
 };
 
-/// A mode that answers to the second-order force of a spindle whose fifth tooth order sweeps over
-/// it: 90 rev/s ± 15 % at 12 Hz; `own` is a line of the amplitude of the forced vibration beside.
+/// A mode driven by order 10, the fifth tooth order, which sweeps over it: 90 rev/s ± 15 % at
+/// 12 Hz; `own` is the amplitude of an additional line.
 Vibration sweep(double own, double runout, double noise) {
   // Semi-implicit Euler at eight steps a sample, which keeps the mode's frequency and decay.
   constexpr int kFine = 8;
@@ -65,7 +65,7 @@ FreeShare::Output ask(const Vibration& vibration, std::size_t teeth, double hz) 
   return out;
 }
 
-// The false alarm of modulated cuts: all of this line is the mode's answer to an order.
+// The false alarm of modulated cuts: this whole line is the mode's response to an order.
 TEST(FreeShare, IsNextToNothingWhereAnOrderSweepsOverADampedMode) {
   const auto out = ask(sweep(0.0, 0.0, 0.0), 2, kModeHz);
   ASSERT_TRUE(out.known);
@@ -74,14 +74,14 @@ TEST(FreeShare, IsNextToNothingWhereAnOrderSweepsOverADampedMode) {
   EXPECT_GE(out.off_teeth, 0.0);
 }
 
-// A decay within a quarter is plenty: other poles are tried beside it.
+// A decay within a quarter is enough: other poles are tried too.
 TEST(FreeShare, NamesTheModesDecay) {
   const auto out = ask(sweep(0.0, 0.0, 1e-3), 2, kModeHz);
   EXPECT_NEAR(out.growth_1_s, -kDecay, 0.25 * kDecay);
 }
 
 TEST(FreeShare, IsTheLineThatNoOrderGives) {
-  // 30 Hz beside the mode, near enough to be taken for its ringing, and at rest while the orders
+  // 30 Hz from the mode, near enough to be taken for its ringing, and constant while the orders
   // sweep across it.
   const double own = 0.5;
   const auto out = ask(sweep(own, 0.0, 0.0), 2, 930.0);
@@ -91,14 +91,14 @@ TEST(FreeShare, IsTheLineThatNoOrderGives) {
   EXPECT_GT(out.off_spindle, 0.4 * 0.5 * own * own);
 }
 
-// Order 9 is no multiple of two teeth, but one of the spindle's.
+// Order 9 is not a multiple of two teeth but is a spindle order.
 TEST(FreeShare, RunoutIsOffTheTeethButNotOffTheSpindle) {
   const auto out = ask(sweep(0.0, 1.0, 0.0), 2, kModeHz);
   EXPECT_GT(out.off_teeth, 0.1 * out.energy);
   EXPECT_LT(out.off_spindle, 0.03 * out.energy);
 }
 
-// Seven places in the band, because one of them scatters by some 20 %.
+// Seven places in the band, because a single one scatters by some 20 %.
 TEST(FreeShare, NoiseKeepsItsShareOfTheBand) {
   Vibration noise = sweep(0.0, 0.0, 1.0);
   std::mt19937_64 rng(3);

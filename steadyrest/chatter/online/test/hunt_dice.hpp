@@ -10,7 +10,7 @@
 #include <steadyrest/chatter/online/modulator.hpp>
 #include <steadyrest/kernel/override/test/published_tables.hpp>
 
-/// Chance for the hunts: the same numbers on every machine, and what is drawn by them.
+/// Random numbers for the hunts, the same on every machine, and what is drawn from them.
 namespace steadyrest::chatter::online::test {
 
 /// splitmix64
@@ -40,8 +40,8 @@ class Dice {
   std::uint64_t state_;
 };
 
-/// A modulator and how fast both envelopes slew. In a calm machine nothing but the modulation moves
-/// the feed per tooth.
+/// A modulator and how fast both envelopes slew. In a calm machine only the modulation moves the
+/// feed per tooth.
 struct RandomSetup {
   Modulator::Config config;
   double slew_1_s = 2.0;
@@ -77,7 +77,7 @@ inline RandomSetup random_setup(Dice& dice, bool calm) {
   return setup;
 }
 
-/// One value of a modulation changed, now and then to one that is not fit.
+/// Changes one value of a modulation, now and then to an invalid one.
 inline Modulation random_change(Modulation m, Dice& dice) {
   switch (dice.below(6)) {
     case 0:

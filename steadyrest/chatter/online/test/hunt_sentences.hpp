@@ -13,18 +13,17 @@
 #include <steadyrest/chatter/online/test/hunted_override.hpp>
 #include <steadyrest/kernel/override/arbiter.hpp>
 
-/// The sentences on safety that must hold in each cycle of a hunt, and the count of what broke
-/// them.
+/// The safety claims that must hold in each cycle of a hunt, and the count of violations.
 namespace steadyrest::chatter::online::test {
 
 struct Hunt {
   std::uint64_t changes = 0;
-  std::uint64_t wishes = 0;   ///< cycles in which the spindle was asked for something
+  std::uint64_t wishes = 0;   ///< cycles with a request for the spindle
   std::uint64_t words = 0;    ///< changes of a masked word
-  std::uint64_t outside = 0;  ///< a request outside of the limits, or not neutral unasked
+  std::uint64_t outside = 0;  ///< a request outside the limits, or not neutral when it should be
   std::uint64_t phase_jumps = 0;
   std::uint64_t speed_jumps = 0;     ///< the swing moved faster than the drive
-  std::uint64_t feed_per_tooth = 0;  ///< asked, or in force at the machine, above the band
+  std::uint64_t feed_per_tooth = 0;  ///< requested, or in force at the machine, above the band
   std::uint64_t invalid_codes = 0;
   std::uint64_t words_outside = 0;  ///< a mixture of two words decoded outside of [from, to]
   std::string first;                ///< what the first fault was
@@ -69,7 +68,7 @@ class Sentences {
     hunt.words += seen.changed ? 1U : 0U;
   }
 
-  /// `table` is the spindle's; `spoilt`: the frame is unfit on purpose.
+  /// `table` is the spindle's; `spoilt`: the frame is deliberately unfit.
   void check_request(const Modulator::Output& out, const kernel::signal::Frame& frame,
                      const kernel::override::Table& table, bool spoilt) {
     constexpr double kTolerance = 1e-9;
@@ -116,7 +115,8 @@ class Sentences {
     }
   }
 
-  /// From one cycle's state to the next's; `panel_ratio` is what the operator's switch truly shows.
+  /// From one cycle's state to the next; `panel_ratio` is the true position of the operator's
+  /// switch.
   void check_swing(const Modulator::State& before, const Modulator::State& now,
                    const Modulator::Output& out, const kernel::signal::Frame& frame,
                    double panel_ratio) {

@@ -10,8 +10,8 @@
 
 #include <steadyrest/kernel/override/channel.hpp>
 
-/// One override of the hunted machine: envelope, hand-over, and the control that looks at the word
-/// once a scan and acts a dead time later.
+/// One override of the hunted machine: envelope, hand-over, and the control that reads the word
+/// once per scan and acts a dead time later.
 namespace steadyrest::chatter::online::test {
 
 class HuntedOverride {
@@ -19,7 +19,7 @@ class HuntedOverride {
   using Channel = kernel::override::Channel;
 
   struct Seen {
-    bool invalid = false;           ///< the code stands for no step
+    bool invalid = false;           ///< the code matches no step
     std::uint32_t code = 0;         ///< that code
     std::optional<double> outside;  ///< a mixture of two words decoded to this
     bool changed = false;           ///< a masked word changed
@@ -32,9 +32,9 @@ class HuntedOverride {
         dead_s_(config.table.dead_time_s) {}
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return channel_.table(); }
-  /// What the envelope has let through.
+  /// The envelope's output.
   [[nodiscard]] kernel::signal::RatioInForce told() const noexcept { return channel_.in_force(); }
-  /// What the machine does at this time, which never goes back.
+  /// The ratio in force at this time; time never goes back.
   double in_force(double time_s) {
     while (!coming_.empty() && coming_.front().first <= time_s) {
       in_force_ = coming_.front().second;
@@ -85,7 +85,7 @@ class HuntedOverride {
                                               : std::min(ratio, panel.panel_ratio);
   }
 
-  /// Wires change one after the other: whatever is read on the way lies between the two.
+  /// Wires change one after the other: anything read meanwhile must lie between the two.
   void check_mixtures(const Word& now, double to, const kernel::signal::OverrideState& panel,
                       Seen& seen) const {
     const auto from_step = table().step_of_code(word_.code);

@@ -26,7 +26,7 @@ inline Modulator::Config sine_config() {
   return c;
 }
 
-/// A modulator, its frame and what came of its requests; the spindle and the feed follow at once.
+/// A modulator, its frame and the result of its requests; the spindle and the feed follow at once.
 class Bench {
  public:
   explicit Bench(const Modulator::Config& c = sine_config())

@@ -10,8 +10,7 @@
 #include <steadyrest/chatter/online/test/hunt_sentences.hpp>
 #include <steadyrest/chatter/online/test/hunted_override.hpp>
 
-/// Random changes of everything that the modulator and the override behind it can meet. One change,
-/// one cycle.
+/// Random changes of everything that the modulator and its override can meet. One change per cycle.
 namespace steadyrest::chatter::online::test {
 
 /// One machine under random changes.
@@ -104,7 +103,7 @@ class Scene {
     }
   }
 
-  /// For this cycle alone.
+  /// For this cycle only.
   void spoil() {
     spoilt_ = frame_;
     is_spoilt_ = true;
@@ -175,7 +174,7 @@ class Scene {
   }
 
   Dice dice_;
-  bool calm_;  ///< only the modulation changes, so that its band of the feed per tooth is strict
+  bool calm_;  ///< only the modulation changes, so its feed-per-tooth band is strict
   RandomSetup setup_;
   bool walked_;
   Modulator modulator_;
@@ -187,7 +186,7 @@ class Scene {
   bool is_spoilt_ = false;
 };
 
-/// `changes` of them, a new machine every 20 000.
+/// Makes `changes` changes, with a new machine every 20 000.
 inline Hunt hunt(std::uint64_t seed, std::uint64_t changes) {
   constexpr std::uint64_t kOfOneMachine = 20'000;
   Hunt all;

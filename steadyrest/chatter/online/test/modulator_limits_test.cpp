@@ -11,7 +11,7 @@ namespace {
 
 using kernel::outcome::Reason;
 
-// Cut off at 100 % the sine would dwell there for half its period, and chatter grows in a dwell.
+// Clipped at 100 %, the sine would dwell there for half its period, and chatter grows in a dwell.
 TEST(Modulator, BelowTheOperatorsSwitchTheWholeSwingMovesDown) {
   auto c = sine_config();
   c.spindle_table.layer_may_exceed_panel = false;
@@ -54,7 +54,7 @@ TEST(Modulator, WhereTheFeedCannotFollowTheSwingEndsAtTheBand) {
   EXPECT_DOUBLE_EQ(lowest, 1.0) << "0.95 would be 1.0526 of the programmed feed per tooth";
 }
 
-// The spindle is asked for 100 %, but something holds its override at 90 %.
+// The request is 100 %, but something holds the spindle override at 90 %.
 TEST(Modulator, TheFeedKeepsToTheSpeedThatTheControlWasToldNotToTheOneAsked) {
   auto c = sine_config();
   c.modulation.law = Law::constant;
@@ -67,7 +67,7 @@ TEST(Modulator, TheFeedKeepsToTheSpeedThatTheControlWasToldNotToTheOneAsked) {
   EXPECT_EQ(bench.modulator.update(bench.frame, bench.in_force).feed.ratio, 0.9);
 }
 
-// The feed is asked down to 90 %, but its word is still at 100 %.
+// The feed request is down to 90 %, but its word is still at 100 %.
 TEST(Modulator, TheSpindleWaitsForTheFeedThatTheControlWasToldNotForTheOneAsked) {
   auto c = sine_config();
   c.modulation.law = Law::constant;

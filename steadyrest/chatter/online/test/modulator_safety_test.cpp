@@ -14,7 +14,7 @@ struct Minute {
   double lowest_speed_ratio = 1.0;
 };
 
-/// Of a law: both overrides are scanned and act a dead time later, the spindle's later than the
+/// Runs a law: both overrides are scanned and act a dead time later, the spindle's later than the
 /// feed's.
 Minute minute_of(const Modulation& modulation) {
   constexpr double kFrame_s = 0.002;
@@ -24,8 +24,7 @@ Minute minute_of(const Modulation& modulation) {
   c.spindle_table = kernel::override::test::spindle_840d();
   c.spindle_table.layer_may_exceed_panel = true;
   c.spindle_table.scan_period_s = 0.012;
-  // The worst case for the coupling: a feed that rises at once meets a speed that is still on its
-  // way.
+  // The worst case for the coupling: a feed that rises at once meets a speed still on its way.
   c.spindle_table.dead_time_s = 0.060;
   c.feed_table = kernel::override::test::feed_840d();
   c.feed_table.scan_period_s = 0.012;
@@ -56,8 +55,8 @@ Minute minute_of(const Modulation& modulation) {
   return out;
 }
 
-// Random laws, as they turn where no schedule foresees it; a slow one must still move, or the bound
-// would hold for a spindle at rest.
+// Random laws, since they turn unpredictably; a slow one must still move, or the bound would hold
+// for a constant spindle.
 TEST(ModulatorSafety, TheFeedDoesNotRiseWhileALowerSpeedIsStillOnItsWay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     for (const double period_s : {0.4, 1.0, 3.0}) {
@@ -65,7 +64,7 @@ TEST(ModulatorSafety, TheFeedDoesNotRiseWhileALowerSpeedIsStillOnItsWay) {
           {.law = Law::random, .amplitude_ratio = 0.2, .period_s = period_s, .seed = seed});
       EXPECT_LE(seen.greatest_feed_per_tooth, 1.05 + 1e-9)
           << "seed " << seed << ", period " << period_s;
-      EXPECT_LE(seen.lowest_speed_ratio, period_s > 2.0 ? 0.9 + 1e-9 : 1.0) << "it stands still";
+      EXPECT_LE(seen.lowest_speed_ratio, period_s > 2.0 ? 0.9 + 1e-9 : 1.0) << "it is constant";
     }
   }
 }

@@ -27,7 +27,7 @@ std::size_t changes(const std::vector<double>& values) {
 }
 
 // Five steps of 5 % from 0.90 to 1.10: up and down make eight changes in a period. The word is off
-// by half a step plus what the hysteresis holds back.
+// by half a step plus the hysteresis.
 TEST(Modulator, ASineGoesThroughTheStepsOfTheTableAndBack) {
   Bench bench;
   bench.run(1.0);
@@ -82,8 +82,7 @@ TEST(Modulator, AnAmplitudeInRevolutionsIsThatOfTheSpeed) {
   EXPECT_DOUBLE_EQ(bench.cycle().amplitude_ratio, 0.05);
 }
 
-// 102.5 % is the middle between two steps: without hysteresis the word would flutter in every
-// cycle.
+// 102.5 % is midway between two steps: without hysteresis the word would flutter in every cycle.
 TEST(Modulator, NoiseAtTheBorderOfTwoStepsDoesNotMoveIt) {
   auto c = sine_config();
   c.modulation.law = Law::constant;

@@ -138,10 +138,10 @@ TEST(OrderFilter, BelievesTheFirstSampleAsTheSourceDoes) {
   EXPECT_NEAR(filter.update(1.0, 0.1, 1e-9, false, false).residual, 1.0 / 21.0, 1e-9);
 }
 
-// Into a new cut runout begins as if 100 samples had been heard, so that chatter beside a spindle
-// order has the time to be: p = 1/(100 + n/2) after n samples, and of runout that comes after n₀
-// there is left (100 + n₀/2)/(100 + n/2). A revolution passes first, in which the orders of the
-// teeth settle, which are learnt at once.
+// In a new cut runout starts as if 100 samples had been seen, so that chatter near a spindle order
+// has time to show: p = 1/(100 + n/2) after n samples, and of runout that begins at n₀ the share
+// (100 + n₀/2)/(100 + n/2) remains. First a revolution passes in which the tooth orders, learnt at
+// once, settle.
 TEST(OrderFilter, LearnsHalfTheRunoutOfANewCutInTwoRevolutionsOf200Samples) {
   constexpr int kTurnSamples = 200;
   OrderFilter filter = OrderFilter::make({.teeth = 4,

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kLaws{Law::constant, Law::square, Law::pulse, Law::triangle,
                            Law::sine,     Law::random, Law::stop};
 
-// With a mean a law would change the average speed and the principal period with it.
+// With a nonzero mean a law would change the average speed and with it the principal period.
 TEST(SpeedLaw, HasMeanZeroAndStaysWithinOne) {
   for (const Law law : kLaws) {
     const SpeedLaw s(law, 7);
@@ -50,7 +50,7 @@ TEST(SpeedLaw, PhasesAreThoseOfTheLiterature) {
   EXPECT_DOUBLE_EQ(SpeedLaw(Law::sine).at(-0.75), 1.0);
 }
 
-// A plan's stability holds for the very law that it was worked out for.
+// A plan's stability holds only for the exact law it was computed for.
 TEST(SpeedLaw, RandomIsTheSameForTheSameSeedAlone) {
   EXPECT_EQ(SpeedLaw(Law::random, 5).at(0.3), SpeedLaw(Law::random, 5).at(0.3));
   EXPECT_NE(SpeedLaw(Law::random, 5).at(0.3), SpeedLaw(Law::random, 6).at(0.3));

@@ -49,7 +49,7 @@ TEST(SpeedTable, TakesTheNearestStepThatCarriesTheDepth) {
   EXPECT_GE(advice.limit_depth_mm, 1.1 * 0.6);
 }
 
-// All speeds carry 1 mm; none carries 2, so a change would be for nothing.
+// All speeds allow 1 mm, none 2, so a change would be pointless.
 TEST(SpeedTable, IsNeutralWhereNothingIsBetter) {
   SpeedTable::Config config = slot();
   config.min_ratio = 0.8;
@@ -92,7 +92,7 @@ TEST(SpeedTable, TheRuleDoesNotLeaveASpeedThatFitsItBetter) {
 SpeedTable::Advice advice_for_one_wave(double whole) {
   SpeedTable::Config config;
   config.step_ratio = panel();
-  // Two waves, at half the speed, are not asked for.
+  // Two waves, at half the speed, are excluded.
   config.min_ratio = 0.8 * whole;
   return SpeedTable::make(config)->ask(
       {.programmed_rev_s = 100.0, .ratio = 0.7, .frequency_hz = 2.0 * 100.0 * whole});
@@ -117,7 +117,7 @@ TEST(SpeedTable, TheRuleTakesAStepThatLeavesAQuarterOfTheRegenerationNotHalf) {
     SpeedTable::Config config;
     config.step_ratio = {0.98, 1.0};
     const double miss = std::asin(left) / pi;
-    // At 100 % there are 20 waves and that much of another.
+    // At 100 % there are 20 waves and this fraction of another.
     const double frequency_hz = 2.0 * 100.0 * (20.0 + miss);
     const auto advice = SpeedTable::make(config)->ask(
         {.programmed_rev_s = 100.0, .ratio = 0.98, .frequency_hz = frequency_hz});
@@ -163,7 +163,7 @@ TEST(SpeedTable, UnfitQuestionsAreNeutral) {
   EXPECT_EQ(table->ask({.programmed_rev_s = 80.0, .ratio = 0.0}).request.ratio, 1.0);
 }
 
-// A table comes from a file; a search in speeds that do not rise would find anything.
+// A table comes from a file; a search in speeds that do not rise could return anything.
 TEST(SpeedTable, RefusesTablesThatAreNotInOrder) {
   SpeedTable::Config config = slot();
   config.limit_depth_mm.pop_back();

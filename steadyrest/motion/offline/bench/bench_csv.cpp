@@ -7,7 +7,7 @@
 namespace steadyrest::motion::offline {
 namespace {
 
-// Order and names are public: people plot this file. A figure that does not exist is `nan`.
+// Order and names are public: people plot this file. A missing figure is `nan`.
 constexpr std::string_view kColumns =
     "scene,estimator,limits,ticks,"
     "velocity_rms_mm_s,velocity_max_mm_s,velocity_own_lag_s,velocity_rms_at_own_lag_mm_s,"

@@ -26,8 +26,8 @@ double largest_error_mm(const Record& record) {
   return out;
 }
 
-/// Adds a record; its limits are what is known of the axis.
-/// Several records of a scene share one setup; the worst line error of all counts.
+/// Adds a record; its limits are what the estimator knows about the axis. Several records of a
+/// scene share one setup; the worst line error of all counts.
 void add(BenchScene& scene, Record record, double run_in_s) {
   std::vector<std::uint8_t> scored;
   scored.reserve(record.ticks.size());
@@ -73,8 +73,8 @@ BenchScene ideal_sine() {
   return scene;
 }
 
-/// What the table still errs over the lines that were passed, against the true lines. It is the
-/// bound that the estimator is told.
+/// The table's remaining error over the passed lines, against the true lines: the bound given to
+/// the estimator.
 double remaining_error_mm(const Record& record, const online::LineTable& table) {
   double low = online::kNoBound;
   double high = -online::kNoBound;
@@ -88,7 +88,7 @@ double remaining_error_mm(const Record& record, const online::LineTable& table) 
   return std::max(std::abs(low), std::abs(high));
 }
 
-/// The lines are learnt over the whole record first; then the same record is estimated with them.
+/// First learns the lines over the whole record, then estimates the same record with them.
 Result<BenchScene> calibrated_sine() {
   BenchScene scene = with_targets(simple(standard_sine(), line_errors()), 0.004, 3.0);
   Record& record = scene.records.front();
@@ -110,8 +110,8 @@ Profile shifted(Profile profile, double by_mm) {
   return profile;
 }
 
-// Where the axis starts within the count decides how late the first line tells of it; one start
-// alone would be luck, so starts are spread evenly over a count.
+// The start position within the count decides how late the first line reveals the motion; a single
+// start would be luck, so starts are spread evenly over a count.
 BenchScene s_curves(int phases) {
   BenchScene scene;
   for (int i = 0; i < phases; ++i) {
@@ -120,8 +120,8 @@ BenchScene s_curves(int phases) {
   return with_targets(std::move(scene), 0.012, 5.0);
 }
 
-/// Scored while it moves, after the steady run-in. Braking begins with a step of the acceleration
-/// that the limit of the jerk does not permit: bounds may fail while that step is still in view.
+/// Scored while it moves, after the steady run-in. Braking begins with a step in acceleration that
+/// violates the jerk limit: bounds may fail while that step is still in the window.
 BenchScene flywheel_scene() {
   constexpr double kLeast_mm_s = 0.05;
   constexpr double kFrom_s = 0.05;
@@ -160,7 +160,7 @@ Result<BenchScene> recorded(const std::filesystem::path& folder, const std::stri
   scene.limits_known = false;
   scene.ideal_edges = false;
   scene.records.push_back(std::move(axis.record));
-  // The truth of a recorded axis comes from the finer counts; where they are missing it is not
+  // The truth of a recorded axis comes from the finer counts; where they are missing, it is not
   // scored.
   scene.scored.push_back(std::move(axis.scored));
   return scene;
@@ -177,7 +177,7 @@ void add_recorded(const std::filesystem::path& folder, std::vector<SceneChoice>&
 }  // namespace
 
 BenchScene cruise(double speed_mm_s, const Recording& how, double max_jerk_mm_s3) {
-  // Twenty counts at least, and no more edges than are needed.
+  // At least twenty counts, and no more edges than needed.
   // Five counts to find the speed, fifty to score: at 0.05 mm/s that is a second, at 500 mm/s 0.1
   // s.
   const double run_in_s = std::max(0.05, 5.0 * how.count_mm / speed_mm_s);

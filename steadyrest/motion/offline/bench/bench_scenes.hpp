@@ -15,17 +15,17 @@
 /// The scenes of the benchmark: count 0.001 mm, 1 kHz, stamps of 100 ns unless said.
 namespace steadyrest::motion::offline {
 
-/// A motion that was recorded once or several times, and what the axis is known to keep.
+/// A motion recorded once or several times, and the known limits of the axis.
 struct BenchScene {
   std::string name;
   std::vector<Record> records;
-  std::vector<std::vector<std::uint8_t>> scored;  ///< of each record: ≠ 0 for the ticks that count
-  EstimatorSetup setup;  ///< limits and largest line error included, where they are known
+  std::vector<std::vector<std::uint8_t>> scored;  ///< for each record: ≠ 0 for the ticks that count
+  EstimatorSetup setup;  ///< including limits and largest line error where known
   bool limits_known = true;
-  bool ideal_edges = true;                         ///< the lines stand where they should
+  bool ideal_edges = true;                         ///< the lines are where they should be
   double target_velocity_mm_s = online::kNoBound;  ///< RMS for `kalman`; infinite = none
   double target_acceleration_mm_s2 = online::kNoBound;
-  bool has_peer = false;  ///< LinuxCNC's encoder is run on it too
+  bool has_peer = false;  ///< LinuxCNC's encoder also runs on it
 };
 
 struct SceneChoice {
@@ -37,13 +37,13 @@ struct SceneChoice {
 
 struct SceneConfig {
   std::filesystem::path recorded_folder;  ///< empty: without the recorded logs
-  int phases = 6;                         ///< starts inside a count over which `s-curve` goes
+  int phases = 6;                         ///< starts within a count for `s-curve`
 };
 
 /// In the order of the table.
 [[nodiscard]] std::vector<SceneChoice> bench_scenes(const SceneConfig& config);
 
-/// A motion at constant speed as the benchmark records it; longer at low speed.
+/// A motion at constant speed as recorded for the benchmark; longer at low speed.
 [[nodiscard]] BenchScene cruise(double speed_mm_s, const Recording& how, double max_jerk_mm_s3);
 
 }  // namespace steadyrest::motion::offline

@@ -34,7 +34,7 @@ struct Contender {
   bool limits = false;
 };
 
-// Of an even number the upper one: times are not averaged.
+// The upper one of an even number: times are not averaged.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -45,8 +45,8 @@ double ns_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::nano>(to - from).count();
 }
 
-/// What reading the clock costs.
-/// Subtracted from what is measured: it is a tenth of the cost of an edge.
+/// The cost of reading the clock, subtracted from measurements: it is a tenth of the cost of an
+/// edge.
 double clock_ns() {
   std::vector<double> out;
   for (int i = 0; i < 101; ++i) {
@@ -62,8 +62,8 @@ struct Cost {
 };
 
 /// One run over the record, edges of a cycle and its tick timed apart.
-/// The sum of the results is used below, so that no compiler leaves the work out. Below 100
-/// readings there is no figure.
+/// The sum of the results is used below, so that no compiler drops the work. Fewer than 100
+/// readings give no figure.
 Cost cost_of(online::Estimator& estimator, const Record& record, double reading_ns) {
   double edges_ns = 0.0;
   double ticks_ns = 0.0;
@@ -110,7 +110,7 @@ class SceneRun {
     BenchRow row = start(contender.name, contender.limits);
     Sums sums;
     for (std::size_t i = 0; i < scene_.records.size(); ++i) {
-      // A fresh one for each record: nothing learnt on one may help on the next.
+      // A fresh estimator for each record: nothing learnt on one may help on the next.
       auto estimator = make_estimator(contender.name, setup);
       if (!estimator) {
         note(contender.name, estimator.error().what);
@@ -168,7 +168,7 @@ class SceneRun {
     return row;
   }
 
-  // The median of repetitions: on a shared computer the mean is the neighbours'.
+  // The median of repetitions: on a shared computer the mean measures the other users.
   void measure_cost(const std::string& name, const EstimatorSetup& setup, BenchRow& row) const {
     const double reading_ns = clock_ns();
     std::vector<double> tick;
@@ -189,7 +189,7 @@ class SceneRun {
     row.velocity = sums.velocity.figures();
     row.acceleration = sums.acceleration.figures();
     const MotionError landau = landau_at_speed();
-    // The bound of physics knows limits and ideal lines; only then is the ratio one.
+    // The physical bound assumes limits and ideal lines; only then is the ratio meaningful.
     const bool fair = row.limits && scene_.ideal_edges;
     const auto efficiency = [&](double least, const ErrorFigures& figures) {
       const bool bounded = std::isfinite(figures.bound_rms_at_speed);
@@ -201,7 +201,7 @@ class SceneRun {
   }
 
   /// RMS over the ticks at speed.
-  /// At low speed the bound goes to zero with v·clock, and the ratio would mean nothing.
+  /// At low speed the bound goes to zero with v·clock, and the ratio would be meaningless.
   [[nodiscard]] MotionError landau_at_speed() const {
     MotionError sum2;
     double n = 0.0;
@@ -227,9 +227,8 @@ class SceneRun {
   Benchmark& out_;
 };
 
-/// Gains and the targets that are multiples of other estimators' errors.
-/// On recorded logs nobody knows how good an estimate can be, so the targets are multiples of what
-/// the established methods reach.
+/// Gains, and targets that are multiples of other estimators' errors. On recorded logs the best
+/// possible estimate is unknown, so the targets are multiples of what established methods reach.
 void compare(const BenchScene& scene, std::vector<BenchRow>& rows, std::size_t from) {
   const auto of = [&](std::string_view estimator) -> const BenchRow* {
     const auto found =
@@ -250,8 +249,8 @@ void compare(const BenchScene& scene, std::vector<BenchRow>& rows, std::size_t f
   }
 }
 
-// The worst-case differentiator is nothing without a limit of acceleration: where limits are known
-// it runs with them alone.
+// The worst-case differentiator needs an acceleration limit: where limits are known, it runs only
+// with them.
 std::vector<Contender> contenders_of(const BenchScene& scene,
                                      const std::vector<std::string>& names) {
   std::vector<Contender> out;
@@ -282,7 +281,7 @@ Result<std::vector<std::string>> chosen_estimators(const BenchConfig& config) {
   return config.estimators;
 }
 
-// By name or by family; a name that is not there is refused with all that are.
+// By name or by family; an unknown name is refused with the list of known ones.
 Result<std::vector<SceneChoice>> chosen_scenes(const BenchConfig& config) {
   const std::vector<SceneChoice> all = bench_scenes({config.recorded_folder, config.phases});
   std::vector<std::string> names;

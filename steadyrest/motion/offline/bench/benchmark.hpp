@@ -29,19 +29,19 @@ struct BenchConfig {
 };
 
 /// An estimator on a scene. Efficiency: RMS of the Landau–Kolmogorov bound at |v| > 1 mm/s ÷ RMS of
-/// the bound given there; 1 = nothing left to win.
+/// the bound given there; 1 = cannot be improved.
 struct BenchRow {
   std::string scene;
   std::string estimator;
-  bool limits = false;  ///< it knew the limits of the axis
+  bool limits = false;  ///< it knows the limits of the axis
   std::size_t ticks = 0;
   ErrorFigures velocity;       ///< mm/s
   ErrorFigures acceleration;   ///< mm/s²; NaN where the estimator gives none
-  double velocity_gain = 0.0;  ///< RMS of the backward difference ÷ RMS of this; NaN = not run
+  double velocity_gain = 0.0;  ///< RMS of the backward difference ÷ this RMS; NaN = not run
   double acceleration_gain = 0.0;
   double velocity_efficiency = 0.0;  ///< NaN without bounds or with line errors
   double acceleration_efficiency = 0.0;
-  std::uint64_t contradictions = 0;  ///< ticks at which the limits did not explain what was seen
+  std::uint64_t contradictions = 0;  ///< ticks at which the limits did not explain the record
   double ns_per_tick = 0.0;          ///< median, on this machine; NaN = not measured
   double ns_per_edge = 0.0;
   double target_velocity_mm_s = online::kNoBound;  ///< infinite = none
@@ -58,15 +58,14 @@ struct Benchmark {
   std::vector<std::string> notes;  ///< what was left out, and why
 };
 
-/// Called now and then with the share that is done and what is being done.
+/// Called now and then with the share done and the current activity.
 using BenchProgress = std::function<void(double share, std::string_view what)>;
 
 /// Refused: unknown scenes or estimators, phases or repetitions below 1, a folder without the logs.
 [[nodiscard]] kernel::outcome::Result<Benchmark> run_benchmark(const BenchConfig& config,
                                                                const BenchProgress& progress = {});
 
-/// A row of CSV for each row, names of the columns first. What is not known is `nan`, what has no
-/// bound `inf`.
+/// A row of CSV for each row, column names first. Unknown values are `nan`, missing bounds `inf`.
 [[nodiscard]] std::string to_csv(const Benchmark& benchmark);
 
 }  // namespace steadyrest::motion::offline

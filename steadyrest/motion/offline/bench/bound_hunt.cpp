@@ -10,9 +10,9 @@
 #include <steadyrest/motion/offline/scene/score.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-// Looks for a counterexample: random motions, encoders, clocks and losses, each within the limits
-// that the estimator is told, and one value outside of its bound is a bug. A seed reproduces what
-// was found.
+// Searches for a counterexample with random motions, encoders, clocks and losses, each within the
+// limits given to the estimator: a single value outside its bound is a bug. A seed reproduces any
+// finding.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -26,8 +26,8 @@ class Dice {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   /// Even in the logarithm.
-  /// Counts, speeds and clocks differ by powers of ten; evenly chosen, the small ones would hardly
-  /// come up.
+  /// Counts, speeds and clocks differ by powers of ten; drawn evenly, small ones would hardly
+  /// occur.
   double about(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
   bool chance(double share) { return between(0.0, 1.0) < share; }
 
@@ -94,16 +94,15 @@ Hunt hunt_bounds(std::uint64_t seed, std::uint64_t ticks) {
     Dice dice(seed);
     const Profile profile = any_profile(dice);
     Record record = offline::record(profile, any_recording(dice, seed));
-    // A lost line moves the count for good only in a real counter; here the count is true and the
-    // stamps are fewer.
+    // Only a real counter loses counts for good; here the count is true and stamps are missing.
     const double line_error = worst(record.line_error_mm);
-    if (line_error > 0.0) {  // the ticks' cells have no table: their borders err as the lines do
+    if (line_error > 0.0) {  // the ticks' cells have no table: their borders have the lines' errors
       for (online::Tick& tick : record.ticks) {
         tick.low_mm -= line_error;
         tick.high_mm += line_error;
       }
     }
-    // Counts alone: the other branch of the bound.
+    // Only counts: the other branch of the bound.
     if (dice.chance(0.15)) {
       record = without_edges(record);
     }
@@ -112,7 +111,7 @@ Hunt hunt_bounds(std::uint64_t seed, std::uint64_t ticks) {
     config.cycle_s = 1.0 / record.how.cycle_hz;
     config.clock_s = record.how.clock_s;
     config.line_error_mm = line_error;
-    // The profile's own figures are sampled at instants: a breath more.
+    // The profile's own figures are sampled at instants: add a little.
     config.max_speed_mm_s = record.max_speed_mm_s * 1.0001 + 1e-9;
     config.max_acceleration_mm_s2 = record.max_acceleration_mm_s2 * 1.0001 + 1e-9;
     config.max_jerk_mm_s3 = record.max_jerk_mm_s3 * 1.0001 + 1e-9;

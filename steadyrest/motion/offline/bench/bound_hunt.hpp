@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-/// Looks for a tick at which the guaranteed bound does not hold: random motions, encoders, clocks
-/// and lags.
+/// Searches for a tick at which the guaranteed bound does not hold: random motions, encoders,
+/// clocks and lags.
 namespace steadyrest::motion::offline {
 
 struct Hunt {
@@ -15,7 +15,7 @@ struct Hunt {
   std::uint64_t acceleration_outside = 0;
   std::uint64_t position_outside = 0;
   std::uint64_t contradictions = 0;  ///< no motion within the limits explains the record
-  std::string first;                 ///< what was found first: enough to repeat it
+  std::string first;                 ///< the first finding, with enough to repeat it
 };
 
 /// Records `seed`, `seed` + 1 … until `ticks` are done. Deterministic.

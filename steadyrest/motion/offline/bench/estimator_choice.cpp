@@ -18,7 +18,7 @@
 #include <steadyrest/motion/online/estimator/savitzky_golay.hpp>
 #include <steadyrest/motion/online/estimator/worst_case_difference.hpp>
 
-// Names, what each estimator needs, and how it is made: the one place to add one.
+// Names, needs and factory of each estimator: the only place to add one.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -50,7 +50,7 @@ EstimatorResult kalman(const EstimatorSetup& setup) {
   return made<T>(config);
 }
 
-/// Those that know the count and, if at all, the cycle.
+/// Those that need only the count and possibly the cycle.
 template <class T>
 EstimatorResult plain(const EstimatorSetup& setup) {
   typename T::Config config;
@@ -89,8 +89,8 @@ constexpr std::array kChoices{
     Choice{"worst-case", worst_case, false, false, true},
 };
 
-/// A limit may be infinite (none is known), but not 0, negative or NaN.
-/// Positive includes infinity; the comparison itself fails for NaN.
+/// A limit may be infinite (unknown), but not 0, negative or NaN. Positive includes infinity; the
+/// comparison itself fails for NaN.
 std::optional<Refusal> unfit_limit(std::string_view what, double value, const char* to_do) {
   if (value > 0.0) {
     return std::nullopt;

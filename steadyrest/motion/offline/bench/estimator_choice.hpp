@@ -13,7 +13,7 @@
 /// The estimators by name, for command line and benchmark.
 namespace steadyrest::motion::offline {
 
-/// What is known of the axis and its recorder. An estimator takes what it has a use for.
+/// What is known about the axis and its recorder. An estimator takes what it can use.
 struct EstimatorSetup {
   double count_mm = 0.001;
   double cycle_hz = 1000.0;
@@ -21,9 +21,9 @@ struct EstimatorSetup {
   double max_speed_mm_s = online::kNoBound;
   double max_acceleration_mm_s2 = online::kNoBound;
   double max_jerk_mm_s3 = online::kNoBound;
-  std::optional<double> line_error_mm;  ///< largest error of a line of the encoder; none: not known
-  double lag_s = 0.0;                   ///< fixed lag that the user permits
-  bool has_edges = true;                ///< false: there are ticks alone
+  std::optional<double> line_error_mm;  ///< largest error of an encoder line; none: not known
+  double lag_s = 0.0;                   ///< fixed lag permitted by the user
+  bool has_edges = true;                ///< false: only ticks
 };
 
 /// The first name is the default.
@@ -31,8 +31,8 @@ struct EstimatorSetup {
 
 using EstimatorResult = kernel::outcome::Result<std::unique_ptr<online::Estimator>>;
 
-/// Refused: a name that is none, limits or line error or lag that are not numbers of a machine, a
-/// lag for an estimator that has none, ticks alone for one that needs edges, a missing limit.
+/// Refused: an unknown name; limits, line error or lag out of range; a lag for an estimator without
+/// one; only ticks for one that needs edges; a missing limit.
 [[nodiscard]] EstimatorResult make_estimator(std::string_view name, const EstimatorSetup& setup);
 
 }  // namespace steadyrest::motion::offline

@@ -7,9 +7,9 @@
 #include <steadyrest/motion/offline/bench/requirement.hpp>
 #include <steadyrest/motion/offline/scene/score.hpp>
 
-// The paper's requirement per tick, turned into mm/s and mm/s² by the cycle, against three
-// figures: what physics lets anybody guarantee (Landau, Kolmogorov), what the best estimator
-// reaches on average, what ours proves and reaches.
+// The paper's requirement per tick, converted to mm/s and mm/s² by the cycle, against three
+// figures: the best possible guarantee (Landau, Kolmogorov), the average of the best possible
+// estimator, and what ours proves and reaches.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -19,7 +19,7 @@ using kernel::outcome::Result;
 constexpr double kVelocity_mm_tick[] = {1e-5, 3e-6};
 constexpr double kAcceleration_mm_tick2[] = {1e-5, 1e-6};
 
-// Forbidden is not a failure of ours: the least that anybody can do is above what is asked.
+// Forbidden is not our failure: even the physical limit is above the requirement.
 Verdict verdict(double value, double least, double required) {
   if (value <= required) {
     return Verdict::met;
@@ -32,7 +32,7 @@ struct Measured {
   MotionError bound;
 };
 
-// One scene serves all jerk limits: the motion is the same, only what the estimator is told
+// One scene serves all jerk limits: the motion is the same, only the limit given to the estimator
 // differs.
 Result<Measured> measure(BenchScene& scene, double jerk_mm_s3) {
   scene.setup.max_jerk_mm_s3 = jerk_mm_s3;
@@ -66,8 +66,7 @@ void put(const RequirementRow& condition, const BenchScene& scene, const Measure
          std::vector<RequirementRow>& out) {
   EdgeQuality quality{condition.speed_mm_s, scene.setup.count_mm, condition.clock_s,
                       scene.setup.line_error_mm.value_or(0.0), condition.jerk_mm_s3};
-  // The floor that can be guaranteed knows the bound of the line error, the stochastic optimum its
-  // RMS.
+  // The guaranteed floor uses the bound of the line error, the stochastic optimum its RMS.
   const MotionError least = guaranteed_floor(quality);
   quality.line_error_mm = condition.line_error_counts * scene.setup.count_mm;
   const MotionError optimum = stochastic_optimum(quality);

@@ -17,22 +17,22 @@ namespace steadyrest::motion::offline {
 enum class Verdict : std::uint8_t { met, forbidden, missed };
 [[nodiscard]] std::string_view name(Verdict verdict);
 
-/// One quantity at one speed. `guaranteed` judges the bound that is proved: met, or forbidden where
-/// no bound of that size can be proved (guaranteed_floor), or missed. `typical` judges the RMS
-/// error: met, or forbidden where even the stochastic optimum at full jerk is larger, or missed.
-/// Both floors are those of the worst case: errors of the lines that happen to contradict each
-/// other, and motion calmer than the limits, let a record prove or show less. Then it is met.
+/// One quantity at one speed. `guaranteed` rates the proved bound: met, forbidden where no bound of
+/// that size can be proved (guaranteed_floor), or missed. `typical` rates the RMS error: met,
+/// forbidden where even the stochastic optimum at full jerk is larger, or missed. Both floors are
+/// for the worst case: line errors that happen to contradict each other, or motion calmer than the
+/// limits, let a record prove or show less. Then it is met.
 struct RequirementRow {
   double speed_mm_s = 0.0;
   double clock_s = 0.0;
   double line_error_counts = 0.0;  ///< RMS of the single line; its largest is 4 times that
   double jerk_mm_s3 = 0.0;
   double cycle_hz = 0.0;
-  bool acceleration = false;  ///< mm/s² and not mm/s
+  bool acceleration = false;  ///< mm/s², not mm/s
   bool fine = false;          ///< the finer end of the requirement
   double required = 0.0;
   double guaranteed_floor = 0.0;
-  double bound = 0.0;  ///< RMS of the bound that the estimator proved
+  double bound = 0.0;  ///< RMS of the bound proved by the estimator
   double optimum = 0.0;
   double rms = 0.0;
   Verdict guaranteed = Verdict::missed;

@@ -15,8 +15,8 @@ MotionError landau_bound(double position_error_mm, double jerk_mm_s3) {
   return {std::cbrt(243.0 / 8.0) * e * e * j, std::cbrt(24.0) * e * j * j};
 }
 
-// Edges a spacing apart say nothing of the motion between them: the floor of dense edges, or what
-// the jerk can do unseen within a spacing, whichever is larger.
+// Edges a spacing apart say nothing about the motion between them: the floor is that of dense edges
+// or what the jerk can do unseen within a spacing, whichever is larger.
 MotionError guaranteed_floor(const EdgeQuality& quality) {
   const double v = quality.speed_mm_s;
   const double spacing_s = quality.count_mm / v;

@@ -23,16 +23,16 @@ struct EdgeQuality {
 /// (Landau 1913, Matorin 1955: Kolmogorov's inequality on the half line).
 [[nodiscard]] MotionError landau_bound(double position_error_mm, double jerk_mm_s3);
 
-/// The same with ε = v·dt/2 + line error, and not below what the spacing of the edges forbids. The
-/// perfect spline of period 2D, D = q/v, is 0 at every edge: added to or taken from the motion it
-/// changes no edge, yet the velocity by J·D²/8 at the edges and the acceleration by J·D/2 between
-/// them. It must not turn the axis round: at most v and 4·v/D.
+/// The same with ε = v·dt/2 + line error, but not below the floor set by the edge spacing. The
+/// perfect spline of period 2D, D = q/v, is 0 at every edge: added to the motion it changes no
+/// edge, yet the velocity by J·D²/8 at the edges and the acceleration by J·D/2 between them. It
+/// must not reverse the axis: at most v and 4·v/D.
 [[nodiscard]] MotionError guaranteed_floor(const EdgeQuality& quality);
 
 /// RMS of the best parabola through the edges of a window W at its end, if the jerk is J all the
 /// time: with s = σ²·q/v, σ² = (v·dt)²/12 + line error²,
 ///   v: 192·s/W³ + (J·W²/10)², W⁷ = 14400·s/J²,   a: 720·s/W⁵ + (J·W/2)², W⁷ = 7200·s/J²,
-/// three edges at least, W ≥ 2·q/v. Calmer motion can be known better.
+/// at least three edges, W ≥ 2·q/v. Calmer motion can be known better.
 [[nodiscard]] MotionError stochastic_optimum(const EdgeQuality& quality);
 
 }  // namespace steadyrest::motion::offline

@@ -9,9 +9,9 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/calculus/unit_calculus.hpp>
 
-// Equations 1 … 8 of Kombarov et al. in both directions. Each is one division or product; what
-// needs care are the units (README "Units and encoders") and what must be refused: with wrong
-// units results are plausible numbers of the wrong size.
+// Equations 1 … 8 of Kombarov et al. in both directions. Each is one division or product; care is
+// needed with the units (README "Units and encoders") and the refusals: wrong units give plausible
+// numbers of the wrong size.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -19,7 +19,7 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 
-/// A value that goes into an equation, as the user knows it.
+/// An input of an equation, by the user's name for it.
 struct Given {
   std::string_view what;
   double value;
@@ -110,7 +110,7 @@ Number overload_g(double acceleration_mm_s2) {
 
 Number speed_gradations(const Sampling& s, double max_speed_mm_s) {
   const Number counts = counts_per_tick(s, max_speed_mm_s);
-  // A whole number that rounding left a hair too small is still that number.
+  // A whole number that rounding left slightly too small is still that number.
   return counts ? Number(std::floor(*counts * (1.0 + 1e-12))) : counts;
 }
 

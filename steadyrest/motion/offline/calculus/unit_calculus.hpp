@@ -18,13 +18,13 @@
 ///     Z   = f_s / n_r                lines/rev       (7)   spindle
 ///     d   = h / (4·Z)                mm              (8)   count with fourfold evaluation
 ///
-/// The source writes F in mm/min, n_r in rev/min and g in m/s²; its factors 60 and 1000 are the
-/// conversions, which stand at the borders here. f_s is the frequency of one channel; the counts
-/// come four times as fast.
+/// The source writes F in mm/min, n_r in rev/min and g in m/s²; its factors 60 and 1000 are
+/// conversions, done at the borders here. f_s is the frequency of one channel; counts come four
+/// times as fast.
 ///
-/// Every function refuses what is not finite and positive, and a result that a double cannot hold.
-/// Source: Kombarov, Aksenov, Krizhivets, Determination of physical parameters of CNC machines
-/// execution units, KhAI 2011, eqs. 1–8.
+/// Every function refuses inputs that are not finite and positive, and a result beyond a double's
+/// range. Source: Kombarov, Aksenov, Krizhivets, Determination of physical parameters of CNC
+/// machines execution units, KhAI 2011, eqs. 1–8.
 namespace steadyrest::motion::offline {
 
 inline constexpr double kGravity_mm_s2 = 9806.65;  ///< g, standard
@@ -53,10 +53,11 @@ struct Sampling {
 [[nodiscard]] Number acceleration_of_overload_mm_s2(double overload_g);
 [[nodiscard]] Number overload_g(double acceleration_mm_s2);
 
-/// Speeds that differences of counts tell apart up to this one: the whole counts per tick.
+/// The number of speeds up to this one that count differences can tell apart: whole counts per
+/// tick.
 [[nodiscard]] Number speed_gradations(const Sampling& sampling, double max_speed_mm_s);
 
-/// The resolution of position that tells as many speeds apart as the drive has:
+/// The position resolution that tells as many speeds apart as the drive has:
 /// d·(counts per tick at the largest speed)/(gradations of the drive).
 [[nodiscard]] Number required_resolution_mm(const Sampling& sampling, double max_speed_mm_s,
                                             double drive_gradations);

@@ -16,7 +16,7 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::units::mm_s_from_mm_min;
 
-/// `points` abscissas from low to high, both ends among them. `low` = 0 is left out: no equation
+/// `points` abscissas from low to high, including both ends. `low` = 0 is omitted: no equation
 /// holds there.
 Result<Curve> sampled(std::string name, double low, double high, std::size_t points,
                       const std::function<Number(double)>& law) {

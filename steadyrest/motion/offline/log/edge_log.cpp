@@ -17,9 +17,9 @@
 
 namespace steadyrest::motion::offline {
 
-// How a log is read: `table` finds lines, columns and numbers; the parser here judges how rows
-// follow one another. What makes all rows doubtful refuses the file; what makes one row doubtful
-// ends it there, with the rows before it kept; what may be so is reported.
+// How a log is read: `table` finds lines, columns and numbers; the parser here checks how rows
+// follow one another. A fault that casts doubt on all rows refuses the file; one that casts doubt
+// on a single row ends it there and keeps the rows before it; anything merely unusual is reported.
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using table::Fault;
@@ -30,11 +30,11 @@ namespace {
 constexpr std::size_t kLongestLine = 65536;
 constexpr double kMaxTime_s = 9e9;             // nanoseconds fit into 64 bits
 constexpr std::int64_t kMaxCount = 1LL << 52;  // positions stay exact to a fraction of a count
-constexpr double kLeap = 10.0;  // a stamp that leaps so much farther is the wrong one
+constexpr double kLeap = 10.0;  // a stamp that leaps this much farther is the wrong one
 constexpr std::string_view kRepair = "repair the row or cut the log before it";
 
-// Integers first: a count beyond 2⁵³ read as a double would lose digits without a word. Some
-// recorders write 10.000 or 1.1e+01; a fraction, though, means that the column is no count.
+// Integers first: a count beyond 2⁵³ read as a double would silently lose digits. Some recorders
+// write 10.000 or 1.1e+01; a fraction, though, means that the column is not a count.
 // Within ± 2⁵² positions in mm stay exact to a fraction of a count.
 std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) {
   const std::string_view field = row.field(column);
@@ -64,7 +64,7 @@ std::expected<std::int64_t, Fault> count_of(const Row& row, std::size_t column) 
 
 }  // namespace
 
-/// Takes rows from the reader of columns and judges how they follow one another.
+/// Takes rows from the column reader and checks how they follow one another.
 class EdgeLogReader::Parser final : public table::Sink {
  public:
   Parser(std::string file, EdgeLogConfig config)
@@ -72,14 +72,14 @@ class EdgeLogReader::Parser final : public table::Sink {
     log_.file = std::move(file);
   }
 
-  /// One line without its LF. False: nothing more is wanted.
+  /// One line without its LF. False: no more lines are wanted.
   bool line(std::string_view text, bool ended) {
     if (ended) {
       check_line_end(text.ends_with('\r'));
     }
     ended_ = ended;
     text_ = text;
-    // The last line may be cut off by the end of recording: that is no fault of the log.
+    // The end of recording may cut off the last line: that is not a fault.
     const auto fault = reader_.line(text);
     if (fault && !ended && reader_.has_head()) {
       cut_off();
@@ -94,7 +94,7 @@ class EdgeLogReader::Parser final : public table::Sink {
           "give a log with LF or CR LF line ends"});
   }
 
-  // The gravest first; findings come out in the order of lines, wherever they were found.
+  // The gravest first; findings are reported in line order, wherever they were found.
   EdgeLogResult finish() {
     if (!refused_ && !log_.stopped) {
       if (const auto fault = reader_.finish()) {
@@ -186,7 +186,7 @@ class EdgeLogReader::Parser final : public table::Sink {
     }
   }
 
-  // Time first, since a step in the count can be judged only by a time that holds.
+  // Time first, since a step in the count can be judged only with a valid time.
   std::optional<Fault> follow(const LogRow& next, const Row& row, std::size_t time_size) {
     if (!log_.rows.empty()) {
       const LogRow before = log_.rows.back();
@@ -211,9 +211,8 @@ class EdgeLogReader::Parser final : public table::Sink {
     return std::nullopt;
   }
 
-  /// Time that goes back ends the log. Where the row before had leapt ahead, that one is wrong.
-  /// Where the row before had leapt ahead by more than ten steps, that one is wrong and this one
-  /// right.
+  /// Time that goes back ends the log. Where the previous row had leapt ahead by more than ten
+  /// steps, that one is wrong and this one right.
   Fault back(const LogRow& before, const LogRow& next, std::size_t line) {
     const std::size_t rows = log_.rows.size();
     const double ahead_s = rows < 2 ? 0.0 : next.t_s - log_.rows[rows - 2].t_s;
@@ -228,7 +227,7 @@ class EdgeLogReader::Parser final : public table::Sink {
             "correct the row's time, or cut the log before it"};
   }
 
-  // Reported, not refused: a jump may be true. Edges that are lost are told from an axis that was
+  // Reported, not refused: a jump may be real. Lost edges are distinguished from an axis that was
   // too fast.
   void check_step(const LogRow& before, const LogRow& next, std::size_t line) {
     const std::int64_t step = std::abs(next.count - before.count);
@@ -253,8 +252,7 @@ class EdgeLogReader::Parser final : public table::Sink {
             "check that the recorder keeps up with the axis"});
   }
 
-  // A recorder that was stopped leaves half a row; that is reported, and the rows before it are
-  // good.
+  // A stopped recorder leaves half a row; that is reported, and the rows before it are good.
   void cut_off() {
     report({line_number(),
             fmt::format("the log ends within a row: \"{}\"", table::shown(table::trimmed(text_))),
@@ -270,8 +268,8 @@ class EdgeLogReader::Parser final : public table::Sink {
     const LogRow& before = log_.rows[rows - 1];
     const std::int64_t step = rows == 1 ? 0 : before.count - log_.rows[rows - 2].count;
     const std::int64_t off = std::abs(next.count - (before.count + step));
-    // A number cut off is still a number. The time may be cut only in the last column; the count is
-    // believed where it continues the last step.
+    // A truncated number is still a number. The time can be cut only in the last column; the count
+    // is trusted where it continues the last step.
     const bool time_may_be_cut = clock_->column() && *clock_->column() + 1 == all_;
     return next.t_s >= before.t_s && off <= std::abs(step) / 2 + 2 &&
            (!time_may_be_cut || time_size >= time_size_);
@@ -286,9 +284,9 @@ class EdgeLogReader::Parser final : public table::Sink {
       log_.findings.push_back(bad_input(log_.file, fault.line, fault.what, fault.to_do));
     }
   }
-  /// A fault of the head refuses the file. One behind it ends the log; it is kept whatever
-  /// max_findings says.
-  /// False ends the reading: what follows a fault may be shifted by a row, or be another log.
+  /// A fault in the header refuses the file. A later one ends the log and is kept whatever
+  /// max_findings says. False ends the reading: rows after a fault may be shifted by a row or
+  /// belong to another log.
   bool take(const Fault& fault) {
     if (!reader_.has_head() || log_.rows.empty()) {
       refuse(fault);
@@ -319,14 +317,14 @@ EdgeLogReader::EdgeLogReader(std::string file, const EdgeLogConfig& config)
     : parser_(std::make_unique<Parser>(std::move(file), config)) {}
 EdgeLogReader::~EdgeLogReader() = default;
 
-// Blocks end anywhere: what is left of a line waits for the next one. A line within one block is
-// read in place, without a copy.
+// Blocks end anywhere: the rest of a line waits for the next block. A line within one block is read
+// in place, without a copy.
 bool EdgeLogReader::take(std::string_view block) {
   while (!block.empty()) {
     const void* at = std::memchr(block.data(), '\n', block.size());
     if (at == nullptr) {
       rest_ += block;
-      // A file without line ends would otherwise be gathered in memory as a whole.
+      // Otherwise a file without line ends would be collected in memory whole.
       if (rest_.size() > kLongestLine) {
         rest_.clear();
         parser_->endless();

@@ -13,20 +13,20 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
-/// Reads encoder logs: text with the columns `t_s` and `count`, a row each, as table::RowReader
-/// takes them; times also as stamps (ISO 8601) or sample numbers (table::Clock). Counts may have a
-/// fraction of noughts (`5.000e+00`). Time stamps may repeat but not go back.
+/// Reads encoder logs: text with the columns `t_s` and `count`, as read by table::RowReader; times
+/// may also be stamps (ISO 8601) or sample numbers (table::Clock). Counts may have a fraction of
+/// zeros (`5.000e+00`). Time stamps may repeat but not go back.
 ///
 /// Three grades of fault:
 /// - *refused* (there is no log): not readable, compressed, UTF-16, binary, no header, a column
 ///   missing or twice, no row at all;
 /// - *ends the log* (`EdgeLog::stopped`): a row that cannot be right – a field missing or too many,
-///   not a number, NaN, ∞, a count with a fraction, time going back. What stood before it is kept,
-///   what follows is not read: after such a row nobody knows which side is wrong. A stamp that
-///   leaps ahead and back is the wrong one itself;
+///   not a number, NaN, ∞, a count with a fraction, time going back. The rows before it are kept,
+///   the rest is not read: after such a row either side may be wrong. A stamp that leaps ahead and
+///   back is itself the wrong one;
 /// - *reported only*: jumps of the count (lost edges), mixed line ends, repeated stamps of ticks, a
-///   last row without line end that is cut or may be. A last row without line end is kept when it
-///   is whole and goes on as the rows before it did.
+///   last row without line end that is or may be truncated. A last row without line end is kept
+///   when it is complete and continues like the rows before it.
 namespace steadyrest::motion::offline {
 
 struct LogRow {
@@ -35,13 +35,13 @@ struct LogRow {
 };
 
 struct EdgeLogConfig {
-  /// Larger changes of the count from row to row are lost edges; 0 = any change is permitted.
+  /// Larger changes of the count from row to row mean lost edges; 0 = any change is permitted.
   std::int64_t max_step = 1;
   /// Counts/s above which a change of more than one count is reported as a jump.
   double max_speed_counts_s = std::numeric_limits<double>::infinity();
-  bool rising_time = false;       ///< a time stamp that repeats is reported and its row left out
-  std::size_t max_findings = 20;  ///< kept with their text; all are counted
-  table::Format format;           ///< what the file itself does not say
+  bool rising_time = false;       ///< a repeated time stamp is reported and its row omitted
+  std::size_t max_findings = 20;  ///< kept with text; all are counted
+  table::Format format;           ///< whatever the file itself does not say
 };
 
 struct EdgeLog {
@@ -51,14 +51,14 @@ struct EdgeLog {
   std::size_t finding_count = 0;                   ///< also those beyond max_findings
   std::size_t jumps = 0;                           ///< rows with lost edges
   bool stopped = false;                            ///< the last finding ended the reading
-  int decimals = 0;                   ///< most decimals that a time stamp was printed with
-  double longest_step_s = 0.0;        ///< between two rows
-  std::size_t longest_step_line = 0;  ///< of the row behind it
+  int decimals = 0;                                ///< most decimals of any time stamp
+  double longest_step_s = 0.0;                     ///< between two rows
+  std::size_t longest_step_line = 0;               ///< of the row after it
 };
 
 using EdgeLogResult = kernel::outcome::Result<EdgeLog>;
 
-/// Reads a log that comes in blocks.
+/// Reads a log that arrives in blocks.
 class EdgeLogReader {
  public:
   EdgeLogReader(std::string file, const EdgeLogConfig& config);
@@ -66,7 +66,7 @@ class EdgeLogReader {
   EdgeLogReader& operator=(const EdgeLogReader&) = delete;
   ~EdgeLogReader();
 
-  /// The next bytes. False: nothing more is wanted.
+  /// Takes the next bytes. False: no more are wanted.
   bool take(std::string_view block);
   /// No more bytes: the log, or why there is none.
   [[nodiscard]] EdgeLogResult finish();
@@ -74,16 +74,16 @@ class EdgeLogReader {
  private:
   class Parser;
   std::unique_ptr<Parser> parser_;
-  std::string rest_;  ///< of a line whose end has not come yet
+  std::string rest_;  ///< of a line whose end has not arrived yet
 };
 
 [[nodiscard]] EdgeLogResult parse_edge_log(std::string_view text, const std::string& file,
                                            const EdgeLogConfig& config = {});
 
-/// Called now and then with the share of the file that is read.
+/// Called now and then with the share of the file read.
 using ReadShare = std::function<void(double)>;
 
-/// Reads a file, `-` is stdin.
+/// Reads a file; `-` is stdin.
 [[nodiscard]] EdgeLogResult read_edge_log(const std::string& path, const EdgeLogConfig& config = {},
                                           const ReadShare& share = {});
 

@@ -31,8 +31,7 @@ Refusal unreadable(const std::string& path, const char* what) {
                    "check the path and the permissions");
 }
 
-/// Bytes of a file; 0 where they are not known (a pipe).
-/// For the progress alone.
+/// Bytes of a file; 0 where unknown (a pipe). Only for the progress.
 double size_of(const std::string& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
@@ -49,7 +48,7 @@ bool divides(const EdgeLog& log, double period_s, double tolerance_s) {
 
 }  // namespace
 
-// In blocks of a megabyte, so that a log larger than the memory can be read, and a pipe as well.
+// In blocks of a megabyte, so that a log larger than memory, or a pipe, can be read.
 EdgeLogResult read_edge_log(const std::string& path, const EdgeLogConfig& config,
                             const ReadShare& share) {
   const bool from_stdin = path == "-";
@@ -83,7 +82,7 @@ EdgeLogResult read_edge_log(const std::string& path, const EdgeLogConfig& config
 }
 
 // The coarsest period that all stamps are multiples of: recorders count ticks of 1, 2 or 5·10⁻ⁿ s.
-// Coarsest first, since every finer one fits, too.
+// Coarsest first, since every finer one fits too.
 double clock_of(const EdgeLog& log) {
   // Half of the last printed digit; a hair more, because that half is itself a rounded number.
   const double tolerance_s = 0.5000001 * std::pow(10.0, -std::min(log.decimals, 20));

@@ -18,8 +18,8 @@ void put_number(std::string& out, double value) {
   out.append(text.data(), end);
 }
 
-/// Nine decimals by integers: five times as fast as the general way, and half of a log's time
-/// goes into its numbers.
+/// Nine decimals by integers: five times as fast as the general way, and numbers take half of a
+/// log's time.
 void put_time(std::string& out, double t_s) {
   constexpr std::int64_t kBillion = 1'000'000'000;
   const std::int64_t ns = std::llround(t_s * 1e9);

@@ -9,16 +9,16 @@
 
 namespace steadyrest::motion::offline {
 
-/// Writes estimates as CSV while they arise. Columns
+/// Writes estimates as CSV as they are made. Columns
 /// `t_s,position_mm,velocity_mm_s,acceleration_mm_s2,velocity_bound_mm_s,acceleration_bound_mm_s2`;
 /// t_s with nine decimals, the others with the digits that give back the same double, `inf` where
 /// there is no bound.
 class EstimateTable {
  public:
-  /// The file stays the caller's, who commits it.
+  /// The caller keeps the file and commits it.
   explicit EstimateTable(kernel::file::OutputFile& out);
   void put(const online::Estimate& estimate);
-  /// Hands over what is still held back.
+  /// Writes out whatever is still buffered.
   void finish();
 
  private:

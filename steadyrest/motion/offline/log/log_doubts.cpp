@@ -45,7 +45,7 @@ double counts_s(const EdgeLog& log, std::size_t row) {
          std::max(to.t_s - from.t_s, kLeastStep_s);
 }
 
-/// How fast the step to this row goes beside the one at `row`, if it goes the same way.
+/// Ratio of a step's speed to that of the step at `row`, if both go the same way.
 double support(const EdgeLog& log, std::size_t row, double speed) {
   const double beside = row >= 1 && row < log.rows.size() ? counts_s(log, row) : 0.0;
   return std::max(0.0, speed > 0.0 ? beside : -beside);

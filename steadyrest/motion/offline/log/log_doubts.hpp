@@ -9,8 +9,8 @@
 #include <steadyrest/motion/offline/log/edge_log.hpp>
 #include <steadyrest/motion/offline/log/log_kind.hpp>
 
-/// A log against what was said of it: estimates from a wrong cycle, or over a jump of the count,
-/// look sensible and are wrong.
+/// Checks a log against its description: estimates from a wrong cycle, or across a jump of the
+/// count, look sensible but are wrong.
 namespace steadyrest::motion::offline {
 
 struct LogClaims {
@@ -20,15 +20,15 @@ struct LogClaims {
 };
 
 /// Warnings, with numbers and what to check:
-/// - `ticks` whose rows are not a cycle apart: their median step is off by more than a tenth;
-/// - a step of the count that its neighbours do not bear out: 50 counts or more, and 20 times as
-///   fast as the step before it and the one behind, as far as they go the same way. No axis starts
-///   and stops within a step. With a largest speed the reader judges instead.
+/// - `ticks` whose rows are not a cycle apart: the median step is off by more than a tenth;
+/// - a step of the count that its neighbours contradict: 50 counts or more, and 20 times as fast as
+///   the steps before and after it, as far as they go the same way. No axis starts and stops within
+///   a step. With a largest speed the reader checks this instead.
 [[nodiscard]] std::vector<kernel::outcome::Refusal> doubts(const EdgeLog& log,
                                                            const LogClaims& claims);
 
-/// A log of `ticks` in which no estimate follows from the row before: the median step is longer
-/// than ten cycles.
+/// A log of `ticks` in which no estimate can build on the previous row: the median step exceeds ten
+/// cycles.
 [[nodiscard]] std::optional<kernel::outcome::Refusal> no_cycles(const EdgeLog& log,
                                                                 const LogClaims& claims);
 

@@ -10,10 +10,10 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/log_kind.hpp>
 
-// A log given as the wrong kind makes estimates that look sensible and are wrong. Rows of cycles
-// are even in time and step by any count; rows of edges step by one count at any time. At constant
-// speed edges are even in time, too: what then tells them apart is that counts read at given times
-// are rounded, while at edges they are exact.
+// A log of the wrong kind gives estimates that look sensible but are wrong. Rows of cycles are even
+// in time and step by any count; rows of edges step by one count at any time. At constant speed
+// edges are even in time too: then only the rounding tells them apart, since counts read at given
+// times are rounded, while at edges they are exact.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -21,12 +21,12 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr std::size_t kLeastRows = 20;
-constexpr double kNear = 0.1;      // of a step: jitter, and what speed changes in a cycle
+constexpr double kNear = 0.1;      // of a step: jitter, and the change of speed in a cycle
 constexpr double kOnGrid = 0.01;   // of a step
-constexpr double kMostRows = 0.9;  // that must be so
-constexpr double kFewRows = 0.02;  // that may be otherwise
+constexpr double kMostRows = 0.9;  // that must comply
+constexpr double kFewRows = 0.02;  // that may differ
 
-/// What the steps from row to row have in common, as shares of them.
+/// Properties of the steps from row to row, as shares of all steps.
 struct Steps {
   double median_s = 0.0;
   double even = 0.0;      ///< near the median
@@ -37,7 +37,7 @@ struct Steps {
   double on_grid = 0.0;   ///< rows at multiples of the median
 };
 
-// One pass after the median; shares of the rows, so that lost rows do not decide.
+// One pass after finding the median; shares, so that lost rows do not decide.
 Steps steps_of(const EdgeLog& log, double cycle_hz) {
   std::vector<double> step;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -64,8 +64,8 @@ Steps steps_of(const EdgeLog& log, double cycle_hz) {
   return out;
 }
 
-/// Whether the counts were rounded at the rows' times. Between edges Δt is in proportion to Δc, but
-/// for what the speed changes.
+/// Whether the counts were rounded at the rows' times. Between edges Δt is proportional to Δc,
+/// except for changes of speed.
 bool counts_are_rounded(const EdgeLog& log, double median_s) {
   constexpr double kRounded = 0.35;  // counts RMS; rounding gives 0.65, line errors of 5 % some 0.1
   double square = 0.0;
@@ -93,7 +93,7 @@ bool counts_are_rounded(const EdgeLog& log, double median_s) {
 
 }  // namespace
 
-// Refused only where one kind is certain; a doubtful log is believed.
+// Refused only where the kind is certain; a doubtful log is trusted.
 std::optional<Refusal> other_kind(const EdgeLog& log, LogInput input, double cycle_hz) {
   if (log.rows.size() < kLeastRows) {
     return std::nullopt;

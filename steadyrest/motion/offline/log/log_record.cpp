@@ -7,8 +7,8 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/log_record.hpp>
 
-// A log has rows; an estimator wants edges and ticks. From edges the ticks are made, from ticks
-// there are no edges: what the recorder did not see is not invented.
+// A log has rows; an estimator needs edges and ticks. Ticks are made from edges, but edges never
+// from ticks: nothing that the recorder did not see is invented.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -52,7 +52,7 @@ online::Edge edge_to(const LogRow& row, std::int64_t from, double count_mm) {
           static_cast<std::uint8_t>(std::min<std::int64_t>(lost, 255))};
 }
 
-// The first row only says which cell the axis is in.
+// The first row only tells which cell the axis is in.
 void add_edges(const EdgeLog& log, double count_mm, Record& out) {
   out.edges.reserve(log.rows.size());
   std::int64_t cell = log.rows.front().count;
@@ -97,7 +97,7 @@ std::optional<Refusal> add_cycles(const EdgeLog& log, const LogRecordConfig& con
 
 }  // namespace
 
-// The kind of log is checked before anything is made of it.
+// The kind of log is checked first.
 kernel::outcome::Result<Record> record_of(const EdgeLog& log, const LogRecordConfig& config) {
   if (auto refusal = unfit(config)) {
     return std::unexpected(std::move(*refusal));

@@ -9,7 +9,7 @@
 #include <steadyrest/motion/offline/log/log_kind.hpp>
 #include <steadyrest/motion/offline/scene/scene.hpp>
 
-/// Makes what an estimator takes out of a log.
+/// Converts a log into an estimator's input.
 namespace steadyrest::motion::offline {
 
 struct LogRecordConfig {
@@ -21,15 +21,15 @@ struct LogRecordConfig {
   std::size_t max_ticks = 100'000'000;
 };
 
-/// Cycles that edges may make: this many, and so many more for each row.
+/// Cycles that edges may span: this many, and some more for each row.
 inline constexpr double kFreeTicks = 1e6;
 inline constexpr double kTicksPerRow = 1000.0;
 
-/// `edges`: the first row only tells the cell in which the axis stands. From c to c' > c the last
-/// line passed is c', upwards; to c' < c it is c' + 1, downwards; |c' − c| − 1 edges before it are
-/// lost. A row that does not change the count only tells that the axis stood there. Ticks stand at
-/// the integer multiples of 1/cycle_hz from the first row to the last; a row at the very time of a
-/// tick comes before it.
+/// `edges`: the first row only tells the cell in which the axis is. From c to c' > c the last line
+/// passed is c', upwards; to c' < c it is c' + 1, downwards; |c' − c| − 1 edges before it are lost.
+/// A row that does not change the count only tells that the axis was there. Ticks are at integer
+/// multiples of 1/cycle_hz from the first row to the last; a row at exactly the time of a tick
+/// comes before it.
 ///
 /// `ticks`: no edges; a tick for each row at its own time.
 ///

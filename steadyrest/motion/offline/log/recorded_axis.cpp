@@ -23,7 +23,7 @@ std::int64_t coarse(std::int64_t fine, std::int64_t per_count) {
 }
 
 /// Adds the edges between two rows.
-/// Between two rows the speed is taken as constant; a fine count is 1/64 of a coarse one, so the
+/// The speed is assumed constant between two rows; a fine count is 1/64 of a coarse one, so the
 /// instant is good to a fraction of a fine count. Fine count n covers n − ½ … n + ½.
 void add_edges(const LogRow& from, const LogRow& to, const RecordedAxisConfig& config,
                std::vector<online::Edge>& out) {
@@ -40,7 +40,7 @@ void add_edges(const LogRow& from, const LogRow& to, const RecordedAxisConfig& c
   }
 }
 
-/// The cubic of least squares through the rows around row i; fewer at the ends of the log.
+/// The least-squares cubic through the rows around row i; fewer at the ends of the log.
 /// Nine rows: long enough to average the fine count, short enough that a cubic follows the motion.
 /// Scaled to the span and solved by QR: powers of seconds would lose the digits.
 MotionState truth_at(const std::vector<LogRow>& rows, std::size_t i,
@@ -63,8 +63,8 @@ MotionState truth_at(const std::vector<LogRow>& rows, std::size_t i,
           2.0 * c(2) / (span_s * span_s) * fine_mm};
 }
 
-/// Which truths can be trusted.
-/// Where counts are missing the fit jumps: |a| beyond what the axis can do, and its neighbourhood.
+/// Which truths can be trusted. Where counts are missing the fit jumps: |a| beyond the axis'
+/// ability marks such places and their neighbourhood.
 std::vector<std::uint8_t> trusted(const Record& record, const RecordedAxisConfig& config) {
   const std::size_t n = record.ticks.size();
   std::vector<std::uint8_t> out(n, 1);
@@ -137,8 +137,8 @@ EdgeLogResult read_recorded(const fs::path& folder, std::string_view name) {
   if (!fs::exists(packed) || fs::exists(plain)) {
     return read_edge_log(plain.string(), config);
   }
-  // Unpacked by the system's zcat: the logs are kept compressed, and one more library for a test
-  // would not pay.
+  // Unpacked by the system's zcat: the logs are compressed, and another library for a test would
+  // not pay.
   EdgeLogReader reader(packed.string(), config);
   const std::unique_ptr<std::FILE, ClosePipe> pipe(
       popen(("zcat -- " + quoted(packed.string())).c_str(), "r"));

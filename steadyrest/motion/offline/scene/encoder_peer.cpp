@@ -35,7 +35,7 @@ Refusal unavailable(const fs::path& program, std::string what, std::string to_do
   return {Kind::unavailable, program.string(), 0, std::move(what), std::move(to_do)};
 }
 
-/// A file beside nothing, gone afterwards: an output that is never committed.
+/// A temporary file: an output that is never committed.
 Result<OutputFile> scratch() {
   return OutputFile::open((fs::temp_directory_path() / "steadyrest-peer.csv").string());
 }
@@ -52,7 +52,7 @@ void write_edges(const Record& record, OutputFile& file) {
   file.write(out);
 }
 
-/// Exit code of the program, −1 when it could not be run; what it says is of no interest here.
+/// Exit code of the program, −1 when it could not be run; its output is ignored.
 int run_program(std::vector<std::string> words) {
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
@@ -73,7 +73,7 @@ int run_program(std::vector<std::string> words) {
   return WEXITSTATUS(status);
 }
 
-// The component gives no acceleration: NaN, so that no figure is made of it.
+// The component gives no acceleration: NaN, so that no figure is computed from it.
 std::vector<online::Estimate> read_estimates(const Record& record, const fs::path& path) {
   std::vector<online::Estimate> out(record.ticks.size());
   for (std::size_t k = 0; k < out.size(); ++k) {

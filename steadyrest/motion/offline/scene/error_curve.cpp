@@ -5,8 +5,8 @@
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/motion/offline/scene/error_curve.hpp>
 
-// The error against the truth of now and of up to 20 ms ago: an estimator that is late has its
-// least error at its lag, and the curve shows lag and noise apart.
+// The error against the truth now and up to 20 ms ago: a late estimator has its least error at its
+// lag, so the curve separates lag from noise.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -102,7 +102,8 @@ ErrorFigures ErrorCurve::figures() const {
   }
   out.rms = out.rms_at_lag.front();
   out.max = count_.front() > 0 ? max_ : kNan;
-  // The lag at which the estimate fits best: an estimator's own delay, found and not assumed.
+  // The lag at which the estimate fits best: an estimator's own delay, measured rather than
+  // assumed.
   std::size_t best = 0;
   for (std::size_t i = 1; i < lags_s_.size(); ++i) {
     best = out.rms_at_lag[i] < out.rms_at_lag[best] ? i : best;

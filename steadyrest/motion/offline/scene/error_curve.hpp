@@ -8,7 +8,7 @@
 #include <steadyrest/motion/offline/scene/scene.hpp>
 #include <steadyrest/motion/online/estimator/estimator.hpp>
 
-/// Errors of estimates against the truth, at their own instant and some time before.
+/// Errors of estimates against the truth, at their own instant and earlier ones.
 namespace steadyrest::motion::offline {
 
 /// Shifts τ of the error curves, s: 0, 0.25 … 20 ms.
@@ -22,7 +22,7 @@ struct ErrorFigures {
   double rms_at_own_lag = 0.0;
   double coverage = 0.0;            ///< share of the ticks with |error| ≤ bound; NaN without bounds
   double bound_rms_at_speed = 0.0;  ///< at |v| > 1 mm/s; infinite without bounds
-  double rms_at_speed = 0.0;        ///< NaN where it never is as fast
+  double rms_at_speed = 0.0;        ///< NaN where it is never that fast
   std::vector<double> rms_at_lag;   ///< for each of `curve_lags_s`
 };
 

@@ -7,7 +7,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/scene/line_calibration.hpp>
 
-// Several passes over one record: the table forgets, so each pass sharpens what the one before has
+// Several passes over one record: the table forgets, so each pass refines what the previous one
 // learnt.
 namespace steadyrest::motion::offline {
 namespace {
@@ -18,7 +18,7 @@ using online::LineTable;
 
 constexpr std::uint32_t kMaxPasses = 1000;
 
-// One revolution, the range that was asked for, or what the record has passed.
+// One revolution, the requested range, or the lines that the record passed.
 kernel::outcome::Result<LineTable> table_for(const Record& record,
                                              const LineCalibrationConfig& config) {
   LineTable::Config out = config.learning;
@@ -44,8 +44,8 @@ kernel::outcome::Result<LineTable> table_for(const Record& record,
   return LineTable::make(out);
 }
 
-/// RMS of what the lines are off from smooth motion.
-/// Before and after by the same measure, on the fits that the table would have learnt from.
+/// RMS deviation of the lines from smooth motion. Before and after by the same measure, on the fits
+/// from which the table learns.
 double residual_mm(const Record& record, const LineTable& table) {
   LineFit fit(table.config().max_span_s);
   const double worst = table.config().max_rms_counts * record.how.count_mm;
@@ -88,15 +88,15 @@ kernel::outcome::Result<LineCalibration> calibrate_lines(const Record& record,
     return std::unexpected(table.error());
   }
   const double before = residual_mm(record, *table);
-  // Passes are not joined: the record's end and its beginning are no neighbours.
+  // Passes are not joined: the record's end and start are not neighbours.
   for (std::uint32_t pass = 0; pass < config.passes; ++pass) {
-    bool first = true;  // nothing stands before it, whatever the pass before ended with
+    bool first = true;  // nothing precedes it, however the previous pass ended
     for (const online::Edge& edge : record.edges) {
       table->learn(edge.t_s, edge.line, edge.direction, first || edge.lost != 0);
       first = false;
     }
   }
-  // What all lines of a phase have in common belongs to the phase; see LineTable.
+  // The common error of all lines of a phase belongs to the phase; see LineTable.
   table->settle();
   const double after = residual_mm(record, *table);
   const std::size_t learnt = lines_learnt(*table);

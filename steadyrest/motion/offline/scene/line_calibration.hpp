@@ -9,7 +9,7 @@
 #include <steadyrest/motion/offline/scene/scene.hpp>
 #include <steadyrest/motion/online/line/line_table.hpp>
 
-/// The encoder's lines learnt from a record, and a record with the lines where they really are.
+/// Learns the encoder's lines from a record, and corrects the lines of a record.
 namespace steadyrest::motion::offline {
 
 struct LineRange {
@@ -20,7 +20,7 @@ struct LineRange {
 struct LineCalibrationConfig {
   std::uint32_t passes = 8;                       ///< over the whole record, 1 … 1000
   std::uint32_t counts_per_rev = 0;               ///< rotary: the table repeats; 0 = a scale
-  std::optional<LineRange> range = std::nullopt;  ///< of a scale; none: all lines that were passed
+  std::optional<LineRange> range = std::nullopt;  ///< of a scale; none: all lines passed
   online::LineTable::Config learning{};           ///< count, range and period are filled in
 };
 
@@ -34,11 +34,11 @@ struct LineCalibration {
 };
 
 /// Refused: a record without edges, a range that is empty or has more than LineTable::kMaxLines
-/// lines, a revolution that is no multiple of four counts, passes out of range.
+/// lines, a revolution that is not a multiple of four counts, passes out of range.
 [[nodiscard]] kernel::outcome::Result<LineCalibration> calibrate_lines(
     const Record& record, const LineCalibrationConfig& config);
 
-/// Puts the lines of edges and ticks where the table has them.
+/// Moves the lines of edges and ticks to the table's positions.
 void apply_lines(const online::LineTable& table, Record& record) noexcept;
 
 }  // namespace steadyrest::motion::offline

@@ -7,14 +7,14 @@
 
 #include <steadyrest/motion/offline/scene/scene.hpp>
 
-// Motions in closed form, and what an encoder and a clock make of them. The truth of each tick
-// comes from the formula itself; edges are found on it by bisection, so that no integration error
-// enters the comparison. Every random stream has its own seed: jitter does not change the lines.
+// Motions in closed form, and their records by an encoder and a clock. The truth at each tick comes
+// from the formula itself; edges are found on it by bisection, so no integration error enters the
+// comparison. Every random stream has its own seed: jitter does not change the lines.
 namespace steadyrest::motion::offline {
 namespace {
 
-/// Positions of the lines that a motion may touch, errors and all.
-/// Eight lines more at either end: a motion's rounding must not leave the table.
+/// Positions of the lines that a motion may touch, including errors. Eight extra lines at either
+/// end: rounding must not leave the table.
 class Lines {
  public:
   Lines(const Recording& how, double low_mm, double high_mm)
@@ -41,7 +41,7 @@ class Lines {
   }
   [[nodiscard]] std::int64_t first() const { return first_; }
   [[nodiscard]] const std::vector<double>& errors() const { return error_mm_; }
-  // The floor is right but for the lines' errors; a step or two puts it right.
+  // The floor is right except for the lines' errors; a step or two corrects it.
   [[nodiscard]] std::int64_t cell_of(double position_mm) const {
     auto cell = static_cast<std::int64_t>(std::floor(position_mm / count_mm_));
     while (position_mm < at(cell)) {
@@ -80,7 +80,7 @@ class EdgeMaker {
   }
 
   /// All passages in (from, to]; the step is short against the motion.
-  /// A turn is looked for first: monotone parts pass each line once, and a line passed there and
+  /// Searches for a turn first: monotone parts pass each line once, and a line passed there and
   /// back within one step is not missed.
   void advance(double from, double to, std::vector<online::Edge>& out) {
     const double v0 = profile_.at(from).velocity_mm_s;
@@ -114,12 +114,12 @@ class EdgeMaker {
   }
   void emit(double t, std::int64_t line, std::int8_t direction, std::vector<online::Edge>& out) {
     if (how_.clock_s > 0.0) {
-      // A latch truncates. The millionth keeps an instant that is a whole tick from losing one.
+      // A latch truncates. The millionth keeps an instant at a whole tick from losing one.
       t = std::floor(t / how_.clock_s + 1e-6) * how_.clock_s;
     }
     if (how_.lost_share > 0.0 && share_(random_) < how_.lost_share) {
-      // The edge is lost, but not the count: the next edge tells how many are missing, as hardware
-      // that counts on does.
+      // The edge is lost, but not the count: the next edge tells how many are missing, as counting
+      // hardware does.
       lost_ = static_cast<std::uint8_t>(std::min(lost_ + 1, 255));
       return;
     }
@@ -188,7 +188,7 @@ Profile jerk_pieces(const std::string& name, const MotionState& start,
     }
     t += piece.duration_s;
     MotionState end = run(knots.back(), t);
-    // What rounding leaves of a stop would creep on for ever.
+    // The rounding error of a stop would creep on forever.
     if (std::abs(end.velocity_mm_s) < 1e-9) {
       end.velocity_mm_s = 0.0;
     }
@@ -213,7 +213,7 @@ std::vector<JerkPiece> speed_change(double change_mm_s, double max_acceleration_
                                     double max_jerk_mm_s3) {
   const double change = std::abs(change_mm_s);
   const double jerk = std::copysign(max_jerk_mm_s3, change_mm_s);
-  // Acceleration reaches its limit, or the change is over first: then there is no hold.
+  // Either the acceleration reaches its limit, or the change ends first, without a hold.
   const double ramp_s =
       std::min(max_acceleration_mm_s2 / max_jerk_mm_s3, std::sqrt(change / max_jerk_mm_s3));
   const double reached = max_jerk_mm_s3 * ramp_s;
@@ -240,8 +240,8 @@ Profile s_curve() {
   return out;
 }
 
-// The paper's figure 2: a flywheel that friction brakes evenly. The jerk at the start of braking
-// is infinite; the limit states what an estimator may be told.
+// The paper's figure 2: a flywheel evenly braked by friction. The jerk at the start of braking is
+// infinite; the limit is what an estimator may be given.
 Profile flywheel(double counts_per_tick, double counts_per_tick2) {
   const double v0 = counts_per_tick;        // 1 count/tick = 1 mm/s
   const double a = counts_per_tick2 * 1e3;  // 1 count/tick² = 1000 mm/s²
@@ -303,7 +303,7 @@ Record record(const Profile& profile, const Recording& how) {
   const auto ticks = static_cast<std::size_t>(std::floor(profile.duration_s * how.cycle_hz + 1e-9));
   for (std::size_t k = 0; k <= ticks; ++k) {
     const double nominal = static_cast<double>(k) / how.cycle_hz;
-    // Less than half a cycle, or ticks would change places.
+    // Less than half a cycle, or ticks would swap places.
     const double jitter =
         std::clamp(normal(random) * how.tick_jitter_s, -0.4 / how.cycle_hz, 0.4 / how.cycle_hz);
     const double look = std::clamp(nominal + jitter, 0.0, profile.duration_s);

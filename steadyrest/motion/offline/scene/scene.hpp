@@ -8,7 +8,7 @@
 
 #include <steadyrest/motion/online/estimator/estimator.hpp>
 
-/// Motions that are known exactly, and what an encoder would have recorded of them.
+/// Exactly known motions, and an encoder's record of them.
 namespace steadyrest::motion::offline {
 
 /// Position and its derivatives at one instant.
@@ -22,7 +22,7 @@ struct MotionState {
 struct Profile {
   std::string name;
   double duration_s = 1.0;
-  double max_speed_mm_s = 0.0;  ///< limits that the motion keeps
+  double max_speed_mm_s = 0.0;  ///< limits kept by the motion
   double max_acceleration_mm_s2 = 0.0;
   double max_jerk_mm_s3 = 0.0;
   std::function<MotionState(double)> at;
@@ -31,7 +31,7 @@ struct Profile {
 /// x = A·(1 − cos 2πft).
 [[nodiscard]] Profile sine(double amplitude_mm, double frequency_hz, double duration_s);
 
-/// Pieces of constant jerk from standstill: {duration in s, jerk in mm/s³}.
+/// A piece of constant jerk, {duration in s, jerk in mm/s³}; motion starts from standstill.
 struct JerkPiece {
   double duration_s = 0.0;
   double jerk_mm_s3 = 0.0;
@@ -56,13 +56,13 @@ struct JerkPiece {
 /// Standstill on a line with a vibration of this amplitude.
 [[nodiscard]] Profile dither(double amplitude_mm, double frequency_hz, double duration_s);
 
-/// What stands between the motion and the record.
+/// How the motion is recorded.
 struct Recording {
   double count_mm = 0.001;
   double cycle_hz = 1000.0;
-  double clock_s = 1e-7;            ///< period of the time stamps, which are cut off; 0 = exact
+  double clock_s = 1e-7;            ///< period of the time stamps, which are truncated; 0 = exact
   double phase_error_counts = 0.0;  ///< amplitude of the error that repeats every four lines
-  double line_error_counts = 0.0;   ///< RMS of the error of the single line
+  double line_error_counts = 0.0;   ///< RMS error of a single line
   double tick_jitter_s = 0.0;       ///< RMS of the cycle's start
   double lost_share = 0.0;          ///< edges that were not recorded
   std::uint64_t seed = 1;

@@ -20,14 +20,14 @@ std::vector<online::Estimate> run(online::Estimator& estimator, const Record& re
   return out;
 }
 
-// For what can be known from sampled counts alone.
+// For what can be known from sampled counts only.
 Record without_edges(Record record) {
   record.edges.clear();
   return record;
 }
 
-// RMS, worst error and coverage in one pass. Coverage counts all scored ticks: a bound that is
-// infinite covers, which is why the bounds' RMS is given with it.
+// RMS, worst error and coverage in one pass. Coverage counts all scored ticks: an infinite bound
+// covers, hence the bounds' RMS is given too.
 Score score(const std::vector<online::Estimate>& estimates, const Record& record, double lag_s,
             double from_s, double min_speed_mm_s) {
   Score out;
@@ -39,7 +39,7 @@ Score score(const std::vector<online::Estimate>& estimates, const Record& record
   std::size_t in_a = 0;
   std::size_t at = 0;
   for (std::size_t k = 0; k < estimates.size(); ++k) {
-    // An estimator that lags is compared with the truth of then: its error, not its delay.
+    // A lagging estimator is compared with the truth at its own instant: its error, not its delay.
     const double when = record.ticks[k].t_s - lag_s;
     while (at + 2 < record.ticks.size() && record.ticks[at + 1].t_s <= when) {
       ++at;

@@ -10,10 +10,10 @@
 /// Runs an estimator over a record and compares with the truth.
 namespace steadyrest::motion::offline {
 
-/// Edges in their order, each before the first tick that does not lie before it.
+/// Edges in order, each before the first tick that is not earlier.
 [[nodiscard]] std::vector<online::Estimate> run(online::Estimator& estimator, const Record& record);
 
-/// The ticks alone: what an estimator sees that has no time stamps.
+/// Only the ticks: what an estimator without time stamps sees.
 [[nodiscard]] Record without_edges(Record record);
 
 struct Score {

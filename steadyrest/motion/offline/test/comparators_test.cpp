@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every comparator must bear.
+// What every comparator must withstand.
 #include <cmath>
 #include <limits>
 #include <memory>

@@ -25,8 +25,8 @@ Score moving(const EventFit::Config& config, const Record& record, double min_sp
   return offline::score(offline::run(estimator, record), record, 0.0, 0.02, min_speed_mm_s);
 }
 
-// A polynomial of the fit's degree is met exactly; what is left is the 10⁻¹³ s of the edges. The
-// cubic through a parabola must not be, or the test would see nothing.
+// A polynomial of the fit's degree is fitted exactly; the rest is the 10⁻¹³ s of the edges. A
+// parabola must not fit a cubic, or the test would show nothing.
 TEST(EventFit, IsExactOnPolynomialsOfItsDegree) {
   const Record parabola = offline::record(ramp(2.0, 30.0, 0.5), exact_stamps());
   for (const std::size_t degree : {2U, 3U}) {
@@ -54,7 +54,7 @@ TEST(EventFit, JerkBiasesTheEndOfAParabolaAsTheReferenceSays) {
 
 TEST(EventFit, HasNoBiasAtTheDelaysOfTheReference) {
   // p = 2: v at W/2·(1 − 1/√5) and a at W/2 before the end are free of the jerk's bias. The newest
-  // edge is 25 µs old in the mean; the delays count from it, as W does.
+  // edge is 25 µs old on average; the delays, like W, count from it.
   const Record record =
       offline::record(jerk_pieces("cubic", {0.0002, 20.0, 0.0}, {{0.1, 1000.0}}), exact_stamps());
   EventFit estimator = EventFit::make({.edges = 512, .window_s = 0.008}).value();
@@ -77,7 +77,7 @@ TEST(EventFit, HasNoBiasAtTheDelaysOfTheReference) {
 
 // Least squares of a parabola at its end point: variances 192·σ²/(N·W²) and 720·σ²/(N·W⁴).
 TEST(EventFit, LineErrorsActByTheClosedFormOfTheEndPoint) {
-  // Edges at even spacing are samples: variance = σ²·Σ weights², which tends to 192·σ²/(N·W²).
+  // Evenly spaced edges are samples: variance = σ²·Σ weights², which tends to 192·σ²/(N·W²).
   Recording how = exact_stamps();
   how.line_error_counts = 0.02;
   const Record record = offline::record(offline::constant_speed(20.0, 4.0), how);
@@ -107,7 +107,7 @@ TEST(EventFit, LineErrorsCostWhatTheTheorySaysOverTheSine) {
   // Noise 192·σ²/(N·W²), N = |v|·W/q, and the bias J·W²/10, tick by tick, |v| > 3 mm/s (the theory
   // takes v as constant over W; it changes by up to 1.3 mm/s). The lines of the scene: pattern of 5
   // % (RMS 0.778 of it) and 2 % at random; the pattern averages out over its four lines, so the
-  // theory with both is an upper bound and that with the random part alone a lower one.
+  // theory with both is an upper bound and with only the random part a lower one.
   for (const double window : {0.004, 0.008}) {
     const Record& record = sine_line_errors();
     const Score s = moving({.edges = 512, .window_s = window}, record, 3.0);
@@ -139,7 +139,7 @@ TEST(EventFit, TheClipHoldsItThroughStartStopAndReversal) {
   EXPECT_LT(s.velocity_max_mm_s, 0.5);
 }
 
-// Every fourth edge is of the same phase, so its error is a constant and drops out.
+// Every fourth edge has the same phase, so its error is constant and drops out.
 TEST(EventFit, SkippingToOnePhaseIsDeafToThePhaseError) {
   Recording how = exact_stamps();
   how.phase_error_counts = 0.05;

@@ -48,7 +48,7 @@ TEST(MOverT, ComesLateByHalfATickAndTheMeanAgeOfItsEdges) {
 
 TEST(MOverT, GivesTheTableOfTheReference) {
   // Row "M/T". S-curve ±15 %. The sine's 0.197 contains one false 7.4 mm/s of an edge pair on one
-  // line among some 2000 ticks, which the same-line rule takes away: √(0.197² − 7.4²/2000) = 0.107.
+  // line among some 2000 ticks, which the same-line rule removes: √(0.197² − 7.4²/2000) = 0.107.
   EXPECT_NEAR(scored<MOverT>({}, sine_ideal()).velocity_rms_mm_s, 0.107, 0.016);
   EXPECT_NEAR(scored<MOverT>({}, sine_line_errors()).velocity_rms_mm_s, 0.116, 0.016);
   EXPECT_NEAR(scored<MOverT>({}, s_curve_ideal()).velocity_rms_mm_s, 0.060, 0.009);

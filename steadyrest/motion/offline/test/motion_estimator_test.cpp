@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the estimator must bear; how fine it is stands in motion_targets_test.cpp.
+// What the estimator must withstand; motion_targets_test.cpp tests its accuracy.
 #include <cmath>
 #include <limits>
 
@@ -39,7 +39,7 @@ TEST(MotionEstimator, DitherOnALineStaysSmall) {
   EXPECT_LT(s.velocity_max_mm_s, 0.2);
 }
 
-// Edges have their own stamps: when somebody looks must not matter.
+// Edges have their own stamps: the time of the look must not matter.
 TEST(MotionEstimator, DoesNotCareWhenTheCycleJitters) {
   Recording how;
   const Record steady = offline::record(sine(1.0, 2.0, 2.0), how);
@@ -53,8 +53,8 @@ TEST(MotionEstimator, DoesNotCareWhenTheCycleJitters) {
   EXPECT_LT(shaken.acceleration_rms_mm_s2, 1.2 * calm.acceleration_rms_mm_s2);
 }
 
-// 5 % lost at random, then half a second missing altogether; 30 ms after the hole it must be as
-// good as before.
+// 5 % lost at random, then half a second missing entirely; 30 ms after the gap it must be as good
+// as before.
 TEST(MotionEstimator, GoesOnAfterLostEdgesAndAGap) {
   Recording how;
   how.lost_share = 0.05;
@@ -77,7 +77,8 @@ TEST(MotionEstimator, GoesOnAfterLostEdgesAndAGap) {
   EXPECT_LT(score(run(f, holed), holed, 0.0, 1.23).velocity_rms_mm_s, 0.003);
 }
 
-// Inside everything is in counts: the same motion in counts of 64 µm must err 64 times as much.
+// Everything is in counts internally: the same motion in counts of 64 µm must have 64 times the
+// error.
 TEST(MotionEstimator, CountsOfAnyLengthAreAlike) {
   Recording how;
   how.count_mm = 0.064;
@@ -94,7 +95,7 @@ TEST(MotionEstimator, CountsOfAnyLengthAreAlike) {
   EXPECT_NEAR(of_big.acceleration_rms_mm_s2 / of_small.acceleration_rms_mm_s2, 64.0, 0.5);
 }
 
-// The bound from counts alone is 0.25 mm/s at best; the estimate itself can.
+// The bound from counts alone is 0.25 mm/s at best; the estimate itself can be better.
 TEST(MotionEstimator, WorksFromSampledCountsAlone) {
   const Record record = without_edges(sine_ideal());
   MotionEstimator e = made({.max_acceleration_mm_s2 = 160.0, .max_jerk_mm_s3 = 2000.0});
@@ -121,7 +122,7 @@ TEST(MotionEstimator, ALagBuysAccuracyAndSaysForWhichInstant) {
   }
 }
 
-// A twin that is spared the bad input must give the same numbers.
+// A twin without the bad input must give the same numbers.
 TEST(MotionEstimator, UnfitInputIsCountedAndDoesNoHarm) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   MotionEstimator e = made({});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fine the estimates are, at zero lag: RMS over the whole profile, stops and reversals
-// included. Bounds from both sides, so that an improvement shows.
+// Accuracy of the estimates at zero lag: RMS over the whole profile, including stops and reversals.
+// Bounds from both sides, so that an improvement shows.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using online::MotionEstimator;
 
 constexpr double kFrom = 0.02;  ///< the first 20 ms find the speed
 
-// The limits are those of the profile: the tightest that are true.
+// The limits are the profile's: the tightest true ones.
 MotionEstimator::Config with_limits(const Record& record, double line_error_mm) {
   MotionEstimator::Config config;
   config.clock_s = record.how.clock_s;
@@ -77,7 +77,7 @@ TEST(MotionTargets, FlywheelOfThePaper) {
 struct Curves {
   double velocity_rms = 0.0;
   double acceleration_rms = 0.0;
-  double floor = 0.0;           ///< what the time before each first line costs anybody
+  double floor = 0.0;           ///< the unavoidable error before each first line
   double velocity_ratio = 0.0;  ///< bound over error at speed, both RMS
   double acceleration_ratio = 0.0;
 };
@@ -106,9 +106,9 @@ Curves s_curves(bool limits) {
     ba += fast.acceleration_bound_mm_s2 * fast.acceleration_bound_mm_s2;
     ev += fast.velocity_rms_mm_s * fast.velocity_rms_mm_s;
     ea += fast.acceleration_rms_mm_s2 * fast.acceleration_rms_mm_s2;
-    // A start shows itself at its first line: until then 0 is the only sensible answer.
+    // A start shows only at its first line: until then 0 is the only sensible answer.
     double missed = 0.0;
-    double stood_s = 0.0;  // when the axis last stood
+    double stood_s = 0.0;  // when the axis was last at rest
     double line_s = -1.0;  // when it last passed a line
     auto edge = record.edges.begin();
     for (std::size_t k = 0; k < record.ticks.size(); ++k) {
@@ -129,8 +129,8 @@ Curves s_curves(bool limits) {
   return out;
 }
 
-/// Of the velocity 0.009 mm/s cannot be had: the axis moves up to 10 ms before the first line tells
-/// of it.
+/// 0.009 mm/s of the velocity error is unavoidable: the axis moves up to 10 ms before the first
+/// line shows it.
 TEST(MotionTargets, SCurveStopsAndReversalAveragedOverThePlaceInTheCount) {
   const Curves c = s_curves(true);
   RecordProperty("floor", std::to_string(c.floor));
@@ -143,7 +143,7 @@ TEST(MotionTargets, SCurveStopsAndReversalAveragedOverThePlaceInTheCount) {
   EXPECT_LT(c.acceleration_ratio, 4.0);
 }
 
-/// The jerk is learnt at the first stop; before, the first start has nothing to go by.
+/// The jerk is learnt at the first stop; the first start has nothing to go by.
 TEST(MotionTargets, SCurveWithoutLimits) {
   const Curves c = s_curves(false);
   EXPECT_GT(c.velocity_rms, c.floor);

@@ -11,7 +11,7 @@ namespace {
 
 using online::Pll;
 
-// v/v_true = ki/(s² + kp·s + ki) is late by kp/ki = 2/b; the discrete loop by half a tick less.
+// v/v_true = ki/(s² + kp·s + ki) lags by kp/ki = 2/b; the discrete loop by half a tick less.
 TEST(Pll, ComesLateByTwoOverItsBandwidthLessHalfATick) {
   // Steady ramp of the sampled loop: d = a/ki, v_k = v(t_k) + a·T/2 − a·kp/ki.
   for (const double bandwidth : {100.0, 200.0, 300.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What repeats with place is found and foreseen; where nothing does, nothing changes.
+// Ripple that repeats with position is found and predicted; without it nothing changes.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +18,7 @@ using online::RippleEstimator;
 constexpr double kAmplitude_mm = 0.034e-3;
 constexpr double kLength_mm = 7.8125e-3;
 
-/// A slow sine, and on it a wave over the place.
+/// A slow sine with a wave over the position on top.
 Profile rippled(double duration_s) {
   Profile profile = sine(0.15, 0.9, duration_s);
   const auto smooth = profile.at;
@@ -54,7 +54,7 @@ TEST(Ripple, ForeseenIsHalfOfTheError) {
   EXPECT_LT(with, 0.5 * without);
 }
 
-/// Errors of the lines repeat with place as well: they are no motion.
+/// Line errors repeat with position too, but they are not motion.
 TEST(Ripple, IsNotSeenInTheErrorsOfTheLines) {
   for (const Profile& profile : {sine(1.0, 2.0, 4.0), sine(0.2, 2.0, 20.0), sine(0.1, 1.0, 20.0),
                                  s_curve(), constant_speed(5.0, 4.0)}) {

@@ -23,8 +23,8 @@ double sum_of_squares(const SavitzkyGolay::Weights& w) {
   return std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
 }
 
-// Boost's Lanczos derivatives are the same filters: an implementation that is not ours, asked for
-// each weight by a unit impulse.
+// Boost's Lanczos derivatives are the same filters: an independent implementation, probed for each
+// weight with a unit impulse.
 TEST(SavitzkyGolay, HasTheVelocityWeightsOfBoost) {
   for (const std::size_t degree : {2U, 3U, 4U}) {
     for (const std::size_t n : {5U, 8U, 20U}) {
@@ -130,7 +130,7 @@ TEST(SavitzkyGolay, JerkBiasesTheEndOfAParabolaAsTheReferenceSays) {
 }
 
 TEST(SavitzkyGolay, GivesTheTableOfTheReference) {
-  // Row "SG2 endpoint 16 samples", ±25 %: the table's run is another stretch of single seeds. The
+  // Row "SG2 endpoint 16 samples", ±25 %: the table's run is another stretch with single seeds. The
   // theory (rounding as white noise, bias of the sine's jerk) gives 0.073 and 13.6 for the sine;
   // ±10 %.
   EXPECT_NEAR(scored<SavitzkyGolay>({}, sine_ideal()).velocity_rms_mm_s, 0.073, 0.0073);

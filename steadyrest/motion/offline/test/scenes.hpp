@@ -32,8 +32,8 @@ inline const Record& sine_line_errors() {
   static const Record record = offline::record(sine(1.0, 2.0, 2.0), line_errors());
   return record;
 }
-/// The S-curve of the table: 20 mm/s, stop, back at 2 mm/s, each held for 0.2 s. Apart from
-/// `s_curve()`, whose holds weigh the RMS over the whole profile otherwise.
+/// The S-curve of the table: 20 mm/s, stop, back at 2 mm/s, each held for 0.2 s. Different from
+/// `s_curve()`, whose holds weight the RMS over the whole profile differently.
 inline Profile table_s_curve() {
   std::vector<JerkPiece> pieces{{0.1, 0.0}};
   const auto add = [&](double change_mm_s, double hold_s) {
@@ -58,7 +58,7 @@ inline const Record& s_curve_line_errors() {
   return record;
 }
 
-/// Speeds up for ever: x = v₀·t + a·t²/2.
+/// Accelerates forever: x = v₀·t + a·t²/2.
 inline Profile ramp(double speed_mm_s, double acceleration_mm_s2, double duration_s) {
   Profile out = constant_speed(speed_mm_s, duration_s);
   out.name = "ramp";

@@ -9,20 +9,20 @@ namespace {
 
 constexpr double kFarOff = 5.0;        ///< standard deviations at which a border no longer matters
 constexpr double kNarrow = 0.1;        ///< width of a cell in standard deviations
-constexpr double kLeastShare = 1e-10;  ///< below this the model has lost the cell altogether
+constexpr double kLeastShare = 1e-10;  ///< below this the model has lost the cell entirely
 
 /// The share of N(mean, s²) in [low, high] and the measurement that would give it the moments of
-/// what is inside; r < 0 when nothing is to be learnt.
+/// the part inside; r < 0 when nothing can be learnt.
 struct Cut {
   double share = 1.0;
   double z = 0.0;
   double r = -1.0;
 };
 
-/// The cell is narrow against s, `middle` and `width` in s: the density is as good as even within,
-/// where differences of tails cancel.
-/// ∫φ over a width w about m is φ(m)·w·(1 + (m² − 1)·w²/24) to third order. What is left inside is
-/// even, its variance w²/12 in units of s².
+/// For a cell narrow against s, `middle` and `width` in units of s: the density within is nearly
+/// even, and differences of tails would cancel.
+/// ∫φ over a width w about m is φ(m)·w·(1 + (m² − 1)·w²/24) to third order. The part inside is
+/// even, with variance w²/12 in units of s².
 Cut narrow_cut(double mean, double s, double middle, double width) noexcept {
   const double even = width * width / 12.0;
   const double most = 1.0 - even;
@@ -50,20 +50,20 @@ Borders borders_of(const ModelBank& bank, const Lanes& variance, double low, dou
   return out;
 }
 
-/// The cuts of all models by the difference of both tails.
+/// The cuts of all models from the difference of both tails.
 struct Cuts {
   Lanes share{};
   Lanes z{};
   Lanes r{};
-  Lanes lost{};  ///< share of the variance that is cut away
+  Lanes lost{};  ///< share of the variance cut away
 };
 
 // Moments of a normal distribution cut to [α, β], Z its share inside: mean = (φ(α) − φ(β))/Z,
 // variance = 1 − lost, lost = mean² − (α·φ(α) − β·φ(β))/Z. The measurement (z, r) that would bring
 // a Kalman filter to the same moments has gain = lost: z = m + s·mean/lost, r = s²·(1 −
-// lost)/lost. So the cell enters by the ordinary update, and the UD form stays positive.
+// lost)/lost. So the cell enters through the ordinary update, and the UD form stays positive.
 Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexcept {
-  constexpr double kFarthest = 30.0;  // beyond it density and tail are nothing
+  constexpr double kFarthest = 30.0;  // beyond it density and tail vanish
   Lanes share_a{};
   Lanes share_b{};
   Lanes density_a{};
@@ -78,7 +78,7 @@ Cuts cuts_at(const Borders& at, const Lanes& mean, const Lanes& variance) noexce
   }
   Cuts out;
   for (std::size_t j = 0; j < kModels; ++j) {
-    // Outside, both tails are counted from the nearer side: nothing cancels.
+    // Outside, both tails are measured from the nearer side: nothing cancels.
     const double within = 1.0 - share_a[j] - share_b[j];
     const double outside = std::abs(share_a[j] - share_b[j]);
     out.share[j] = std::min(-at.alpha[j], at.beta[j]) >= 0.0 ? within : outside;
@@ -102,7 +102,7 @@ CellSight see_cell(const ModelBank& bank, double low, double high) noexcept {
   const Borders at = borders_of(bank, out.variance, low, high);
   const Lanes& near = at.nearest;
   // The common case when the axis moves: every model lies far inside its cell, and no tail is
-  // worked out.
+  // computed.
   if (std::min(std::min(near[0], near[1]), std::min(near[2], near[3])) > kFarOff) {
     return out;
   }
@@ -116,9 +116,8 @@ CellSight see_cell(const ModelBank& bank, double low, double high) noexcept {
     } else if (width < kNarrow && std::abs(middle) < kFarOff) {
       c = narrow_cut(bank.x[j], at.deviation[j], middle, width);
     } else if (cuts.share[j] < kLeastShare) {
-      // The cell lies where this model has nothing. Its nearer border becomes the measurement,
-      // tight against both model and cell, so that the model comes back instead of dividing 0 by
-      // 0.
+      // The cell lies where this model has no weight. Its nearer border becomes the measurement,
+      // tight against both model and cell, so that the model returns instead of dividing 0 by 0.
       const double cell = high - low;
       c = {kLeastShare, at.alpha[j] > 0.0 ? low : high,
            std::min(0.01 * out.variance[j], 0.01 * cell * cell)};

@@ -4,26 +4,26 @@
 
 #include <steadyrest/motion/online/bounded/jerk_ramp.hpp>
 
-// The life of a ramp: edge() judges what was foretold, decides whether this edge is a start, and
-// then either follows the start (begin, go_on) or looks for a stop (fit: guess, improve, weigh).
-// at() answers from whichever is believed, with its share.
-// A share is never a matter of one test: it is the likelihood against the best smooth alternative
-// times how often such predictions came true on this axis (Trust).
+// The life of a ramp: edge() checks the prediction, decides whether this edge is a start, and then
+// either follows the start (begin, go_on) or searches for a stop (fit: guess, improve, weigh). at()
+// answers from whichever is believed, with its share. A share never depends on one test: it is the
+// likelihood against the best smooth alternative times how often such predictions came true on this
+// axis (Trust).
 namespace steadyrest::motion::online {
 namespace {
 
 // Which test fails when one is moved: README, "What the constants do".
-constexpr double kOdds = 0.01;       ///< of a stop at any constant jerk, beforehand
+constexpr double kOdds = 0.01;       ///< prior of a stop at any constant jerk
 constexpr double kOddsKnown = 0.5;   ///< … when it is the known one
-constexpr double kSameJerk = 0.03;   ///< to this it is the known one
+constexpr double kSameJerk = 0.03;   ///< within this it is the known one
 constexpr double kAtRest = 0.9;      ///< probability of standstill from which a line is a start
-constexpr double kLeastWay = 2.0;    ///< counts that a start goes on with its jerk, at least
-constexpr double kBeyond = 1.1;      ///< of the limit: what lines that are off may feign
+constexpr double kLeastWay = 2.0;    ///< counts for which a start keeps its jerk, at least
+constexpr double kBeyond = 1.1;      ///< of the limit: apparent excess caused by line errors
 constexpr double kMemory = 8.0;      ///< stops or starts
-constexpr double kOtherwise = 0.05;  ///< residual of other motions at most, counts
-constexpr double kOff = 0.05;        ///< counts by which a line may come other than expected
-constexpr double kFar = 8.0;         ///< counts before the standstill from which it is looked for
-constexpr double kSlower = 1.02;     ///< the last count's time to that of the one before, there
+constexpr double kOtherwise = 0.05;  ///< largest residual of other motions, counts
+constexpr double kOff = 0.05;        ///< counts by which a line may differ from its prediction
+constexpr double kFar = 8.0;         ///< counts before standstill at which the search begins
+constexpr double kSlower = 1.02;     ///< the last count's time over the previous one's, there
 constexpr double kSure = 0.9;
 constexpr double kLeastVariance = 1e-8;  ///< count²
 constexpr std::size_t kLeast = 4;        ///< passages; all of them unless it is the known jerk
@@ -34,7 +34,7 @@ constexpr int kSteps = 4;                ///< of the fit; half of them from the 
 void JerkRamp::Trust::learn(bool came) noexcept {
   yes += came ? 1.0 : 0.0;
   all += 1.0;
-  // Both scaled down together: the share stays and old stops lose weight.
+  // Scales both down together: the share stays and old stops lose weight.
   if (all > kMemory) {
     yes *= kMemory / all;
     all = kMemory;
@@ -48,12 +48,12 @@ void JerkRamp::forget() noexcept {
 
 void JerkRamp::edge(double t_s, double x, std::int8_t direction, double variance, double at_rest,
                     double quiet_s) noexcept {
-  // Before anything is kept: the stop that was foretold is judged by this edge.
+  // First of all, this edge checks the predicted stop.
   judge_stop(t_s, x, direction);
   if (kind_ == Kind::stop && t_s > t0_s_) {
     at_rest = std::max(at_rest, share_);
   }
-  // A start takes up to ∛(6/J) to the first line: quiet for less was no standstill.
+  // A start takes up to ∛(6/J) to the first line: a shorter quiet was not standstill.
   const bool starts = at_rest > kAtRest && !(quiet_s * quiet_s * quiet_s * jerk_ < 6.0);
   if (starts || direction != direction_) {
     if (kind_ == Kind::start) {
@@ -80,7 +80,7 @@ void JerkRamp::edge(double t_s, double x, std::int8_t direction, double variance
   fit();
 }
 
-/// The edge shows whether the axis stopped where and when it was said to.
+/// The edge shows whether the axis stopped where and when predicted.
 void JerkRamp::judge_stop(double t_s, double x, std::int8_t direction) noexcept {
   if (kind_ != Kind::stop || share_ < 0.1) {
     return;
@@ -88,7 +88,7 @@ void JerkRamp::judge_stop(double t_s, double x, std::int8_t direction) noexcept 
   const double tau = std::max(0.0, t0_s_ - t_s);
   const double expected = x0_ - direction_ * c_ * tau * tau * tau;
   const double rest_s = t_s - t0_s_;
-  // Still on the way to the stop: a line that comes off its place refutes it, one on its place
+  // Still on the way to the stop: a line off its predicted place refutes it; one on its place
   // proves nothing yet.
   if (rest_s <= 0.0 && direction == direction_) {
     if (std::abs(expected - x) > kOff) {
@@ -96,7 +96,7 @@ void JerkRamp::judge_stop(double t_s, double x, std::int8_t direction) noexcept 
     }
     return;
   }
-  // From rest nothing comes sooner than at the jerk with which it stopped.
+  // From rest nothing can come sooner than at the jerk of the stop.
   const bool stood = rest_s > 0.0 && c_ * rest_s * rest_s * rest_s > 0.5 * std::abs(x - x0_);
   stops_.learn(stood);
   if (!stood) {
@@ -123,14 +123,14 @@ void JerkRamp::begin(double t_s, double x, double at_rest) noexcept {
   judged_ = false;
   const double way = direction_ * (x - x0_);
   if (place_known && way > 0.0 && way < 1.0) {
-    // way = c·(t − t₀)³, the place of standstill known from the stop.
+    // way = c·(t − t₀)³, with the position of standstill known from the stop.
     t0_s_ = t_s - std::cbrt(way / c_);
     known_ = true;
   }
 }
 
-// Lines after the first of a start. The second one gives t₀ (or confirms the t₀ that the stop
-// before left), each later one must come when the curve says; the first that does not ends the
+// Lines after the first of a start. The second gives t₀ (or confirms the t₀ left by the previous
+// stop); each later one must come when the curve predicts, and the first that does not ends the
 // start.
 void JerkRamp::go_on() noexcept {
   const Passage& now = back(0);
@@ -161,9 +161,9 @@ void JerkRamp::go_on() noexcept {
   const double root = (4.0 * direction_ * (now.x - last.x) / (c_ * d) - d * d) / 12.0;
   // The positive root of that quadratic in θ.
   const double theta = root > 0.0 ? std::sqrt(root) - 0.5 * d : -1.0;
-  // Way from standstill to the line before, by the jerk that is assumed.
+  // Way from standstill to the previous line at the assumed jerk.
   const double way = c_ * theta * theta * theta;
-  // Between standstill and the first line there is at most one count.
+  // The first line is at most one count from standstill.
   if (theta < 0.0 || (count_ == 2 && way > 1.0 + kOff)) {
     starts_.learn(false);
     kind_ = Kind::none;
@@ -175,7 +175,7 @@ void JerkRamp::go_on() noexcept {
   }
 }
 
-/// Where a parabola through the last three passages leads: v = a²/2J says the rest.
+/// Extrapolates a parabola through the last three passages: v = a²/2J gives the rest.
 bool JerkRamp::guess(Curve& out) const noexcept {
   const Passage& now = back(0);
   const double h1 = now.t_s - back(1).t_s;
@@ -200,7 +200,7 @@ bool JerkRamp::guess(Curve& out) const noexcept {
 
 JerkRamp::Residual JerkRamp::residual(std::size_t age, const Curve& curve) const noexcept {
   const Passage& p = back(age);
-  // Times and places against the last passage: what is large cancels.
+  // Times and positions relative to the last passage: large parts cancel.
   const double tau = curve.t0_s - (p.t_s - back(0).t_s);
   const double slope = 3.0 * curve.c * tau * tau;
   // A stamp is off by up to half a clock period, evenly: variance (v·clock)²/12.
@@ -212,7 +212,7 @@ JerkRamp::Residual JerkRamp::residual(std::size_t age, const Curve& curve) const
 /// One step of Gauss–Newton; the 3×3 system by elimination.
 /// Normal equations of the weighted residuals in x₀, t₀ and c. The signs: residual() gives −∂x/∂t₀
 /// and −∂x/∂c, so column 1 (x₀) meets columns 2 and 3 with a minus. A 3×3 system of well-scaled
-/// terms (times and places from the last passage) needs no pivoting; a singular one shows as a
+/// terms (times and positions from the last passage) needs no pivoting; a singular one gives a
 /// value that is not finite, and the fit is dropped.
 bool JerkRamp::improve(Curve& curve) const noexcept {
   double m11 = 0.0, m12 = 0.0, m13 = 0.0, m22 = 0.0, m23 = 0.0, m33 = 0.0;
@@ -253,29 +253,28 @@ void JerkRamp::fit() noexcept {
   if (count_ < kLeast || !guess(curve)) {
     return;
   }
-  // The last solution, moved to the new passage's origin, is nearer than the parabola's guess.
+  // The last solution, shifted to the new passage's origin, is closer than the parabola's guess.
   if (was) {
     curve = {direction_ * (x0_ - now.x), t0_s_ - now.t_s, c_};
   }
-  // From the last solution half of the steps do.
+  // From the last solution half of the steps suffice.
   for (int step = was ? kSteps / 2 : 0; step < kSteps; ++step) {
     if (!improve(curve)) {
       return;
     }
   }
-  // The place of standstill must lie ahead, in time and in space, and the jerk within the limit.
+  // Standstill must lie ahead in time and space, and the jerk within the limit.
   if (!(curve.c > 0.0) || !(curve.t0_s > 0.0) || curve.x0 < -kOff ||
       6.0 * curve.c > kBeyond * config_.jerk) {
     return;
   }
-  // The unknown jerk needs all six passages: three unknowns through four leave one residual to
-  // judge by.
+  // The unknown jerk needs all six passages: three unknowns through four leave only one residual.
   const bool same = std::abs(6.0 * curve.c - jerk_) < kSameJerk * jerk_;
   if (!same && count_ < kPassages) {
     return;
   }
-  // Against a motion without this jerk: no parabola comes nearer to the curve over the window W
-  // than c·W³/32, its RMS is c·W³/45. Where the lines are worse than that nothing is told apart.
+  // The alternative, a motion without this jerk: no parabola comes nearer to the curve over the
+  // window W than c·W³/32, RMS c·W³/45. Line errors above that hide the difference.
   const double window_s = now.t_s - back(count_ - 1).t_s;
   const double otherwise =
       std::min(kOtherwise, curve.c * window_s * window_s * window_s * (1.0 / 45.0));
@@ -287,11 +286,11 @@ void JerkRamp::fit() noexcept {
     ratio *= otherwise * otherwise / r.variance;
   }
   const auto n = static_cast<double>(count_);
-  // Log likelihood ratio, the three fitted unknowns taken off.
+  // Log likelihood ratio, minus the three fitted unknowns.
   const double evidence = 0.5 * ((n - 3.0) / n * std::log(ratio) - chi2);
   const double odds = stops_.share() * (same ? kOddsKnown : kOdds);
   share_ = evidence < -30.0 ? 0.0 : odds / (odds + std::exp(-evidence));
-  // Below 1 % it would not show in the estimate but would hold back a start.
+  // Below 1 % it would not show in the estimate but would delay a start.
   if (share_ < 0.01) {
     return;
   }
@@ -300,7 +299,7 @@ void JerkRamp::fit() noexcept {
   t0_s_ = now.t_s + curve.t0_s;
   c_ = curve.c;
   from_s_ = back(count_ - 1).t_s;
-  // The control's jerk, learnt: starts use it.
+  // The control's jerk, learnt here; starts use it.
   if (share_ > kSure) {
     jerk_ = 6.0 * c_;
   }
@@ -308,7 +307,7 @@ void JerkRamp::fit() noexcept {
 
 JerkRamp::Motion JerkRamp::stopping(double now_s, double when_s) const noexcept {
   const double now = std::max(0.0, t0_s_ - now_s);
-  // By now the next line should have been passed: it was not, so this is no such stop.
+  // The next line should have been passed by now: it was not, so this is not such a stop.
   if (direction_ * (x0_ - back(0).x) - c_ * now * now * now > 1.0 + kOff) {
     return {};
   }
@@ -327,19 +326,20 @@ JerkRamp::Motion JerkRamp::starting(double now_s, double when_s) const noexcept 
     const double theta = std::max(0.0, when_s - t0_s_);
     return {share_, direction_ * 3.0 * c_ * theta * theta, direction_ * 6.0 * c_ * theta};
   }
-  // The way w to the first line is even within 0 … w₁ = c·θ³, beyond which the next were passed.
+  // The way w to the first line is evenly distributed over 0 … w₁ = c·θ³, beyond which the next
+  // line would have been passed.
   const double d = now_s - back(0).t_s;
   double theta = std::cbrt(1.0 / c_);
   if (d > 0.0) {
     const double root = (4.0 / (c_ * d) - d * d) / 12.0;
-    // That the next line was not passed yet bounds θ from above.
+    // Since the next line has not been passed yet, θ is bounded from above.
     theta = std::min(theta, root > 0.0 ? std::sqrt(root) - 0.5 * d : -1.0);
   }
   if (theta < 0.0) {
     return {};
   }
   const double when = when_s - back(0).t_s;
-  if (when < 0.0) {  // the mean start must do
+  if (when < 0.0) {  // use the mean start
     const double mean = std::max(0.0, 0.75 * theta + when);
     return {share_, direction_ * 3.0 * c_ * mean * mean, direction_ * 6.0 * c_ * mean};
   }

@@ -9,15 +9,15 @@
 
 /// Motion to and from standstill at constant jerk, as a control commands it.
 ///
-/// To standstill: x(t) = x₀ − J·(t₀ − t)³/6 up to t₀, then rest; the acceleration is gone together
-/// with the speed, v = a²/2J. Three unknowns, x₀, t₀ and J: the last passages of a direction are
-/// laid through it by least squares, and what it leaves unexplained tells whether this is such a
-/// stop. From standstill: x(t) = x₀ + J·(t − t₀)³/6 with J known, or learnt at the last stop. The
-/// first line tells the instant of one way w, even within 0 … 1 count (or known, where the stop
-/// before told where the axis stands); that the next line is not passed bounds it from above; the
-/// second line gives it, the following ones verify.
+/// To standstill: x(t) = x₀ − J·(t₀ − t)³/6 up to t₀, then rest; acceleration and speed vanish
+/// together, v = a²/2J. Three unknowns, x₀, t₀ and J, are fitted to the last passages in one
+/// direction by least squares, and the residual tells whether this is such a stop. From standstill:
+/// x(t) = x₀ + J·(t − t₀)³/6 with J known, or learnt at the last stop. The first line gives the
+/// instant for a way w, evenly distributed over 0 … 1 count (or known, if the previous stop gave
+/// the axis' position); the absence of the next line bounds it from above; the second line
+/// determines it, later ones verify.
 ///
-/// Unit of length: the count. Where it ends: other motions than these have share 0.
+/// Unit of length: the count. Limits: any other motion has share 0.
 namespace steadyrest::motion::online {
 
 class JerkRamp {
@@ -31,20 +31,20 @@ class JerkRamp {
   JerkRamp() = default;
   explicit JerkRamp(const Config& config) noexcept : config_(config), jerk_(config.jerk) {}
 
-  /// A line at x was passed, alone. `variance` of its position, count²; `at_rest` is the
-  /// probability that the axis stood still before, for `quiet_s` of which no line was passed.
+  /// A single line at x was passed. `variance` of its position, count²; `at_rest` is the
+  /// probability that the axis was at rest before, and no line was passed for `quiet_s`.
   void edge(double t_s, double x, std::int8_t direction, double variance, double at_rest,
             double quiet_s) noexcept;
-  /// Many lines at once, or the record has a hole: not the end of a stop.
+  /// Many lines at once, or a gap in the record: not the end of a stop.
   void forget() noexcept;
 
-  /// Probability that the axis moves so, and its velocity and acceleration.
+  /// Probability of this motion, and its velocity and acceleration.
   struct Motion {
     double share = 0.0;
     double v = 0.0;
     double a = 0.0;
   };
-  /// At `when_s`, which is no later than `now_s`, with what is known now.
+  /// At `when_s`, no later than `now_s`, with present knowledge.
   [[nodiscard]] Motion at(double now_s, double when_s) const noexcept {
     return kind_ == Kind::none || when_s < from_s_ ? Motion{}
            : kind_ == Kind::stop                   ? stopping(now_s, when_s)
@@ -53,7 +53,7 @@ class JerkRamp {
 
  private:
   enum class Kind : std::uint8_t { none, stop, start };
-  /// How often it came as expected.
+  /// How often the prediction came true.
   struct Trust {
     double yes = 0.0;
     double all = 0.0;
@@ -103,7 +103,7 @@ class JerkRamp {
   double from_s_ = 0.0;  ///< since when the motion is of this kind
   Trust stops_{1.0, 1.0};
   Trust starts_{1.55, 2.0};
-  double x0_ = 0.0;      ///< place of standstill
+  double x0_ = 0.0;      ///< position of standstill
   double t0_s_ = 0.0;    ///< when it begins or ends
   double c_ = 0.0;       ///< J/6
   bool known_ = false;   ///< a start whose t₀ is known

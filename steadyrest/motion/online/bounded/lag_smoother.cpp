@@ -5,16 +5,16 @@
 #include <steadyrest/motion/online/bounded/lag_smoother.hpp>
 
 // A look is what the forward filters knew at a tick (LagSmoother::Look). smooth() starts filters at
-// the newest look and lets them run backwards in time over the edges seen since the look asked for.
-// There the two opinions are joined model by model, and the models by their weights.
+// the newest look and runs them backwards in time over the edges seen since the requested look.
+// There it joins the two estimates model by model, and the models by their weights.
 namespace steadyrest::motion::online {
 namespace {
 
-/// Joins two independent opinions of the state (x, v, a): `forward`, with its covariance P, and
-/// `mirrored` (its mean alone is used), whose covariance comes in UD form: U·D·Uᵀ, U unit upper
+/// Joins two independent estimates of the state (x, v, a): `forward`, with its covariance P, and
+/// `mirrored` (only its mean is used), whose covariance is in UD form: U·D·Uᵀ, U unit upper
 /// triangular with the elements u12, u13, u23, D = diag(variance). The elements of U⁻¹·(x, v, a)
-/// are then independent of one another, so the second opinion is three scalar measurements: row k
-/// of U⁻¹ says what is measured, `variance`[k] how well.
+/// are then independent of one another, so the second estimate is three scalar measurements: row k
+/// of U⁻¹ gives what is measured, `variance`[k] how well.
 std::array<double, 3> join(const Moments& forward, const Moments& mirrored, double u12, double u13,
                            double u23, const std::array<double, 3>& variance) noexcept {
   std::array<double, 3> x = forward.mean;
@@ -75,7 +75,7 @@ LagSmoother::State LagSmoother::smooth(const Lanes& jerk_density, double cycle_s
   const Look& now = looks_[(next_look_ + looks_.size() - 1) % looks_.size()];
   const Look& past = then();
   ModelBank back;
-  // It begins without an opinion: 1 count, 100 counts per cycle, 1 count per cycle².
+  // It starts without knowledge: 1 count, 100 counts per cycle, 1 count per cycle².
   const double v = 100.0 / cycle_s;
   const double a = 1.0 / (cycle_s * cycle_s);
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -96,7 +96,7 @@ LagSmoother::State LagSmoother::smooth(const Lanes& jerk_density, double cycle_s
   for (std::size_t j = 0; j < kModels; ++j) {
     Moments mirrored = back.moments(j);
     mirrored.mean[1] = -mirrored.mean[1];
-    // Mirroring v turns the signs of u12 and u23 round; D stays.
+    // Mirroring v reverses the signs of u12 and u23; D stays.
     const auto x = join(past.bank.moments(j), mirrored, -back.u12[j], back.u13[j], -back.u23[j],
                         {back.d1[j], back.d2[j], back.d3[j]});
     const double weight = now.weight[j] + past.weight[j];

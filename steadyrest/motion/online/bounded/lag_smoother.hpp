@@ -7,18 +7,18 @@
 #include <steadyrest/motion/online/bounded/model_bank.hpp>
 #include <steadyrest/motion/online/bounded/motion_bound.hpp>
 
-/// Fixed lag: the estimate of L ticks ago with what was seen since.
+/// Fixed lag: the estimate for L ticks ago, using everything seen since.
 ///
-/// The same models run backwards in time from now to then (x, −v, a over −t), knowing nothing at
-/// the start, through the observations since; at t − L they are joined with what the forward
-/// filters said there (two-filter smoother, Fraser and Potter 1969). Cost: one more filter step for
-/// each observation within the lag, at every tick. What a lag buys at most (guaranteed errors, jerk
+/// The same models run backwards in time from now to then (x, −v, a over −t), without prior
+/// knowledge, through the observations since; at t − L they are joined with the forward filters'
+/// estimates (two-filter smoother, Fraser and Potter 1969). Cost: one more filter step per
+/// observation within the lag, at every tick. The most that a lag can gain (guaranteed errors, jerk
 /// limit): 3.0 times in velocity and 2.0 in acceleration, reached near ∛(192·ε/J). Lengths are
 /// counts.
 ///
-/// Two rings: of what was *observed* (edges, as position z with variance r, since the oldest tick
-/// that may be asked for), and of *looks*, one for each tick: what the forward filters knew when
-/// they looked at the cell in which the axis then was.
+/// Two rings: of *observations* (edges, as position z with variance r, since the oldest tick that
+/// may be requested), and of *looks*, one per tick: what the forward filters knew when they saw the
+/// axis' cell.
 namespace steadyrest::motion::online {
 
 class LagSmoother {
@@ -31,8 +31,8 @@ class LagSmoother {
     ModelBank bank;            ///< the moving models: means and covariances
     Lanes weight{};            ///< of each of them
     double weight_rest = 0.0;  ///< of standstill; all weights together are 1
-    double rest_x = 0.0;       ///< where the axis is, if it stands
-    MotionIntervals sure;      ///< guaranteed then
+    double rest_x = 0.0;       ///< where the axis is, if at rest
+    MotionIntervals sure;      ///< guaranteed at that tick
     double low_mm = 0.0;       ///< the cell
     double high_mm = 0.0;
   };
@@ -49,9 +49,9 @@ class LagSmoother {
   void observed(double t_s, const Lanes& z, const Lanes& r) noexcept;
   void looked(const Look& look) noexcept;
   void forget() noexcept;
-  /// The look of `ticks` ago, or the oldest that there is.
+  /// The look of `ticks` ago, or the oldest one.
   [[nodiscard]] const Look& then() const noexcept;
-  /// The state then, given all until now.
+  /// The state then, given everything until now.
   [[nodiscard]] State smooth(const Lanes& jerk_density, double cycle_s) const noexcept;
 
  private:
@@ -60,7 +60,7 @@ class LagSmoother {
     Lanes z{};
     Lanes r{};
   };
-  static constexpr std::size_t kSeen = 512;  ///< EdgeGroup gives 16 in a cycle at most
+  static constexpr std::size_t kSeen = 512;  ///< EdgeGroup gives at most 16 per cycle
 
   std::size_t ticks_;
   std::array<Look, kMostTicks + 1> looks_{};

@@ -72,8 +72,8 @@ void ModelBank::predict(double to_s, const Lanes& jerk_density, const Lanes& dec
 }
 
 // Bierman's update for the measurement h = (1, 0, 0): f = Uᵀh is the first row of U, v = D·f, and
-// the innovation's variance e grows term by term. All divisors are sums of positive numbers:
-// nothing can lose the sign of D.
+// the innovation's variance e grows term by term. All divisors are sums of positive numbers: D
+// cannot change sign.
 void ModelBank::update(const Lanes& z, const Lanes& r) noexcept {
   const Lanes seen = z;  // copies cannot overlap with the bank
   const Lanes noise = r;
@@ -106,7 +106,7 @@ void ModelBank::update(const Lanes& z, const Lanes& r) noexcept {
   }
 }
 
-// D alone: the correlations in U stay as they are.
+// Only D: the correlations in U stay unchanged.
 void ModelBank::inflate(const Lanes& factor) noexcept {
   const Lanes by = factor;  // a copy cannot overlap with the bank
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -128,8 +128,8 @@ Moments ModelBank::moments(std::size_t j) const noexcept {
   return out;
 }
 
-// Back to factors from the last row up, each pivot floored: a mixture's covariance can come out
-// singular by rounding, and a zero pivot would never recover.
+// Factors again from the last row up, each pivot floored: rounding can make a mixture's covariance
+// singular, and a zero pivot would never recover.
 void ModelBank::set(std::size_t j, const Moments& m) noexcept {
   const auto& p = m.covariance;
   x[j] = m.mean[0];

@@ -6,29 +6,28 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/online/bounded/motion_bound.hpp>
 
-// The order within a tick: what the last tick's intervals allow now (advance), then what this
-// tick's evidence proves alone (fresh_: triples, pairs, standstill), then their intersection.
-// Evidence and past are kept apart until the end, so that when they contradict each other the past
-// can be dropped and the evidence kept.
+// The order within a tick: what the last tick's intervals now allow (advance), then what this
+// tick's evidence proves by itself (fresh_: triples, pairs, standstill), then their intersection.
+// Evidence and past stay separate until the end, so that on a contradiction the past can be dropped
+// and the evidence kept.
 namespace steadyrest::motion::online {
 namespace {
 
 using kernel::outcome::refuse;
 
-/// 120 m/min: taken as the speed's limit until something tighter is known.
+/// 120 m/min: the speed limit until something tighter is known.
 constexpr double kFastest = 2000.0;
-/// No stamp is exact: a picosecond, and what a double of this size may be off.
+/// No stamp is exact: a picosecond, plus the rounding of a double of this size.
 constexpr double kLeastClock = 1e-12;
 constexpr double kRounding = 1e-15;
-/// Spans of the triples as multiples of the best one of the velocity, ∛(48·ε/J).
+/// Spans of the triples as multiples of the best span for the velocity, ∛(48·ε/J).
 constexpr std::array kSpanFactors{0.7, 1.0, 1.3, 1.8};
 
 Interval both(const Interval& a, const Interval& b) noexcept {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
-/// ∛x for x > 0 within 1e-4, enough to choose a span by: a third of the exponent, then a step of
-/// Halley's.
+/// ∛x for x > 0 within 1e-4, enough to choose a span: a third of the exponent, then a Halley step.
 double rough_cbrt(double x) noexcept {
   constexpr std::uint64_t kBias = 0x2A9F7893782DA1CEULL;
   const auto y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + kBias);
@@ -71,8 +70,8 @@ void MotionBound::forget() noexcept {
   now_.acceleration = {-config_.max_acceleration_mm_s2, config_.max_acceleration_mm_s2};
 }
 
-/// Age of the youngest node that is not younger than t; the oldest when all are. Times fall with
-/// age. Searched from `guess` in steps that double, then by halves.
+/// Age of the youngest node not younger than t, else the oldest. Times fall with age. Searches from
+/// `guess` in doubling steps, then by bisection.
 std::size_t MotionBound::age_at(double t_s, std::size_t guess) const noexcept {
   std::size_t low = 0;
   std::size_t high = count_ - 1;
@@ -113,7 +112,7 @@ double MotionBound::speed_now(double t_s) const noexcept {
   if (!started_) {
     return std::min(kFastest, config_.max_speed_mm_s);
   }
-  // The fastest that the last tick's intervals and the limits allow by now.
+  // The fastest speed that the last tick's intervals and the limits now allow.
   const double d = std::max(0.0, t_s - t_s_);
   const double a = std::min(now_.acceleration.magnitude() + d * config_.max_jerk_mm_s3,
                             config_.max_acceleration_mm_s2);
@@ -131,7 +130,7 @@ void MotionBound::edge(double t_s, double position_mm, double line_error_mm) noe
   const double error =
       speed_now(t_s) * (0.5 * config_.clock_s + kLeastClock + kRounding * std::abs(t_s)) +
       kRounding * std::abs(position_mm) + line_error_mm;
-  if (sampled_) {  // the cells at the ticks before are worth less than passages
+  if (sampled_) {  // the cells at earlier ticks are worth less than passages
     sampled_ = false;
     next_ = 0;
     count_ = 0;
@@ -146,7 +145,7 @@ void MotionBound::edge(double t_s, double position_mm, double line_error_mm) noe
   passed_ = true;
 }
 
-/// What the last tick's intervals allow now.
+/// Computes what the last tick's intervals now allow.
 /// Without a jerk limit half is infinite and the acceleration limit alone decides.
 void MotionBound::advance(double t_s) noexcept {
   const double d = t_s - t_s_;
@@ -164,8 +163,8 @@ void MotionBound::advance(double t_s) noexcept {
 
 // Lagrange's parabola through the three nodes, differentiated at T: with hᵢ = T − tᵢ, cᵢ = 1/Π(hᵢ
 // − hⱼ) up to sign, ℓ̇ᵢ = cᵢ·(sum of the other two h), ℓ̈ᵢ = 2cᵢ, and for ω = Π(t − tᵢ): ω̇(T) =
-// h₁h₂ + h₁h₃ + h₂h₃, ω̈(T) = 2(h₁ + h₂ + h₃). The first node is the origin, so ℓ₁ enters the
-// errors alone.
+// h₁h₂ + h₁h₃ + h₂h₃, ω̈(T) = 2(h₁ + h₂ + h₃). The first node is the origin, so ℓ₁ enters only the
+// errors.
 void MotionBound::triple(double t_s, const Node& first, const Node& second,
                          const Node& third) noexcept {
   const double h1 = t_s - first.t_s;
@@ -184,7 +183,7 @@ void MotionBound::triple(double t_s, const Node& first, const Node& second,
   const double l1 = c1 * (h2 + h3);
   const double l2 = c2 * (h1 + h3);
   const double l3 = c3 * (h1 + h2);
-  // Positions against the first: what is large cancels before it is multiplied.
+  // Positions relative to the first: large parts cancel before multiplication.
   const double x2 = second.position_mm - first.position_mm;
   const double x3 = third.position_mm - first.position_mm;
   const double jerk = config_.max_jerk_mm_s3;
@@ -197,9 +196,9 @@ void MotionBound::triple(double t_s, const Node& first, const Node& second,
                               jerk * (h1 + h2 + h3) * (1.0 / 3.0));
 }
 
-/// Triples with spans about the best one, side by side; the law is that of `triple`.
-/// All gathering first, arithmetic after: the second loop has no branch and no indirect load, so
-/// the compiler can run the four spans as one vector.
+/// Triples with spans about the best one, side by side; the law is that of `triple`. Gathers first,
+/// then computes: the second loop has no branch and no indirect load, so the compiler can run the
+/// four spans as one vector.
 void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept {
   if (count_ < 2 || !std::isfinite(config_.max_jerk_mm_s3)) {
     return;
@@ -254,7 +253,7 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
     a_radius[k] = 2.0 * (c1 * e1 + c2 * e2[k] + c3 * e3[k] + jerk_6 * (h1 + s23));
   }
   for (std::size_t k = 0; k < kSpans; ++k) {
-    // Nodes that coincide give infinities above, left out only here: the loop has no branch.
+    // Coinciding nodes give infinities above, excluded only here: the loop has no branch.
     if (h2[k] > h1 && h3[k] > h2[k]) {
       fresh_.velocity.cut(v[k], v_radius[k]);
       fresh_.acceleration.cut(a[k], a_radius[k]);
@@ -262,15 +261,15 @@ void MotionBound::triples(double t_s, const Node& first, Hints& hints) noexcept 
   }
 }
 
-/// Two passages and the limit of the acceleration: v(T) differs from the mean speed between them by
-/// no more than A·(T − their middle).
+/// Two passages and the acceleration limit: v(T) differs from the mean speed between them by at
+/// most A·(T − their middle).
 void MotionBound::pairs(double t_s) noexcept {
   const double a_max = config_.max_acceleration_mm_s2;
   if (!std::isfinite(a_max) || count_ < 1) {
     return;
   }
   const Node& first = has_waiting_ ? waiting_ : back(0);
-  // 2·√(ε/A) makes 2ε/h + A·h/2 smallest.
+  // 2·√(ε/A) minimises 2ε/h + A·h/2.
   const double span = span_of_acceleration_ * std::sqrt(std::max(first.error_mm, 1e-12));
   pair_hint_ = age_at(first.t_s - span, pair_hint_);
   const Node& second = back(pair_hint_);
@@ -307,8 +306,8 @@ void MotionBound::rest_begins(double half_cell_mm) noexcept {
   rest_steps_a_ = steps(span_a_s);
 }
 
-/// The axis was in this one cell at T, about T − span/2 and about T − span: ticks, since edges may
-/// be lost without a word and between ticks it may have been elsewhere.
+/// The axis was in this one cell at T, about T − span/2 and about T − span: at ticks, since edges
+/// may be lost silently and the axis may have been elsewhere between ticks.
 void MotionBound::standstill(const Node& cell, std::size_t steps) noexcept {
   const std::size_t third = std::clamp(steps, std::size_t{1}, rest_count_ - 1);
   const std::size_t second = (third - 1) / 2;
@@ -338,7 +337,7 @@ void MotionBound::standstill(const Node& cell) noexcept {
 
 MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noexcept {
   const double half_cell = 0.5 * (high_mm - low_mm);
-  // The stamps of the edges lie half a clock period off the tick's own time.
+  // The edges' stamps are half a clock period off the tick's own time.
   const Node cell{t_s, 0.5 * (low_mm + high_mm),
                   half_cell + (sampled_ ? 0.0 : speed_now(t_s) * 0.5 * config_.clock_s)};
   if (started_ && t_s > t_s_) {
@@ -350,9 +349,9 @@ MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noe
   passed_ = false;
   cell_mm_ = cell.position_mm;
   fresh_ = {};
-  // Counts alone: the cells at the ticks are the nodes. With edges, a cell is worth a node only
-  // when the last edge lies well back; right after an edge it repeats what the edge has said, ten
-  // to a hundred times coarser.
+  // Counts only: the cells at the ticks are the nodes. With edges, a cell is worth a node only when
+  // the last edge is well in the past; right after an edge it repeats the edge's information ten to
+  // a hundred times more coarsely.
   if (sampled_) {
     triples(t_s, cell, cell_hints_);
     keep(cell);
@@ -365,7 +364,7 @@ MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noe
   }
   pairs(t_s);
   standstill({t_s, cell.position_mm, half_cell});
-  // The stamps may all be late by half a clock period alike.
+  // All stamps may be late by the same half clock period.
   const double late = 0.5 * config_.clock_s;
   if (late > 0.0 && !sampled_) {
     const double a = std::min(fresh_.acceleration.magnitude() + config_.max_jerk_mm_s3 * late,
@@ -377,7 +376,7 @@ MotionIntervals MotionBound::tick(double t_s, double low_mm, double high_mm) noe
   }
   const MotionIntervals met{both(now_.velocity, fresh_.velocity),
                             both(now_.acceleration, fresh_.acceleration)};
-  // No motion within the limits explains this: only what this tick shows is kept, so that a wrong
+  // No motion within the limits explains this: only this tick's evidence is kept, so that a wrong
   // past does not last.
   if (met.velocity.empty() || met.acceleration.empty()) {
     ++contradictions_;

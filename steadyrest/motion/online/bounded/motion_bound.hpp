@@ -10,19 +10,19 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/motion/online/estimator/estimator.hpp>
 
-/// Intervals in which velocity and acceleration must lie (set membership).
+/// Intervals that must contain velocity and acceleration (set membership).
 ///
-/// Known are the passages of lines, x(tᵢ) = xᵢ ± εᵢ with ε = |v|·clock/2 + line error, the cell at
+/// Inputs are the passages of lines, x(tᵢ) = xᵢ ± εᵢ with ε = |v|·clock/2 + line error, the cell at
 /// each tick (its middle ± half a count), and the limits |v| ≤ V, |a| ≤ A, |jerk| ≤ J. For three
-/// instants t₁ > t₂ > t₃, none after T, the parabola p through the three positions errs at T by no
-/// more than
+/// instants t₁ > t₂ > t₃, none after T, the parabola p through the three positions errs at T by at
+/// most
 ///   |ẋ(T) − ṗ(T)| ≤ Σ|ℓ̇ᵢ(T)|·εᵢ + J·ω̇(T)/6,   |ẍ(T) − p̈(T)| ≤ Σ|ℓ̈ᵢ(T)|·εᵢ + J·ω̈(T)/6,
-/// ℓᵢ Lagrange's polynomials, ω = Π(t − tᵢ) (the remainder of interpolation outside of the nodes).
+/// ℓᵢ Lagrange's polynomials, ω = Π(t − tᵢ) (the remainder of interpolation outside the nodes).
 /// With t₃ a span q back and t₂ half-way this is 3.30·ε^⅔·J^⅓ and 3.00·ε^⅓·J^⅔ at the best spans (q
 /// = 3.63·∛(ε/J), 4.00·∛(ε/J)): 6 % and 4 % above what any estimator can guarantee
-/// (Landau–Kolmogorov on the half line, 3.12 and 2.88). The intervals of several such triples, of
-/// what the last tick's intervals allow under J and A, and of the limits themselves are
-/// intersected; what is left holds as long as the limits do. Unit of length: mm.
+/// (Landau–Kolmogorov on the half line, 3.12 and 2.88). The result intersects the intervals of
+/// several such triples, of the last tick's intervals propagated under J and A, and of the limits
+/// themselves; it holds as long as the limits do. Unit of length: mm.
 namespace steadyrest::motion::online {
 
 struct Interval {
@@ -57,13 +57,13 @@ class MotionBound {
 
   /// A line was passed; `line_error_mm` bounds the error of its position.
   void edge(double t_s, double position_mm, double line_error_mm) noexcept;
-  /// The axis stands in [low, high] at the tick.
+  /// The axis is in [low, high] at the tick.
   MotionIntervals tick(double t_s, double low_mm, double high_mm) noexcept;
-  /// Forgets what was seen: the record has a hole.
+  /// Forgets all observations: the record has a gap.
   void forget() noexcept;
 
-  /// Ticks at which no motion within the limits explains what was seen: the limits or the line
-  /// error are wrong.
+  /// Ticks at which no motion within the limits explains the record: the limits or the line error
+  /// are wrong.
   [[nodiscard]] std::uint64_t contradictions() const noexcept { return contradictions_; }
 
  private:
@@ -78,7 +78,7 @@ class MotionBound {
   static constexpr std::size_t kRestTicks = 32;
 
   explicit MotionBound(const Config& config) noexcept;
-  /// Where a search ended at the last tick; ages change little from tick to tick.
+  /// Where a search ended at the last tick; ages change little between ticks.
   struct Hints {
     std::array<std::size_t, kSpans> third{};
     std::array<std::size_t, kSpans> second{};
@@ -103,14 +103,14 @@ class MotionBound {
   std::array<Node, kNodes> nodes_{};
   std::size_t next_ = 0;
   std::size_t count_ = 0;
-  Node waiting_{};  ///< the latest passage; kept as a node when far enough from the last one
+  Node waiting_{};  ///< the latest passage; becomes a node when far enough from the last
   bool has_waiting_ = false;
   std::array<double, kRestTicks> rest_s_{};  ///< ticks that showed this cell, every rest_step_-th
   std::size_t rest_next_ = 0;
   std::size_t rest_count_ = 0;
   std::size_t rest_step_ = 1;
-  std::size_t rest_wait_ = 0;       ///< ticks until the next one is kept
-  double rest_half_cell_mm_ = 0.0;  ///< what the spans below are for
+  std::size_t rest_wait_ = 0;       ///< ticks until the next is kept
+  double rest_half_cell_mm_ = 0.0;  ///< for which the spans below apply
   std::size_t rest_steps_v_ = 0;    ///< spans in kept ticks
   std::size_t rest_steps_a_ = 0;
   Hints passage_hints_;
@@ -119,10 +119,10 @@ class MotionBound {
   double cell_mm_ = 0.0;  ///< middle of the cell at the last tick
   bool passed_ = false;   ///< an edge came since the last tick
   bool started_ = false;
-  bool sampled_ = true;  ///< no edge has come yet: the ticks' cells are all there is
+  bool sampled_ = true;  ///< no edge so far: only the ticks' cells are known
   double t_s_ = 0.0;
   MotionIntervals now_;
-  MotionIntervals fresh_;  ///< of this tick alone
+  MotionIntervals fresh_;  ///< of this tick only
   std::uint64_t contradictions_ = 0;
 };
 

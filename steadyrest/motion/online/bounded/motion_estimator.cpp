@@ -5,25 +5,24 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-// The frame of the estimator: checks, start and restart, what to do with an edge and with a tick,
-// and the clamp to what is proved. What an edge does to the hypotheses is in
-// motion_estimator_observe.cpp, what a tick does in motion_estimator_mix.cpp.
+// The frame of the estimator: checks, start and restart, handling of edges and ticks, and the clamp
+// to the proved bounds. The effect of an edge on the hypotheses is in motion_estimator_observe.cpp,
+// that of a tick in motion_estimator_mix.cpp.
 namespace steadyrest::motion::online {
 namespace {
 
 using kernel::outcome::refuse;
 
-// What follows was chosen once, on the scenes of bench/motion and the recorded logs together,
-// counts of any length alike; nothing of it depends on the motion.
+// These constants were chosen once, on the scenes of bench/motion and the recorded logs together,
+// with counts of any length; none depends on the motion.
 constexpr Lanes kJerkDensity{7.05e6, 1.38e8, 6.4e10, 2.63e14};  ///< count²/s⁵
 constexpr Lanes kDecay{0.0, 6.06, 0.0, 1908.0};                 ///< 1/s
 constexpr double kDensityOfJerk =
-    0.0087;  ///< S/J² in s of the roughest model that a limit J leaves
-constexpr double kDensityOfShock =
-    0.1;  ///< … of the last one, which is there in case the limit is broken
-constexpr double kLineSigma = 8.6e-3;  ///< counts, at the start
+    0.0087;                              ///< S/J² in s of the roughest model that a limit J leaves
+constexpr double kDensityOfShock = 0.1;  ///< … of the last one, kept in case the limit is violated
+constexpr double kLineSigma = 8.6e-3;    ///< counts, at the start
 constexpr double kRestAtStart = 0.8;
-constexpr double kGapCycles = 50.0;  ///< a longer hole in the record restarts the filter
+constexpr double kGapCycles = 50.0;  ///< a longer gap in the record restarts the filter
 
 bool in_range(double value, double low, double high) {
   return value >= low && value <= high;
@@ -62,8 +61,8 @@ MotionEstimator::MotionEstimator(const Config& config, const MotionBound& bound)
   const double jerk = config.max_jerk_mm_s3 / config.count_mm;
   for (std::size_t j = 0; j < kModels; ++j) {
     const double most = (j + 1 == kModels ? kDensityOfShock : kDensityOfJerk) * jerk * jerk;
-    // A model rougher than the limit of the jerk would follow what cannot be; the last one stays
-    // wider in case the limit is broken.
+    // A model rougher than the jerk limit would follow impossible motion; the last one stays wider
+    // in case the limit is violated.
     const bool limited = kJerkDensity[j] > most;
     jerk_density_[j] = limited ? most : kJerkDensity[j];
     decay_1_s_[j] = limited ? std::min(kDecay[j], tuning_.decay_1_s) : kDecay[j];
@@ -105,7 +104,7 @@ double MotionEstimator::line_sigma_mm() const noexcept {
 }
 
 void MotionEstimator::start(double t_s, double x, double variance) noexcept {
-  // Nothing is known: a hundred counts in a cycle, and one more in the next.
+  // Nothing is known: a hundred counts per cycle, and one more in the next.
   const double v = 100.0 / config_.cycle_s;
   const double a = 1.0 / (config_.cycle_s * config_.cycle_s);
   for (std::size_t j = 0; j < kModels; ++j) {
@@ -122,7 +121,7 @@ void MotionEstimator::start(double t_s, double x, double variance) noexcept {
 }
 
 void MotionEstimator::edge(const Edge& edge) noexcept {
-  // An edge earlier than what came before would run the filters backwards.
+  // An edge earlier than the last input would run the filters backwards.
   if (!std::isfinite(edge.t_s) || !std::isfinite(edge.position_mm) ||
       (started_ && edge.t_s < last_s_)) {
     ++rejected_;
@@ -140,8 +139,7 @@ void MotionEstimator::edge(const Edge& edge) noexcept {
               config_.line_error_mm >= 0.0 ? config_.line_error_mm : 4.0 * line_sigma_mm());
   const double x = (edge.position_mm - origin_mm_) / config_.count_mm;
   Observation seen;
-  // At a turn the group is closed first: an average over both directions is no place the axis was
-  // at.
+  // At a turn the group is closed first: the axis was never at an average over both directions.
   if (group_.turns(edge.direction) && group_.take(seen)) {
     observe(seen);
   }
@@ -152,7 +150,7 @@ void MotionEstimator::edge(const Edge& edge) noexcept {
   }
 }
 
-/// A hole in the record: nothing of before it is of use.
+/// A gap in the record: nothing before it is usable.
 void MotionEstimator::restart_after_gap(double t_s) noexcept {
   if (started_ && t_s - last_s_ > kGapCycles * config_.cycle_s) {
     Observation dropped;
@@ -165,8 +163,8 @@ void MotionEstimator::restart_after_gap(double t_s) noexcept {
   }
 }
 
-/// No time stamps: a single step of the count says that its line was passed since the last tick, a
-/// larger one where the axis is now.
+/// No time stamps: a single step of the count tells that its line was passed since the last tick, a
+/// larger one only where the axis is now.
 void MotionEstimator::sampled(const Tick& tick) noexcept {
   const std::int64_t steps = tick.count - last_count_;
   if (steps == 0) {
@@ -176,8 +174,8 @@ void MotionEstimator::sampled(const Tick& tick) noexcept {
   const double high = (tick.high_mm - origin_mm_) / config_.count_mm;
   const double line = steps > 0 ? low : high;
   // One step: the line was passed somewhere within the cycle, so its middle is the time and the
-  // clock period is the whole cycle. More steps: which line was passed when is lost, the axis is
-  // even within the cell now (variance 1/12).
+  // clock period is the whole cycle. More steps: the times of the lines are lost; the axis is
+  // evenly distributed over its present cell (variance 1/12).
   const bool single = steps == 1 || steps == -1;
   const double clock = clock_;
   const double variance = line_variance_;
@@ -207,7 +205,7 @@ Estimate MotionEstimator::tick(const Tick& tick) noexcept {
   if (group_.take(seen)) {
     observe(seen);
   }
-  // The group is emptied at each tick: the estimate given out has seen every edge before it.
+  // The group is emptied at each tick: the estimate includes every edge before it.
   group_.end_of_cycle();
   if (sampled_) {
     sampled(tick);
@@ -218,16 +216,16 @@ Estimate MotionEstimator::tick(const Tick& tick) noexcept {
     smoother_.looked(
         {tick.t_s, bank_, weight_, weight_rest_, rest_.x, sure, tick.low_mm, tick.high_mm});
   }
-  // After the look: what is given out now is the estimate before the exchange, the exchange
-  // prepares the next cycle.
+  // After the look: the output is the estimate before the exchange; the exchange prepares the next
+  // cycle.
   mix();
   last_s_ = tick.t_s;
   last_count_ = tick.count;
   return smoother_.active() ? late(tick.t_s, sure) : finish(tick, tick.t_s, mixed, sure);
 }
 
-/// The estimate of some ticks ago. It keeps to what was proved then and to what the proof of now
-/// allows for then.
+/// The estimate for some ticks ago. It stays within the bounds proved then and within those that
+/// the present proof implies for then.
 Estimate MotionEstimator::late(double now_s, const MotionIntervals& now) noexcept {
   const LagSmoother::Look& then = smoother_.then();
   const LagSmoother::State state = smoother_.smooth(jerk_density_, config_.cycle_s);
@@ -235,8 +233,8 @@ Estimate MotionEstimator::late(double now_s, const MotionIntervals& now) noexcep
   const double d = now_s - then.t_s;
   const double jerk = config_.max_jerk_mm_s3;
   // Backwards from now, by the same law as MotionBound's advance: a(then) is within J·d of a(now),
-  // v(then) = v(now) − a·d ± J·d²/2. If rounding or a broken limit leaves nothing in common, the
-  // older proof alone holds.
+  // v(then) = v(now) − a·d ± J·d²/2. If rounding or a violated limit leaves no overlap, only the
+  // older proof holds.
   if (d > 0.0 && std::isfinite(jerk)) {
     sure.acceleration.low = std::max(sure.acceleration.low, now.acceleration.low - jerk * d);
     sure.acceleration.high = std::min(sure.acceleration.high, now.acceleration.high + jerk * d);
@@ -252,7 +250,7 @@ Estimate MotionEstimator::late(double now_s, const MotionIntervals& now) noexcep
   return finish({then.t_s, 0, then.low_mm, then.high_mm}, now_s, {state.x, state.v, state.a}, sure);
 }
 
-/// The estimate is kept within what is proved, and its bound is the farther end.
+/// Keeps the estimate within the proved interval; its bound is the distance to the farther end.
 Estimate MotionEstimator::finish(const Tick& tick, double now_s, const Mixed& mixed,
                                  const MotionIntervals& sure) const noexcept {
   Estimate out;
@@ -266,7 +264,7 @@ Estimate MotionEstimator::finish(const Tick& tick, double now_s, const Mixed& mi
   out.velocity_mm_s = std::clamp(v * config_.count_mm, sure.velocity.low, sure.velocity.high);
   out.acceleration_mm_s2 =
       std::clamp(a * config_.count_mm, sure.acceleration.low, sure.acceleration.high);
-  // Without either limit no motion is ruled out and there is nothing to state a bound from.
+  // Without either limit no motion is ruled out, and no bound can be given.
   if (std::isfinite(config_.max_jerk_mm_s3) || std::isfinite(config_.max_acceleration_mm_s2)) {
     out.velocity_bound_mm_s =
         std::max(sure.velocity.high - out.velocity_mm_s, out.velocity_mm_s - sure.velocity.low);

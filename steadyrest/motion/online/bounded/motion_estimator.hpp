@@ -15,14 +15,13 @@
 ///
 /// Five hypotheses run side by side (interacting multiple models, Blom and Bar-Shalom 1988): four
 /// Kalman filters of white jerk, from almost steady motion to a shock, and standstill. Each edge is
-/// a measurement of position with variance σ_line² + (v·clock)²/12; that no line was passed is the
-/// interval information of the cell. Likelihoods decide which hypothesis is heard, so the filter
-/// needs no tuning to the motion: calm motion is averaged over long, a jerk is followed at once.
-/// σ_line is learnt from the innovations. A known limit of the jerk takes away the models beyond
-/// it; stops and starts at constant jerk are foreseen by JerkRamp; the estimate is kept within what
-/// MotionBound proves.
+/// a measurement of position with variance σ_line² + (v·clock)²/12; the absence of an edge is the
+/// cell's interval information. Likelihoods weight the hypotheses, so the filter needs no tuning to
+/// the motion: calm motion is averaged over a long time, a jerk is followed at once. σ_line is
+/// learnt from the innovations. A known jerk limit removes the models beyond it; JerkRamp predicts
+/// stops and starts at constant jerk; the estimate is kept within MotionBound's proof.
 ///
-/// Lengths inside are counts from the first cell. Limits, accuracy and figures:
+/// Internal lengths are counts from the first cell. Limits, accuracy and figures:
 /// steadyrest/motion/README.md.
 namespace steadyrest::motion::online {
 
@@ -37,19 +36,19 @@ class MotionEstimator final : public Estimator {
                ///< the learnt σ is taken and the bounds are no longer guaranteed
     double max_speed_mm_s = kNoBound;
     double max_acceleration_mm_s2 = kNoBound;
-    double max_jerk_mm_s3 = kNoBound;  ///< without it velocity and acceleration have no bound
-    double lag_s = 0.0;  ///< the estimate may be this late, 0 … 32 cycles; whole cycles are taken
+    double max_jerk_mm_s3 = kNoBound;  ///< without it velocity and acceleration have no bounds
+    double lag_s = 0.0;  ///< the estimate may be this late, 0 … 32 cycles; rounded to whole cycles
   };
   static kernel::outcome::Result<MotionEstimator> make(const Config& config);
 
   void edge(const Edge& edge) noexcept override;
   Estimate tick(const Tick& tick) noexcept override;
 
-  /// σ of the lines' positions as learnt, mm.
+  /// Learnt σ of the lines' positions, mm.
   [[nodiscard]] double line_sigma_mm() const noexcept;
-  /// Probability that the axis stands still.
+  /// Probability that the axis is at rest.
   [[nodiscard]] double standstill() const noexcept { return weight_rest_; }
-  /// Inputs not used: not finite, or earlier than what came before.
+  /// Inputs rejected: not finite, or earlier than the last one.
   [[nodiscard]] std::uint64_t rejected() const noexcept { return rejected_; }
   [[nodiscard]] std::uint64_t contradictions() const noexcept { return bound_.contradictions(); }
 
@@ -60,14 +59,14 @@ class MotionEstimator final : public Estimator {
   /// How standstill begins and ends; see tuning() for the values.
   struct Tuning {
     double start_speed =
-        0.0;  ///< at the first line, of what J gives on the way from where it stood
+        0.0;  ///< at the first line, of the speed that J gives on the way from rest
     double start_speed_spread = 0.0;  ///< σ of it
     double start_acceleration = 0.0;
     double start_acceleration_spread = 0.0;
-    double start_at_edge = 0.0;  ///< likelihood that an edge is a start from standstill, 1/count
+    double start_at_edge = 0.0;  ///< likelihood that an edge is a start from rest, 1/count
     double edge_at_rest = 0.0;   ///< likelihood of an edge in standstill, 1/count
     double jerk_of_start = 0.0;  ///< s: a model of density S starts with J = √(S/this)
-    double decay_1_s = 0.0;      ///< most of a model that was cut down to the limit of the jerk
+    double decay_1_s = 0.0;      ///< largest decay of a model reduced to the jerk limit
     double switch_1_s = 0.0;     ///< rate at which a model hands over to its neighbours
     double stop_1_s = 0.0;       ///< … to standstill, where the model's speed may be 0
     double start_1_s = 0.0;      ///< from standstill to the models, without an edge
@@ -76,9 +75,9 @@ class MotionEstimator final : public Estimator {
     double x = 0.0;
     double variance = 0.0;
   };
-  /// Shares of a hypothesis' probability that change over in a tick.
+  /// Shares of a hypothesis' probability that are exchanged in a tick.
   struct Exchange {
-    double hand_over = 0.0;  ///< from a model to the next ones
+    double hand_over = 0.0;  ///< from a model to its neighbours
     double starts = 0.0;     ///< from standstill to all models
     Lanes stops{};           ///< from the model to standstill
     Lanes stays{};
@@ -120,10 +119,10 @@ class MotionEstimator final : public Estimator {
   ModelBank bank_;
   JerkRamp ramp_;
   Lanes weight_{};
-  std::size_t turn_ = 0;  ///< model that takes over from the others at the next tick
+  std::size_t turn_ = 0;  ///< model that receives from the others at the next tick
   double weight_rest_ = 1.0;
   Rest rest_;
-  Lanes least_share_{};  ///< of the models' probability inside of the cell since the last edge
+  Lanes least_share_{};  ///< of the models' probability inside the cell since the last edge
   double line_variance_ = 0.0;
   double origin_mm_ = 0.0;
   double edge_s_ = 0.0;

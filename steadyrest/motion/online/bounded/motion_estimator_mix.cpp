@@ -9,9 +9,9 @@
 namespace steadyrest::motion::online {
 namespace {
 
-/// Share of its hand-over that a model gives to another: halved with each model between.
-/// Model i differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its
-/// nature mostly goes to the next one.
+/// Share of its hand-over that a model gives to another: halved with each model in between. Model i
+/// differs from i ± 1 by a factor of some 20 … 4000 in density: a motion that changes its nature
+/// mostly moves to the next one.
 constexpr std::array<Lanes, kModels> kNear{{{0.0, 0.5, 0.25, 0.125},
                                             {0.5, 0.0, 0.5, 0.25},
                                             {0.25, 0.5, 0.0, 0.5},
@@ -24,9 +24,9 @@ constexpr double kRestAccelerationVariance = 100.0;  ///< (count/s²)²
 
 }  // namespace
 
-/// The cell at the tick sharpens what is given out. It is fed back into the filters only at
-/// instants that are twice as far from the last edge each time: the same cell seen at every tick is
-/// not new each time, and taking it so pushes the position away from both of its borders.
+/// The cell at the tick sharpens the output. It is fed back into the filters only at instants whose
+/// distance from the last edge doubles each time: the same cell at every tick is not new
+/// information, and treating it as new pushes the position away from both borders.
 MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
   bank_.predict(tick.t_s, jerk_density_, decay_1_s_);
   const double sigma = std::sqrt(line_variance_);
@@ -43,8 +43,8 @@ MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
   Lanes y{};
   if (cell.any) {
     for (std::size_t j = 0; j < kModels; ++j) {
-      // The same cell seen again may cost a model only what it lost on top of its lowest share
-      // since the last edge; otherwise each tick at standstill would count as new evidence.
+      // The same cell seen again may only cost a model what its share has dropped below its lowest
+      // since the last edge; otherwise each tick at rest would count as new evidence.
       weight_[j] *= std::min(1.0, cell.share[j] / least_share_[j]);
       least_share_[j] = std::min(least_share_[j], cell.share[j]);
       y[j] = (cell.z[j] - bank_.x[j]) / (cell.variance[j] + cell.r[j]);
@@ -54,7 +54,7 @@ MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
   Lanes x{};
   Lanes v{};
   Lanes a{};
-  for (std::size_t j = 0; j < kModels; ++j) {  // the means as update() would make them
+  for (std::size_t j = 0; j < kModels; ++j) {  // the means as in update()
     const double xa = bank_.u13[j] * bank_.d3[j];
     const double xv = bank_.u12[j] * bank_.d2[j] + xa * bank_.u23[j];
     x[j] = weight_[j] * (bank_.x[j] + cell.variance[j] * y[j]);
@@ -70,9 +70,9 @@ MotionEstimator::Mixed MotionEstimator::look(const Tick& tick) noexcept {
   return {weight_rest_ * rest_.x + sum(x), sum(v), sum(a)};
 }
 
-/// Model j becomes the mixture of all with the given parts, whose sum is 1.
-/// Moment matching of IMM (Blom and Bar-Shalom 1988): the mixture's mean, and its covariance from
-/// the parts' own plus the spread of their means. P is expanded from UD, mixed, and factored again.
+/// Model j becomes the mixture of all with the given parts, whose sum is 1. IMM moment matching
+/// (Blom and Bar-Shalom 1988): the mixture's mean, and its covariance from the parts' own plus the
+/// spread of their means. P is expanded from UD, mixed, and factored again.
 void MotionEstimator::take_over(std::size_t j, const Lanes& part, double part_rest) noexcept {
   const Lanes p = part;  // a copy cannot overlap with the bank
   Lanes x{};
@@ -111,15 +111,15 @@ void MotionEstimator::take_over(std::size_t j, const Lanes& part, double part_re
   bank_.set(j, mixed);
 }
 
-/// What each model gives to standstill in this tick, and what it keeps.
+/// What each model passes to standstill in this tick, and what it keeps.
 MotionEstimator::Exchange MotionEstimator::exchange() const noexcept {
   const double cycle = config_.cycle_s;
   Exchange out;
   out.hand_over = tuning_.switch_1_s * cycle;
   out.starts = tuning_.start_1_s * cycle;
   for (std::size_t i = 0; i < kModels; ++i) {
-    // A model stops where speed 0 is within its spread: rate × exp(−v²/2σ²). The exponent ends at
-    // 4, and beyond v² = 8σ² one per cent is left, so that no motion is wholly barred from
+    // A model stops where speed 0 is within its spread: rate × exp(−v²/2σ²). The exponent is capped
+    // at 4: beyond v² = 8σ² one per cent remains, so that no motion is entirely barred from
     // stopping.
     const double variance = bank_.d2[i] + bank_.u23[i] * bank_.u23[i] * bank_.d3[i];
     const double v2 = 0.5 * bank_.v[i] * bank_.v[i];
@@ -130,10 +130,10 @@ MotionEstimator::Exchange MotionEstimator::exchange() const noexcept {
   return out;
 }
 
-/// In a fast cycle one model in a tick takes over from the others what four ticks hand over: the
-/// cost of a tick stays even.
-/// The models are mixed in place, one after another. A later one sees the earlier ones already
-/// mixed; as a tick hands over less than a few per cent, that differs in the second order only.
+/// In a fast cycle one model per tick takes over four ticks' worth from the others: the cost of a
+/// tick stays even. The models are mixed in place, one after another. A later one sees the earlier
+/// ones already mixed; since a tick hands over less than a few per cent, that differs only in
+/// second order.
 void MotionEstimator::hand_over(const Exchange& gives) noexcept {
   const bool fast = config_.cycle_s < kSlowCycle;
   const std::size_t models = fast ? 1 : kModels;
@@ -158,7 +158,7 @@ void MotionEstimator::hand_over(const Exchange& gives) noexcept {
   }
 }
 
-/// Standstill becomes the mixture of itself and of the models that have stopped; its new weight.
+/// Standstill becomes the mixture of itself and the stopped models; returns its new weight.
 double MotionEstimator::come_to_rest(const Exchange& gives) noexcept {
   const double rest_stays = weight_rest_ * (1.0 - gives.starts);
   Lanes stopped{};
@@ -190,8 +190,8 @@ void MotionEstimator::mix() noexcept {
   for (std::size_t i = 0; i < kModels; ++i) {
     double from_others = 0.0;
     for (std::size_t k = 0; k < kModels; ++k) {
-      // The weights first, from the state before the exchange: hand_over and come_to_rest read
-      // them, too.
+      // The weights first, from the state before the exchange: hand_over and come_to_rest read them
+      // too.
       from_others += kNear[k][i] * weight_[k];
     }
     next[i] = weight_rest_ * (gives.starts / kModels) + gives.hand_over * from_others +
@@ -199,7 +199,7 @@ void MotionEstimator::mix() noexcept {
   }
   hand_over(gives);
   const double next_rest = come_to_rest(gives);
-  // What all give is what all get: the sum of the weights stays 1.
+  // Everything given is received: the sum of the weights stays 1.
   for (std::size_t i = 0; i < kModels; ++i) {
     weight_[i] = std::max(next[i], kLeastWeight);
   }

@@ -4,24 +4,24 @@
 
 #include <steadyrest/motion/online/bounded/motion_estimator.hpp>
 
-/// What happens at an edge: every hypothesis is held against it.
+/// What happens at an edge: every hypothesis is compared with it.
 namespace steadyrest::motion::online {
 namespace {
 
 // Chosen with the constants of motion_estimator.cpp.
-constexpr double kGate = 5.08;     ///< normalised innovation² beyond which a model is made wider
+constexpr double kGate = 5.08;     ///< normalised innovation² beyond which a model is widened
 constexpr double kCap = 3.96;      ///< … and beyond which it loses no more weight
 constexpr double kLearn = 0.0043;  ///< share of an innovation in σ_line²
 constexpr double kInverseTwoPi = 0.15915494309189535;
 
-/// The edge as each model takes it, and how far it lies from what the model foretold.
+/// The edge as each model sees it, and its distance from the model's prediction.
 struct Comparison {
   Lanes z{};  ///< measured position
   Lanes r{};  ///< its variance
   Lanes nu2{};
   Lanes normalised{};
   Lanes likelihood{};
-  Lanes unexplained{};  ///< of ν², times n: what is the lines' own
+  Lanes unexplained{};  ///< of ν², times n: the lines' own part
 };
 
 /// `variance` of the models' positions, `least` of z.
@@ -32,10 +32,10 @@ Comparison compare(const ModelBank& bank, const Lanes& variance, const Observati
   Comparison out;
   for (std::size_t j = 0; j < kModels; ++j) {
     const double blur = bank.v[j] * clock;
-    // The stamp is even within a clock period.
+    // The stamp is evenly distributed over a clock period.
     const double clock_part = blur * blur * (1.0 / 12.0);
-    // The mean of x over the group's edges lies off x at their mean time by a/2 times the variance
-    // of the times.
+    // The mean of x over the group's edges differs from x at their mean time by a/2 times the
+    // variance of the times.
     out.z[j] = seen.x - 0.5 * bank.a[j] * seen.time_variance;
     out.r[j] = (line_variance + clock_part) * share + least;
     const double nu = out.z[j] - bank.x[j];
@@ -46,13 +46,13 @@ Comparison compare(const ModelBank& bank, const Lanes& variance, const Observati
     // Capped: one surprise must not rule a model out for good.
     out.likelihood[j] =
         exp_of_minus(0.5 * std::min(out.normalised[j], kCap)) * std::sqrt(inverse * kInverseTwoPi);
-    // Less the model's variance and the clock's, times n since a group averages n lines.
+    // Minus the model's variance and the clock's, times n since a group averages n lines.
     out.unexplained[j] = (std::min(out.nu2[j], 9.0 * total) - variance[j]) * n - clock_part;
   }
   return out;
 }
 
-/// A surprised model is made wide enough that the edge is at its gate, instead of being believed.
+/// A surprised model is widened until the edge is at its gate, instead of being trusted.
 void widen_surprised(const Comparison& seen, const Lanes& variance, ModelBank& bank) noexcept {
   const Lanes& surprise = seen.normalised;
   if (!(std::max(std::max(surprise[0], surprise[1]), std::max(surprise[2], surprise[3])) > kGate)) {
@@ -77,8 +77,8 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
   } else {
     ramp_.forget();
   }
-  // The order matters: surprise is judged before the update, the smoother keeps what the update
-  // takes, weights change only after all models have been compared with the same edge.
+  // The order matters: surprise is measured before the update, the smoother stores what the update
+  // uses, and weights change only after all models have been compared with the same edge.
   bank_.predict(seen.t_s, jerk_density_, decay_1_s_);
   const Lanes variance = bank_.position_variance();
   const Comparison at = compare(bank_, variance, seen, line_variance, clock_, kLeastVariance);
@@ -91,15 +91,15 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
     weight_[j] *= at.likelihood[j];
   }
   const double rest = weight_rest_;
-  // An axis at rest hardly ever gives an edge.
+  // An axis at rest hardly ever produces an edge.
   weight_rest_ *= tuning_.edge_at_rest;
-  // Below 0.1 % the mixing would change nothing and costs four factorisations.
+  // Below 0.1 % the mixing would change nothing but cost four factorisations.
   if (rest > 1e-3) {
     start_moving(rest * tuning_.start_at_edge, seen.x, seen.direction);
   }
   normalise();
-  // σ_line² follows what the models leave unexplained, weighted by their probability; an axis that
-  // may be at rest teaches nothing.
+  // σ_line² follows the models' unexplained part, weighted by their probability; nothing is learnt
+  // from an axis that may be at rest.
   line_variance_ = std::clamp(
       line_variance_ + kLearn * (1.0 - weight_rest_) * (sum(unexplained) - line_variance_),
       kLeastVariance, kMostVariance);
@@ -116,7 +116,7 @@ void MotionEstimator::observe(const Observation& seen) noexcept {
 void MotionEstimator::start_moving(double share, double x, std::int8_t direction) noexcept {
   const double sign = direction >= 0 ? 1.0 : -1.0;
   const double each = share / kModels;
-  // From rest at constant jerk: v goes with w^⅔, a with w^⅓, w the way from where it stood.
+  // From rest at constant jerk: v goes with w^⅔, a with w^⅓, w the way from the point of rest.
   const double way_third = std::cbrt(std::clamp(std::abs(x - rest_.x), 0.1, 1.0));
   for (std::size_t j = 0; j < kModels; ++j) {
     const double vw = start_speed_[j] * way_third * way_third;
@@ -142,7 +142,7 @@ void MotionEstimator::start_moving(double share, double x, std::int8_t direction
     std::size_t k = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t m = i; m < 3; ++m, ++k) {
-        // Moments of a mixture: the means' distance adds to the covariance.
+        // Moments of a mixture: the distance of the means adds to the covariance.
         both.covariance[k] = stays * (old.covariance[k] + from_old[i] * from_old[m]) +
                              starts * (own[k] + from_own[i] * from_own[m]);
       }
@@ -154,7 +154,7 @@ void MotionEstimator::start_moving(double share, double x, std::int8_t direction
 
 void MotionEstimator::normalise() noexcept {
   const double all_of_it = weight_rest_ + sum(weight_);
-  // Every hypothesis was ruled out: begin with all of them alike rather than divide by 0.
+  // Every hypothesis was ruled out: start with all of them equal rather than divide by 0.
   if (!(all_of_it > 0.0) || !std::isfinite(all_of_it)) {
     weight_ = all(0.2);
     weight_rest_ = 0.2;

@@ -9,12 +9,12 @@
 
 namespace steadyrest::motion::online {
 
-/// MotionEstimator in the coordinate y = x − e(x), in which the ripple that repeats with place is
-/// not there, and the ripple put back: v = v_y/(1 − e′).
+/// MotionEstimator in the coordinate y = x − e(x), which removes the ripple that repeats with
+/// position; the ripple is then restored: v = v_y/(1 − e′).
 ///
-/// The acceleration is that without the ripple: e″·v² is large, short, and wrong by its whole size
-/// where the place is. No bounds on v and a: what was learnt is no guarantee.
-/// Takes the configuration of MotionEstimator. Without ripple the estimates are the same.
+/// The acceleration excludes the ripple: e″·v² is large, short, and entirely wrong where the
+/// position is slightly wrong. No bounds on v and a: learnt data is no guarantee. Takes the
+/// configuration of MotionEstimator. Without ripple the estimates are the same.
 class RippleEstimator final : public Estimator {
  public:
   using Config = MotionEstimator::Config;

@@ -10,8 +10,8 @@
 namespace steadyrest::motion::online {
 namespace {
 
-constexpr double kMissRatio = 1.5;  // midway between a period and two
-// Stamps in a row that lie back; one or two are wrong stamps. Test GoesOnAfterTheClockWasSetBack.
+constexpr double kMissRatio = 1.5;  // midway between one period and two
+// Stamps in a row that go back; one or two are bad stamps. Test GoesOnAfterTheClockWasSetBack.
 constexpr int kClockWasSet = 3;
 constexpr double kBinUnitS = 1e-9;
 
@@ -49,7 +49,7 @@ void CycleMonitor::update(double t_s) noexcept {
   const bool first = !started_;
   if (!first && t_s <= last_s_) {
     ++report_.backwards;
-    // One or two stamps that lie back are bad stamps; three are a clock that was set.
+    // One or two stamps that go back are bad stamps; three mean that the clock was set.
     if (++in_a_row_ < kClockWasSet) {
       return;
     }
@@ -70,7 +70,7 @@ void CycleMonitor::update(double t_s) noexcept {
   }
 }
 
-/// The first periods are kept until their median is known and are counted then.
+/// The first periods are kept until their median is known, then counted.
 void CycleMonitor::learn(double period_s) noexcept {
   first_.at(learnt_) = period_s;
   if (++learnt_ < kLearn) {
@@ -162,7 +162,7 @@ CycleMonitor::Report CycleMonitor::report() const noexcept {
   const auto n = static_cast<double>(out.periods);
   out.mean_period_s = out.nominal_period_s + mean_;
   out.period_rms_s = std::sqrt(squares_ / n);
-  // A period is the difference of two ticks, each with σ_t: σ_p = √2·σ_t if they wander apart.
+  // A period is the difference of two ticks, each with σ_t: σ_p = √2·σ_t if they are independent.
   out.tick_rms_s = out.period_rms_s / std::numbers::sqrt2;
   if (pairs_ > 0 && squares_ > 0.0) {
     const auto pairs = static_cast<double>(pairs_);

@@ -14,24 +14,24 @@ namespace steadyrest::motion::online {
 /// With tick k at t_k = k·T + j_k (j: jitter) the periods are p_k = T + j_k − j_{k−1}. The report
 /// has their mean and standard deviation (Welford), extremes, and the 99.9 % quantile of
 /// |p − T| from a histogram of fixed bins (32 per octave from 1 ns, so at most 3.2 % too high,
-/// never too low, 8 s at most). The correlation of neighbouring periods says what sort of jitter
-/// it is: −½ ticks that wander about a true grid each for itself (σ_t = σ_p/√2), 0 periods that
-/// add up.
+/// never too low, 8 s at most). The correlation of neighbouring periods tells the kind of jitter:
+/// −½ for ticks that vary independently about a true grid (σ_t = σ_p/√2), 0 for periods that add
+/// up.
 ///
 /// Missed cycles: a period beyond 1.5·T counts as round(p/T) − 1 of them, one beyond `gap_cycles`·T
-/// as a gap; neither enters the statistics. Time that is not finite, or does not advance, is
-/// counted and not used; after three stamps in a row that lie back, the clock was set and the
-/// monitor goes on from there.
+/// as a gap; neither enters the statistics. A time that is not finite or does not advance is
+/// counted but not used; three stamps in a row that go back mean that the clock was set, and the
+/// monitor continues from there.
 ///
-/// What jitter does to differences over the nominal period, at speed v, acceleration a, for
-/// independent j of standard deviation σ_t; truth is that of the instant t_k + j_k:
+/// Effect of jitter on differences over the nominal period, at speed v, acceleration a, for
+/// independent j of standard deviation σ_t; the truth is at the instant t_k + j_k:
 ///   x(t_k + j_k) = x_k + v·j_k + …, x(t_{k−1} + j_{k−1}) = x_k − vT + ½aT² + (v − aT)·j_{k−1} + …
 ///   v̂ − v = −½aT + (v/T − a)·(j_k − j_{k−1}) + O(a·j²/T)
 ///   RMS = √2·σ_t·|v/T − a|, the main part √2·v·σ_t/T; the bias −½aT is not the jitter's;
 ///   â − a: (v/T²)·(j_k − 2j_{k−1} + j_{k−2}), RMS = √6·σ_t·|v|/T².
 /// Dividing by the measured period instead leaves −½a·(T + j_k − j_{k−1}): RMS a·σ_t/√2. An edge
-/// has its own stamp, so the tick's jitter does not enter an estimate from edges at all.
-/// The count's quantisation, q/(√6·T) and q/(√2·T²), adds as the root of the sum of squares.
+/// has its own stamp, so tick jitter does not enter an estimate from edges at all. The count's
+/// quantisation, q/(√6·T) and q/(√2·T²), adds as root sum of squares.
 class CycleMonitor {
  public:
   struct Config {
@@ -45,7 +45,7 @@ class CycleMonitor {
     double tick_rms_s = 0.0;          ///< σ_p/√2: σ_t if the correlation is near −½
     double period_correlation = 0.0;  ///< of neighbouring periods
     double shortest_s = 0.0;
-    double longest_s = 0.0;         ///< of those that missed no cycle
+    double longest_s = 0.0;         ///< of those without a missed cycle
     double deviation_p999_s = 0.0;  ///< 99.9 % of |p − T| are at most this
     double longest_gap_s = 0.0;
     std::uint64_t periods = 0;        ///< in the statistics
@@ -58,7 +58,7 @@ class CycleMonitor {
   static kernel::outcome::Result<CycleMonitor> make(const Config& config);
 
   void update(double t_s) noexcept;
-  /// Up to now. Walks the histogram: not for every cycle.
+  /// Report so far. Walks the histogram: not for every cycle.
   [[nodiscard]] Report report() const noexcept;
   void reset() noexcept;
 
@@ -81,9 +81,9 @@ class CycleMonitor {
   std::size_t learnt_ = 0;
   bool started_ = false;
   double last_s_ = 0.0;
-  int in_a_row_ = 0;  // stamps that lie back
+  int in_a_row_ = 0;  // stamps that go back
   bool has_previous_ = false;
-  double previous_ = 0.0;  // deviation of the period before
+  double previous_ = 0.0;  // deviation of the previous period
   double mean_ = 0.0;      // of the deviation p − T
   double squares_ = 0.0;   // Σ(p − mean)²
   double products_ = 0.0;  // Σ of neighbours' products, with the sums that centre them
@@ -94,7 +94,7 @@ class CycleMonitor {
   Report report_;
 };
 
-/// √2·σ_t·|v/T − a|: RMS error of (x_k − x_{k−1})/T by jitter alone.
+/// √2·σ_t·|v/T − a|: RMS error of (x_k − x_{k−1})/T from jitter alone.
 [[nodiscard]] double velocity_jitter_error_mm_s(double velocity_mm_s, double acceleration_mm_s2,
                                                 double period_s, double tick_rms_s) noexcept;
 

@@ -3,24 +3,24 @@
 
 #include <cstdint>
 
-/// The recorder: from what an encoder input gives to edges with their times.
+/// The recorder: turns an encoder input into edges with their times.
 ///
-/// Its headers stand alone: freestanding C++20, integers only, no allocation, no division, fit for
-/// a microcontroller (-ffreestanding -fno-exceptions -fno-rtti). Cells and lines are those of
-/// `estimator.hpp`: line k is the border between the cells k − 1 and k, so that
+/// Its headers are self-contained: freestanding C++20, integers only, no allocation, no division,
+/// fit for a microcontroller (-ffreestanding -fno-exceptions -fno-rtti). Cells and lines are those
+/// of `estimator.hpp`: line k is the border between the cells k − 1 and k, so that
 ///   up   from cell c passes line c + 1, which is the new count;
 ///   down from cell c passes line c,     which is the old count,
 /// and up over line k followed by down over line k names the same k twice.
 ///
-/// Two front ends give the same events, for an `EdgeRing`:
+/// Two front ends produce the same events, for an `EdgeRing`:
 ///   QuadratureDecoder  levels A, B, sampled with a clock            → every edge
 ///   LatchedDecoder     count and time of the last edge, once a cycle → the last edge of each cycle
 /// The counters are never reset. The clock in `EdgeEvent::ticks` is unwrapped, monotone, in ticks
-/// of the input's own clock; its zero is where the clock stood at the first call.
+/// of the input's own clock; its zero is the clock's value at the first call.
 namespace steadyrest::motion::online {
 
 /// What is not certain about an event.
-inline constexpr std::uint8_t kTimeUnknown = 1;     ///< `ticks` says only "not later than"
+inline constexpr std::uint8_t kTimeUnknown = 1;     ///< `ticks` means only "not later than"
 inline constexpr std::uint8_t kLineGuessed = 2;     ///< line and direction are the likelier of two
 inline constexpr std::uint8_t kCountUncertain = 4;  ///< the counter may have wrapped unseen
 
@@ -28,7 +28,7 @@ inline constexpr std::uint8_t kCountUncertain = 4;  ///< the counter may have wr
 struct EdgeEvent {
   std::int64_t line = 0;
   std::uint64_t ticks = 0;     ///< unwrapped clock
-  std::uint32_t lost = 0;      ///< at least so many edges before this one are missing (saturates)
+  std::uint32_t lost = 0;      ///< at least this many edges before this one are missing (saturates)
   std::int8_t direction = 1;   ///< +1, −1
   std::uint8_t uncertain = 0;  ///< kTimeUnknown | kLineGuessed | kCountUncertain
 };

@@ -3,12 +3,11 @@
 
 #include <cstdint>
 
-/// Groups of edges that the filter takes as one measurement.
+/// Groups edges into one measurement for the filter.
 ///
-/// At 500 edges in a cycle the filter gains nothing from taking each one singly. Edges of one
-/// direction are averaged in multiples of four, so that every phase of the line counts alike and
-/// their errors cancel: mean position at the mean time. The parabola's share in it, a·var(t)/2, is
-/// handed on.
+/// At 500 edges per cycle the filter gains nothing from each single edge. Edges of one direction
+/// are averaged in multiples of four, so that every phase counts equally and their errors cancel:
+/// mean position at the mean time. The parabola's share, a·var(t)/2, is passed on.
 namespace steadyrest::motion::online {
 
 struct Observation {
@@ -17,18 +16,17 @@ struct Observation {
   double time_variance = 0.0;  ///< s²: x lies a·time_variance/2 above the position at t_s
   std::uint32_t edges = 1;
   std::int8_t direction = 1;
-  double variance =
-      -1.0;  ///< counts², of one edge where it is known to be more than the learnt one
+  double variance = -1.0;  ///< counts², of one edge where known to exceed the learnt one
 };
 
 class EdgeGroup {
  public:
-  /// Edges of the last cycle that are still taken singly.
+  /// Up to this many edges in the last cycle are taken singly.
   static constexpr std::uint32_t kSingle = 16;
-  /// Groups in a cycle, about.
+  /// Approximate number of groups per cycle.
   static constexpr std::uint32_t kGroups = 8;
 
-  /// True when `out` is a finished observation that must be used before the next edge is added.
+  /// True when `out` is a complete observation, to be used before the next edge is added.
   bool add(double t_s, double x, std::int8_t direction, Observation& out) noexcept {
     ++in_cycle_;
     if (target_ <= 1) {
@@ -47,7 +45,7 @@ class EdgeGroup {
     sum_x_ += x - start_x_;
     return n_ >= target_ && take(out);
   }
-  /// The direction changes or the cycle ends: what has gathered.
+  /// The direction changes or the cycle ends: returns the group so far.
   bool take(Observation& out) noexcept {
     if (n_ == 0) {
       return false;

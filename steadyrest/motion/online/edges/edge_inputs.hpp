@@ -3,19 +3,19 @@
 
 #include <steadyrest/motion/online/edges/latched_decoder.hpp>
 
-/// How the inputs that machines have fill the `LatchedDecoder`. Freestanding like the recorder.
+/// How common machine inputs feed the `LatchedDecoder`. Freestanding like the recorder.
 ///
-/// | input | count | stamp | what it costs |
-/// |---|---|---|---|
-/// | Mesa hostmot2 | 16 bits | 16 bits, 2 MHz (10 MHz at high resolution) | last edge of a cycle;
-/// range 33 ms (6.6 ms) | | TI eQEP | 32 bits | age of the last edge, 16 bits | unit events of one
-/// edge (UPPS = 0) | | Linux counter device | width of the device | 64 bits, ns | every edge; the
-/// stamp is the kernel's | | EtherCAT terminal | up to 32 bits, with micro increments | distributed
-/// clock, ns, or none | last edge |
+/// - Mesa hostmot2: count of 16 bits; stamp of 16 bits at 2 MHz (10 MHz at high resolution), range
+///   33 ms (6.6 ms); the last edge of a cycle.
+/// - TI eQEP: count of 32 bits; age of the last edge, 16 bits; unit events of one edge (UPPS = 0).
+/// - Linux counter device: count as wide as the device; the kernel's stamp of 64 bits, ns; every
+///   edge.
+/// - EtherCAT terminal: count of up to 32 bits, with micro increments; stamp of the distributed
+///   clock, ns, or none; the last edge.
 namespace steadyrest::motion::online {
 
-/// The clock's register is read before the counters', so a stamp may lie after it by the time that
-/// the bus needs: `ahead_ticks`.
+/// The clock register is read before the counters, so a stamp may be later than it by the bus
+/// delay: `ahead_ticks`.
 [[nodiscard]] constexpr LatchedDecoder::Config hostmot2_config(
     std::uint64_t ticks_per_cycle, std::uint64_t ahead_ticks = 500) noexcept {
   return {.count_bits = 16,
@@ -43,14 +43,14 @@ struct EqepLatch {
   std::uint64_t clock = 0;       ///< the latch's time in capture ticks: cycle · QUPRD / 2^CCPS
 };
 
-/// The age is rounded to capture ticks, so a stamp made from it wanders by one.
+/// The age is rounded to capture ticks, so a stamp made from it varies by one.
 [[nodiscard]] constexpr LatchedDecoder::Config eqep_config() noexcept {
   return {.count_bits = 32, .clock_bits = 64, .stamp_bits = 17, .fuzz_ticks = 2};
 }
 
-/// COEF says that the timer ran over: before this cycle's last edge, whose age is then right, or,
-/// when there was none, since the one before, and then the timer means nothing. So after COEF a
-/// new age is believed where the count changed; a full timer never is.
+/// COEF says that the timer overflowed: either before this cycle's last edge, whose age is then
+/// right, or, if there was none, since the previous edge, and the timer means nothing. So after
+/// COEF the age is trusted only where the count changed; a full timer never is.
 [[nodiscard]] constexpr LatchedRead eqep_read(const EqepLatch& latch) noexcept {
   return {.count = latch.position,
           .stamp = latch.clock - latch.timer,
@@ -66,14 +66,14 @@ struct EqepLatch {
   return {.count_bits = count_bits, .clock_bits = 64};
 }
 
-/// status ≠ 0: the kernel could not read the value; such an event must be left out by the caller.
+/// status ≠ 0: the kernel could not read the value; the caller must skip such an event.
 [[nodiscard]] constexpr LatchedRead linux_counter_read(std::uint64_t value,
                                                        std::uint64_t timestamp_ns) noexcept {
   return {.count = value, .stamp = timestamp_ns, .clock = timestamp_ns};
 }
 
 /// `stamp_bits` = 32 or 64 of the distributed clock; `micro_bits` = 8 with micro increments, which
-/// are the terminal's own interpolation and no edges, else 0.
+/// are the terminal's own interpolation, not edges, else 0.
 [[nodiscard]] constexpr LatchedDecoder::Config ethercat_config(unsigned stamp_bits,
                                                                unsigned micro_bits,
                                                                std::uint64_t cycle_ns) noexcept {

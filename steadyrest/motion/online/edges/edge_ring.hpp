@@ -8,8 +8,9 @@
 
 namespace steadyrest::motion::online {
 
-/// Events between the recorder and who reads them, of one context (guard it if an interrupt writes
-/// while the loop reads). When full the oldest event goes; the next one read says how many did.
+/// Events between the recorder and its reader, in one context (guard it if an interrupt writes
+/// while the loop reads). When full, the oldest event is dropped; the next one read tells how many
+/// were.
 template <std::size_t Capacity>
 class EdgeRing {
   static_assert(Capacity >= 2 && (Capacity & (Capacity - 1)) == 0, "a power of two");

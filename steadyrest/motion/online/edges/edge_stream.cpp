@@ -64,7 +64,7 @@ std::optional<Edge> EdgeStream::edge(const EdgeEvent& event) noexcept {
   out.position_mm = line_mm(event.line);
   out.line = event.line;
   out.direction = event.direction;
-  // A good edge carries the count of those before it that were not fit.
+  // A good edge carries the number of unfit ones before it.
   out.lost = static_cast<std::uint8_t>(std::min<std::uint64_t>(lost_, 255));
   lost_ = 0;
   return out;

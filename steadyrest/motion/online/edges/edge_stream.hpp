@@ -14,11 +14,11 @@ namespace steadyrest::motion::online {
 /// Turns the recorder's integers into edges and ticks for the estimators.
 ///
 ///   t = (ticks − ticks₀)/f,   x(k) = k·q + ε(k)
-/// with the clock f, the count q, the error ε of line k by the calibration table, and ticks₀ the
-/// first time that comes in: so a clock of ns since 1970 keeps its resolution (f·t < 2⁵³).
+/// with the clock f, the count q, the error ε of line k from the calibration table, and ticks₀ the
+/// first time received, so that a clock of ns since 1970 keeps its resolution (f·t < 2⁵³).
 ///
-/// An event whose time is unknown, or whose line is a guess, gives no edge: the next good one says
-/// that edges are missing, and the tick's cell holds meanwhile.
+/// An event whose time is unknown or whose line is a guess gives no edge: the next good one reports
+/// the missing edges, and the tick's cell is valid meanwhile.
 class EdgeStream {
  public:
   struct Config {
@@ -29,14 +29,14 @@ class EdgeStream {
     std::span<const double> line_error_mm = {};  // NOLINT(readability-redundant-member-init)
     std::int64_t first_line = 0;
     bool periodic = false;      ///< the table is one revolution and repeats; else ε = 0 beyond it
-    bool take_guesses = false;  ///< edges of guessed lines too; bounds then no longer hold
+    bool take_guesses = false;  ///< also edges of guessed lines; bounds then no longer hold
   };
 
   static kernel::outcome::Result<EdgeStream> make(const Config& config);
 
-  /// The edge, or none where the event is not fit for one.
+  /// The edge, or none where the event is unfit.
   std::optional<Edge> edge(const EdgeEvent& event) noexcept;
-  /// The control cycle's look: unwrapped clock and count of the decoder.
+  /// The control cycle's tick: unwrapped clock and count of the decoder.
   Tick tick(std::uint64_t ticks, std::int64_t count) noexcept;
 
   [[nodiscard]] double line_mm(std::int64_t line) const noexcept;

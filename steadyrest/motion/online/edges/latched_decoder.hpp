@@ -7,19 +7,19 @@
 
 namespace steadyrest::motion::online {
 
-/// What an input with a latch gives once a cycle.
+/// What a latching input delivers once per cycle.
 struct LatchedRead {
   std::uint64_t count = 0;     ///< raw
   std::uint64_t stamp = 0;     ///< raw time of the last edge
   std::uint64_t clock = 0;     ///< raw time of this read, of the same clock
-  std::uint64_t cycle = 0;     ///< coarse counter that goes on when reads are missed
-  std::int8_t direction = 0;   ///< of the last edge, where the hardware tells: ±1; 0: it does not
+  std::uint64_t cycle = 0;     ///< coarse counter that keeps counting when reads are missed
+  std::int8_t direction = 0;   ///< of the last edge if the hardware tells: ±1; else 0
   bool stamp_invalid = false;  ///< the hardware says that the stamp means nothing
-  bool overflowed = false;     ///< the stamp's timer ran over: it counts only if the count changed
+  bool overflowed = false;     ///< the stamp's timer overflowed: valid only if the count changed
   bool turned = false;         ///< the hardware says that the axis turned within the cycle
 };
 
-/// One event for each read in which an edge happened: the last edge.
+/// One event for each read in which an edge occurred: the last edge.
 ///
 /// Δ = change of the count, c = the new count, d = direction of the last edge:
 ///   line = c where d = +1, c + 1 where d = −1;
@@ -27,39 +27,39 @@ struct LatchedRead {
 ///   lost).
 /// Δ = 0 with a new stamp is an even number of edges: dither on a line, or a turn.
 ///
-/// Where the hardware does not tell d it is the sign of Δ, and for Δ = 0 that of the event before
-/// (the same line again). That is certain for |Δ| ≥ n as long as |acceleration| < 2n counts/cycle²:
-/// an axis that passes lines k … k + n, turns and passes k + n again within one cycle T started at
-/// line k with v² = u² + 2·A·n, u ≥ 0 being its speed over line k + n, and took
+/// Where the hardware does not tell d, it is the sign of Δ, and for Δ = 0 that of the previous
+/// event (the same line again). That is certain for |Δ| ≥ n as long as |acceleration| < 2n
+/// counts/cycle²: an axis that passes lines k … k + n, turns and passes k + n again within one
+/// cycle T started at line k with v² = u² + 2·A·n, u ≥ 0 being its speed over line k + n, and took
 /// (√(u² + 2An) + u)/A ≥ √(2n/A) for it. `certain_from` is n; below it kLineGuessed is set: the
-/// event is then wrong after every turn over a fresh line, so who gives bounds must not use it.
+/// event is then wrong after every turn over a new line, so estimators with bounds must not use it.
 ///
-/// Time. The age of the edge, (clock − stamp) mod 2^bits, is right as long as the last read lies
-/// less than half of the stamp's range back; `cycle` tells when it does not, and the event has
-/// kTimeUnknown instead of one of several possible times. The clock itself is carried on over the
-/// gap by `cycle`·`cycle_ticks`, to be right within half a wrap. An age beyond the time since the
-/// last read is impossible and gives kTimeUnknown as well.
+/// Time. The age of the edge, (clock − stamp) mod 2^bits, is right as long as the last read is less
+/// than half of the stamp's range ago; `cycle` tells when it is not, and the event then has
+/// kTimeUnknown instead of one of several possible times. The clock itself is carried across the
+/// gap by `cycle`·`cycle_ticks`, which must be right within half a wrap. An age beyond the time
+/// since the last read is impossible and also gives kTimeUnknown.
 class LatchedDecoder {
  public:
   struct Config {
     unsigned count_bits = 32;    ///< 1…64, fraction included
-    unsigned fraction_bits = 0;  ///< below the count: micro increments, which are cut off
+    unsigned fraction_bits = 0;  ///< below the count: micro increments, which are dropped
     unsigned clock_bits = 64;    ///< 1…64, of stamp and clock
     unsigned stamp_bits = 0;     ///< range in which a stamp is unique, if narrower; 0 = clock_bits
     std::uint64_t cycle_ticks = 0;   ///< clock ticks per unit of `cycle`, about; 0: no such counter
-    std::uint64_t ahead_ticks = 0;   ///< a stamp may be so much later than `clock` (read before it)
-    std::uint64_t fuzz_ticks = 0;    ///< stamps so close are the same edge (stamps made from ages)
+    std::uint64_t ahead_ticks = 0;   ///< how much later than `clock` (read first) a stamp may be
+    std::uint64_t fuzz_ticks = 0;    ///< stamps this close are one edge (stamps made from ages)
     std::uint64_t certain_from = 1;  ///< n; ⌊A·T²/(2·count)⌋ + 1
-    std::uint64_t counts_per_cycle = 0;  ///< that the axis can make at most; 0: not checked
+    std::uint64_t counts_per_cycle = 0;  ///< most that the axis can make; 0: not checked
   };
-  /// Plain values, to be logged and restored.
+  /// Plain values, for logging and restoring.
   struct State {
     bool started = false;
     std::uint64_t raw_count = 0;
     std::uint64_t stamp = 0;
     std::uint64_t cycle = 0;
     std::uint64_t clock_ticks = 0;  ///< unwrapped, of the last read
-    std::uint64_t now_ticks = 0;    ///< the same, but not before an edge that was reported
+    std::uint64_t now_ticks = 0;    ///< the same, but not before a reported edge
     std::uint64_t edge_ticks = 0;   ///< of the last event
     std::int64_t count = 0;
     std::int8_t direction = 0;
@@ -69,7 +69,7 @@ class LatchedDecoder {
   };
 
   constexpr LatchedDecoder() noexcept = default;
-  /// What is out of range is put at its limit.
+  /// Values out of range are set to their limit.
   constexpr explicit LatchedDecoder(const Config& config) noexcept : config_(config) {
     config_.count_bits = detail::width(config.count_bits);
     config_.clock_bits = detail::width(config.clock_bits);
@@ -81,7 +81,7 @@ class LatchedDecoder {
     config_.certain_from = config.certain_from < 1 ? 1 : config.certain_from;
   }
 
-  /// One read; true when an edge happened since the last one.
+  /// One read; true when an edge occurred since the last one.
   constexpr bool update(const LatchedRead& read, EdgeEvent& event) noexcept {
     if (!state_.started) {
       begin(read);
@@ -139,12 +139,13 @@ class LatchedDecoder {
     return cycles > 0 ? static_cast<std::uint64_t>(cycles) : 0U;
   }
 
-  /// The unwrapped time nearest to what the coarse counter expects; ticks since the last read.
+  /// Advances to the unwrapped time nearest to the coarse counter's expectation; returns the ticks
+  /// since the last read.
   constexpr std::uint64_t advance_clock(const LatchedRead& read, std::uint64_t cycles) noexcept {
     const unsigned bits = config_.clock_bits;
     std::uint64_t elapsed = (read.clock - state_.clock_ticks) & detail::mask(bits);
     if (bits == 64) {
-      elapsed = static_cast<std::int64_t>(elapsed) < 0 ? 0 : elapsed;  // ran backwards: stand
+      elapsed = static_cast<std::int64_t>(elapsed) < 0 ? 0 : elapsed;  // ran backwards: hold
     } else if (cycles * config_.cycle_ticks > elapsed) {
       const std::uint64_t expected = cycles * config_.cycle_ticks;
       const auto error = detail::wrapped_difference(elapsed, expected, bits);
@@ -156,7 +157,7 @@ class LatchedDecoder {
   }
 
   constexpr std::int64_t advance_count(const LatchedRead& read) noexcept {
-    // The micro increments of the sum must not be cut off twice: the sum is kept by whole counts.
+    // The micro increments of the sum must not be truncated twice: the sum is kept in whole counts.
     const unsigned fraction = config_.fraction_bits;
     const std::int64_t change = detail::wrapped_difference(
         read.count >> fraction, state_.raw_count >> fraction, config_.count_bits - fraction);
@@ -208,7 +209,7 @@ class LatchedDecoder {
         before_start ? 0 : state_.clock_ticks - static_cast<std::uint64_t>(age);
     event.ticks = later(ticks, state_.edge_ticks);  // stamps made from ages may be off by one
     state_.edge_ticks = event.ticks;
-    // A cycle's edges come before its tick, also where the clock was read first.
+    // A cycle's edges come before its tick, even where the clock was read first.
     state_.now_ticks = later(event.ticks, state_.now_ticks);
   }
 

@@ -10,17 +10,17 @@ namespace steadyrest::motion::online {
 /// Four edges per period from the sampled levels A and B; A leads when the axis moves upwards:
 /// (A, B) = 00 → 10 → 11 → 01 → 00.
 ///
-/// Filter: a level counts when it has held `hold_samples` samples; the edge's time is that of the
-/// first of them, so the filter delays the report and never the stamp. A level lasts two counts, so
-/// at most 2·(sampling rate)/hold_samples counts/s pass it.
+/// Filter: a level counts once it has lasted `hold_samples` samples; the edge's time is that of the
+/// first of them, so the filter delays the report but never the stamp. A level lasts two counts, so
+/// at most 2·(sampling rate)/hold_samples counts/s pass the filter.
 ///
-/// Illegal transition (A and B in one sample): two edges happened, one unseen. The count goes on by
-/// two in the last direction, or upwards when there was none; the event is the second edge, `lost`
-/// counts the first, kLineGuessed is set. If the axis had turned in that very sample, the count is
-/// wrong by four from there on, a whole period, and only an index mark can tell; count mod 4 agrees
-/// with the levels always.
+/// Illegal transition (A and B in one sample): two edges occurred, one unseen. The count moves by
+/// two in the last direction, or upwards if there was none; the event is the second edge, `lost`
+/// counts the first, kLineGuessed is set. If the axis turned in that very sample, the count is
+/// wrong by four from then on, a whole period, and only an index mark can tell; count mod 4 always
+/// agrees with the levels.
 ///
-/// The stamp is that of the sample: an edge lies up to one sampling period before it.
+/// The stamp is that of the sample: the edge is up to one sampling period earlier.
 class QuadratureDecoder {
  public:
   struct Config {
@@ -30,10 +30,10 @@ class QuadratureDecoder {
   };
   struct Channel {
     bool level = false;
-    std::uint16_t held = 0;   ///< samples that the other level has held
+    std::uint16_t held = 0;   ///< samples for which the other level has lasted
     std::uint64_t since = 0;  ///< its first sample
   };
-  /// Plain values, to be logged and restored.
+  /// Plain values, for logging and restoring.
   struct State {
     bool started = false;
     Channel a, b;
@@ -46,7 +46,7 @@ class QuadratureDecoder {
   };
 
   constexpr QuadratureDecoder() noexcept = default;
-  /// What is out of range is put at its limit.
+  /// Values out of range are set to their limit.
   constexpr explicit QuadratureDecoder(const Config& config) noexcept
       : bits_(detail::width(config.clock_bits)),
         hold_(config.hold_samples < 1 ? std::uint16_t{1} : config.hold_samples),
@@ -81,7 +81,7 @@ class QuadratureDecoder {
   constexpr void restore(const State& state) noexcept { state_ = state; }
 
  private:
-  /// Place in the period: 00 → 10 → 11 → 01.
+  /// Position in the period: 00 → 10 → 11 → 01.
   [[nodiscard]] constexpr unsigned phase() const noexcept {
     return state_.a.level ? (state_.b.level ? 2U : 1U) : (state_.b.level ? 3U : 0U);
   }

@@ -20,7 +20,7 @@ std::int64_t BackwardDifference::count_before(std::size_t ticks) const noexcept 
 
 Estimate BackwardDifference::tick(const Tick& tick) noexcept {
   if (!started_) {
-    counts_.fill(tick.count);  // as if the axis had stood here for ever
+    counts_.fill(tick.count);  // as if the axis had always been at rest here
     started_ = true;
   }
   newest_ = (newest_ + 1) % counts_.size();

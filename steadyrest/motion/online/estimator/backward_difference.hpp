@@ -10,17 +10,16 @@
 
 namespace steadyrest::motion::online {
 
-/// What a control does today: differences of the count over m ticks of the nominal period T.
+/// What controls do today: differences of the count over m ticks of the nominal period T.
 ///
 /// Law, c the count, q its size, k the tick:
 ///   v = q·(c_k − c_{k−m})/(m·T)                  a = q·(c_k − 2·c_{k−m} + c_{k−2m})/(m·T)²
 ///
 /// Accuracy. At constant speed with f = fraction of v·m·T/q the error of v has the variance
-/// f·(1 − f)·(q/(m·T))², on the mean over f q²/6, hence RMS(v) = q/(√6·m·T); RMS(a) =
-/// q/(√2·(m·T)²)
-/// (class of result: Kavanagh and Murphy, IEEE TIM 47(6) 1998). Lag m·T/2 of v and m·T of a. The
-/// period is the nominal one, so jitter of the tick shows as v·(relative jitter). No bounds.
-/// Position: the middle of the cell, ± q/2.
+/// f·(1 − f)·(q/(m·T))², on average over f a sixth of (q/(m·T))², hence RMS(v) = q/(√6·m·T);
+/// RMS(a) = q/(√2·(m·T)²) (class of result: Kavanagh and Murphy, IEEE TIM 47(6) 1998). Lag m·T/2 of
+/// v and m·T of a. The period is the nominal one, so tick jitter shows as v·(relative jitter). No
+/// bounds. Position: the middle of the cell, ± q/2.
 class BackwardDifference final : public Estimator {
  public:
   static constexpr std::size_t kMaxTicks = 64;

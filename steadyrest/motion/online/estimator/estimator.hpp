@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <limits>
 
-/// What every estimator of motion takes and gives.
+/// Inputs and outputs of every motion estimator.
 ///
 /// An incremental encoder divides the axis into cells of one count. Line k is the border between
 /// the cells k − 1 and k; cell c means line(c) ≤ x < line(c + 1). An *edge* is the passage of a
-/// line at a known time; a *tick* is the control cycle's look at the count. Edges come in order of
-/// time, those of a cycle before its tick.
+/// line at a known time; a *tick* is the control cycle's look at the count. Edges come in time
+/// order, those of a cycle before its tick.
 namespace steadyrest::motion::online {
 
 inline constexpr double kNoBound = std::numeric_limits<double>::infinity();
@@ -27,16 +27,16 @@ struct Edge {
 
 /// The control cycle.
 struct Tick {
-  double t_s = 0.0;        ///< when the cycle looked; monotone, jitter and all
-  std::int64_t count = 0;  ///< cell in which the axis stood
+  double t_s = 0.0;        ///< when the cycle looked; monotone, including jitter
+  std::int64_t count = 0;  ///< cell in which the axis was
   double low_mm = 0.0;     ///< position of the cell's lower line, calibration included
   double high_mm = 0.0;    ///< of its upper line
 };
 
 /// The axis at one instant. Bounds are guaranteed (|true − estimate| ≤ bound) as long as the axis
-/// keeps the limits that the estimator was made with; kNoBound where it gives none.
+/// keeps the limits given to the estimator; kNoBound where it gives none.
 struct Estimate {
-  double t_s = 0.0;  ///< the instant that the values belong to: the tick less the estimator's lag
+  double t_s = 0.0;  ///< the instant of the values: the tick minus the estimator's lag
   double position_mm = 0.0;
   double velocity_mm_s = 0.0;
   double acceleration_mm_s2 = 0.0;
@@ -45,7 +45,7 @@ struct Estimate {
   double acceleration_bound_mm_s2 = kNoBound;
 };
 
-/// The one interface. No allocation, lock or unbounded loop in `edge` and `tick`.
+/// The common interface. No allocation, lock or unbounded loop in `edge` and `tick`.
 class Estimator {
  public:
   Estimator() = default;

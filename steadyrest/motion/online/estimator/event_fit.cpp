@@ -34,7 +34,7 @@ kernel::outcome::Result<EventFit> EventFit::make(const Config& config) {
 
 void EventFit::edge(const Edge& edge) noexcept {
   if (known_ > 0 && !(edge.t_s >= back(0).t_s)) {
-    known_ = 0;  // the clock was set back: what lies behind is no use
+    known_ = 0;  // the clock was set back: the past is useless
   }
   newest_ = (newest_ + 1) % events_.size();
   events_[newest_] = {edge.t_s, edge.position_mm};
@@ -54,7 +54,7 @@ std::size_t EventFit::chosen(double now_s) const noexcept {
   return count;
 }
 
-/// False where the stamps do not carry this degree.
+/// False where the stamps do not support this degree.
 template <int kTerms>
 bool EventFit::fit(std::size_t count, double now_s, Estimate& out) const noexcept {
   const std::size_t stride = config_.skip + 1;
@@ -68,7 +68,7 @@ bool EventFit::fit(std::size_t count, double now_s, Estimate& out) const noexcep
   Eigen::Matrix<double, kTerms, 1> right = Eigen::Matrix<double, kTerms, 1>::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const Event& event = back(i * stride);
-    // Time scaled to 0 … 1 and position taken from the newest edge: powers of seconds would spoil
+    // Time scaled to 0 … 1 and position relative to the newest edge: powers of seconds would spoil
     // the normal equations.
     const double u = (event.t_s - oldest_s) / span_s;
     const double x = event.x_mm - last.x_mm;
@@ -119,8 +119,8 @@ void EventFit::extrapolate(double now_s, Estimate& out) const noexcept {
 
 void EventFit::clip(const Tick& tick, Estimate& out) const noexcept {
   out.position_mm = std::clamp(out.position_mm, tick.low_mm, tick.high_mm);
-  // Whatever the fit says, the axis has not left its cell since the last edge: that caps the mean
-  // velocity since then. Matters at starts, stops and reversals.
+  // Whatever the fit says, the axis has not left its cell since the last edge, which caps the mean
+  // velocity since then. This matters at starts, stops and reversals.
   const double age_s = tick.t_s - back(0).t_s;
   const double slack_mm = config_.line_error_counts * config_.count_mm;
   const double least = tick.low_mm - slack_mm - back(0).x_mm;

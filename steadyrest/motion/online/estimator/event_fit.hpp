@@ -11,21 +11,20 @@ namespace steadyrest::motion::online {
 
 /// Least squares through the last edges with their times.
 ///
-/// Law. Of the last edges every (s + 1)-th is taken, n at most and, with a window W, none older
-/// than W except the p + 1 that a fit needs. With u = (t − t_0)·α, α = 1/(t_n − t_0), t_0 the
-/// oldest:
+/// Law. Takes every (s + 1)-th of the last edges, at most n and, with a window W, none older than W
+/// except the p + 1 that a fit needs. With u = (t − t_0)·α, α = 1/(t_n − t_0), t_0 the oldest:
 ///   x̂(u) = Σ_i b_i·u^i minimises Σ (x̂(u_j) − x_j)²,   v = α·x̂′(u),   a = α²·x̂″(u)   at the tick.
-/// Edges on too few different stamps lower the degree. Then, as the count says more than the
-/// extrapolation: position clipped to the cell of the tick; velocity to what the cell permits since
-/// the last edge,
+/// Too few different stamps lower the degree. Then, since the count is more certain than the
+/// extrapolation, the position is clipped to the tick's cell and the velocity to what the cell
+/// permits since the last edge,
 ///   (low − e − x_n)/age ≤ v ≤ (high + e − x_n)/age,   e = line error, and where this bites a =
 ///   −v/age
 /// (the bound's own derivative). No edge for `timeout_s`: at rest, the edges are forgotten.
 ///
 /// Accuracy, N edges of σ² = σ_line² + (v·clock)²/12 in W, p = 2: var v = 192·σ²/(N·W²), var a =
-/// 720·σ²/(N·W⁴), under a jerk J −J·W²/10 and −J·W/2. Half of the noise, and no bias, at 0.276·W
-/// before the end for v and W/2 for a. Stale around start, stop and reversal, where a window holds
-/// too few edges. No bounds. Cost grows with n. Source: Merry, van de Molengraft, Steinbuch,
+/// 720·σ²/(N·W⁴), under a jerk J −J·W²/10 and −J·W/2. Half of the noise and no bias at 0.276·W
+/// before the end for v and W/2 for a. Stale around starts, stops and reversals, where a window
+/// holds too few edges. No bounds. Cost grows with n. Source: Merry, van de Molengraft, Steinbuch,
 /// Mechatronics 20 (2010) 20, with their skip.
 class EventFit final : public Estimator {
  public:

@@ -32,7 +32,7 @@ void MOverT::edge(const Edge& edge) noexcept {
 // v = counts between the last edges of two ticks over the time between them (Ohmae 1982).
 void MOverT::take_edge() noexcept {
   const double span_s = latest_.t_s - reference_.t_s;
-  // Velocity needs a reference edge first, else the time since standstill enters Δt.
+  // Velocity needs a reference edge first; otherwise the time since standstill enters Δt.
   if (seen_ < config_.edges_to_start) {
     ++seen_;
   } else if (config_.zero_on_reversal && latest_.line == reference_.line) {

@@ -12,15 +12,13 @@ namespace steadyrest::motion::online {
 ///
 /// Law, c and t the count after the latest edge before a tick and its stamp:
 ///   new edge:  v = q·Δc/Δt;  v = 0 where both edges passed the same line (a reversal by one edge:
-///   Δt
-///              may be as short as can be, the true distance is none)
+///              Δt may be arbitrarily short, the true distance is 0)
 ///   no edge:   |v| ← min(|v|, q/age), age = tick − t;  v = 0 from `timeout_s` on; then
-///   `edges_to_start`
-///              ticks with edges pass before v is made again
+///              `edges_to_start` ticks with edges pass before v is computed again
 ///   a = (v_k − v_{k−1})/(tick_k − tick_{k−1}): ours, LinuxCNC gives none.
 ///
-/// Accuracy. Relative error (stamp's unit)/Δt from the clock, and the line errors over Δc·q; the
-/// mean over Δt makes it late by about 3/4 of a tick. A reversal within Δt is wrong by one count,
+/// Accuracy. Relative error (stamp's unit)/Δt from the clock, plus the line errors over Δc·q;
+/// averaging over Δt delays it by about 3/4 of a tick. A reversal within Δt is wrong by one count,
 /// as in LinuxCNC. No bounds. Position: last line + v·age, clipped to the cell.
 ///
 /// Sources: Ohmae et al. 1982; LinuxCNC, drivers/mesa-hostmot2/encoder.c (the defaults) and
@@ -31,7 +29,7 @@ class MOverT final : public Estimator {
   struct Config {
     double count_mm = 0.001;       ///< q > 0
     double timeout_s = 0.5;        ///< > 0; hostmot2: vel-timeout; LinuxCNC's encoder: 1/min-speed
-    bool zero_on_reversal = true;  ///< hostmot2 has the rule, LinuxCNC's encoder has not
+    bool zero_on_reversal = true;  ///< hostmot2 has the rule, LinuxCNC's encoder does not
     std::uint32_t edges_to_start = 1;  ///< hostmot2 1, LinuxCNC's encoder 2
   };
   /// As LinuxCNC's software encoder with its default min-speed-estimate of 1 count/s.
@@ -51,7 +49,7 @@ class MOverT final : public Estimator {
 
   Config config_;
   Edge latest_;     ///< last edge so far
-  Edge reference_;  ///< last edge before the tick before
+  Edge reference_;  ///< last edge before the previous tick
   bool fresh_ = false;
   std::uint32_t seen_ = 0;  ///< ticks with edges since the timeout, saturates
   double velocity_mm_s_ = 0.0;

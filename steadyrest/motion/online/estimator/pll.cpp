@@ -24,7 +24,7 @@ Estimate Pll::tick(const Tick& tick) noexcept {
   if (!started_) {
     started_ = true;
     origin_ = tick.count;
-    // Counts are cells; the axis is taken to be in the middle of its first one.
+    // Counts are cells; the axis is assumed to be in the middle of its first one.
     position_counts_ = 0.5;
   }
   const double period_s = config_.cycle_s;
@@ -33,7 +33,7 @@ Estimate Pll::tick(const Tick& tick) noexcept {
   const double delta = static_cast<double>(tick.count - origin_) - whole;
   position_counts_ += period_s * kp_1_s_ * delta;
   velocity_counts_s_ += period_s * ki_1_s2_ * delta;
-  // Below half of one correction's step the velocity would hunt about zero at rest.
+  // Below half of one correction step the velocity would hunt about zero at rest.
   if (std::abs(velocity_counts_s_) < 0.5 * period_s * ki_1_s2_) {
     velocity_counts_s_ = 0.0;
   }

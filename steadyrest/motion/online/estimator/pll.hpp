@@ -8,16 +8,16 @@
 
 namespace steadyrest::motion::online {
 
-/// Second-order tracking loop on sampled counts, as ODrive's firmware 0.5 has it.
+/// Second-order tracking loop on sampled counts, as in ODrive's firmware 0.5.
 ///
 /// Law, each tick of the nominal period T, p in counts, c the count:
 ///   p ← p + T·v,  d = c − ⌊p⌋,  p ← p + T·kp·d,  v ← v + T·ki·d,  kp = 2·b,  ki = kp²/4,
 /// v ← 0 where |v| < T·ki/2. Critically damped with the bandwidth b (rad/s).
 ///
-/// Accuracy. Under a constant acceleration a the velocity comes late by kp/ki = 2/b, an error of
-/// −2·a/b. Needs T·kp < 1. The acceleration q·ki·d is what the loop adds to v in this tick: ours,
-/// ODrive has none; its unit step is q·b². No bounds. Neither stamps nor jitter are seen. Source:
-/// ODrive firmware, MotorControl/encoder.cpp, `update` and `update_pll_gains`.
+/// Accuracy. Under a constant acceleration a the velocity lags by kp/ki = 2/b, an error of −2·a/b.
+/// Needs T·kp < 1. The acceleration q·ki·d is what the loop adds to v in this tick: ours, ODrive
+/// has none; its unit step is q·b². No bounds. It sees neither stamps nor jitter. Source: ODrive
+/// firmware, MotorControl/encoder.cpp, `update` and `update_pll_gains`.
 class Pll final : public Estimator {
  public:
   struct Config {

@@ -43,7 +43,7 @@ SavitzkyGolay::SavitzkyGolay(const Config& config) : config_(config) {
 Estimate SavitzkyGolay::tick(const Tick& tick) noexcept {
   const std::size_t n = config_.samples;
   if (!started_) {
-    counts_.fill(tick.count);  // as if the axis had stood here for ever
+    counts_.fill(tick.count);  // as if the axis had always been at rest here
     started_ = true;
   }
   newest_ = (newest_ + 1) % n;

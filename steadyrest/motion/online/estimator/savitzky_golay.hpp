@@ -14,9 +14,9 @@ namespace steadyrest::motion::online {
 /// last n sampled counts, with its derivatives at the newest one.
 ///
 /// Law. x̂(τ) = Σ_i b_i τ^i minimises Σ_j (x̂(τ_j) − x_j)², x_j = q·(c_j + ½), τ_j = −j·T: position
-/// b_0, velocity b_1, acceleration 2·b_2 = fixed weights times the counts. The weights are worked
-/// out once, in `make`, by Eigen's Householder QR. (Boost.Math's discrete_lanczos_derivative gives
-/// the same velocity weights, but wants an odd n, p > 2 for the acceleration, and no position; the
+/// b_0, velocity b_1, acceleration 2·b_2 = fixed weights times the counts. `make` computes the
+/// weights once by Eigen's Householder QR. (Boost.Math's discrete_lanczos_derivative gives the same
+/// velocity weights, but needs an odd n and p > 2 for the acceleration, and gives no position; the
 /// tests compare with it where both exist.)
 ///
 /// Accuracy, σ = q/√12, W = n·T: p = 2 var v = 192·σ²/(n·W²), var a = 720·σ²/(n·W⁴); p = 1 var v =

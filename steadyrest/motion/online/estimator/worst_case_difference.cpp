@@ -21,7 +21,7 @@ WorstCaseDifference::WorstCaseDifference(const Config& config) noexcept
     : config_(config), noise_mm_(0.5 * config.count_mm + config.line_error_mm) {
   const double limit = config.max_acceleration_mm_s2;
   // 2N̄/W from position, L·W from the path's curvature over the window; half of it for a single
-  // tick. The window that makes the sum least is the longest worth using.
+  // tick. The window that minimises the sum is the longest worth using.
   const auto bound = [&](std::size_t ticks) {
     const double window_s = static_cast<double>(ticks) * config.cycle_s;
     return 2.0 * noise_mm_ / window_s + limit * window_s * (ticks > 1 ? 1.0 : 0.5);
@@ -31,7 +31,7 @@ WorstCaseDifference::WorstCaseDifference(const Config& config) noexcept
   }
 }
 
-// N̂ of the paper: the least error of position that explains the record under the limit L.
+// N̂ of the paper: the smallest position error that explains the record under the limit L.
 double WorstCaseDifference::shown_error_mm(std::size_t longest) const noexcept {
   const Sample& now = back(0);
   const double limit = config_.max_acceleration_mm_s2;
@@ -42,8 +42,8 @@ double WorstCaseDifference::shown_error_mm(std::size_t longest) const noexcept {
     for (std::size_t j = 1; j < l; ++j) {
       const double age_s = now.t_s - back(j).t_s;
       const double off_chord = std::abs(back(j).x_mm - now.x_mm + slope * age_s);
-      // How far a sample lies off the chord beyond what acceleration L could bend the path: that
-      // much must be error of position.
+      // A sample's distance from the chord beyond what acceleration L could bend the path must be
+      // position error.
       most = std::max(most, off_chord - 0.5 * limit * age_s * (window_s - age_s));
     }
   }
@@ -57,7 +57,7 @@ Estimate WorstCaseDifference::tick(const Tick& tick) noexcept {
   out.position_mm = 0.5 * (tick.low_mm + tick.high_mm);
   out.position_bound_mm = noise_mm_;
   if (known_ > 0 && !(tick.t_s > back(0).t_s)) {
-    known_ = 0;  // time stood or went back: begin anew
+    known_ = 0;  // time stopped or went back: start over
   }
   newest_ = (newest_ + 1) % samples_.size();
   samples_[newest_] = {tick.t_s, out.position_mm, 0.0};
@@ -81,7 +81,7 @@ Estimate WorstCaseDifference::tick(const Tick& tick) noexcept {
   const double span_s = tick.t_s - oldest.t_s;
   out.velocity_bound_mm_s = 2.0 * noise_mm_ / span_s + limit * span_s * (longest > 1 ? 1.0 : 0.5);
   out.acceleration_mm_s2 = std::clamp((out.velocity_mm_s - oldest.v_mm_s) / span_s, -limit, limit);
-  // True acceleration is within ±L wherever the estimate lies.
+  // The true acceleration is within ±L, whatever the estimate.
   out.acceleration_bound_mm_s2 = std::abs(out.acceleration_mm_s2) + limit;
   return out;
 }

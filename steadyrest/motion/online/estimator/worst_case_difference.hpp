@@ -9,17 +9,17 @@
 
 namespace steadyrest::motion::online {
 
-/// Difference over a window that the limit of acceleration chooses, with a guaranteed bound.
+/// Difference over a window chosen by the acceleration limit, with a guaranteed bound.
 ///
-/// Law. |ẍ| ≤ L, samples x_i at the ticks t_i with |error| ≤ N̄. The record itself shows how large
-/// its errors at least are: a motion within L cannot leave the chord by more than L·(t_j − t_l)(t_k
-/// − t_j)/2, hence
+/// Law. |ẍ| ≤ L, samples x_i at the ticks t_i with |error| ≤ N̄. The record itself shows the least
+/// size of its errors: a motion within L cannot leave the chord by more than L·(t_j − t_l)(t_k −
+/// t_j)/2, hence
 ///   N̂ = max over 1 ≤ j < l ≤ k̄ of ½·(|x_j − chord_{k,l}(t_j)| − ½·L·(t_k − t_j)(t_j − t_l)), ≥ 0
 /// (j, l ticks back). Window w = the shortest with w ≥ 2·√(N̂/L), at most W = that of k̄ ticks;
 ///   v = (x_k − x_{k−w})/w,   k̄ = the count of ticks whose W makes 2·N̄/W + L·W least.
 /// Bound: error of w ≤ error of W + 2·N̂/w + L·(W − w)/2 ≤ 2·N̄/W + L·W, for k̄ = 1 2·N̄/T + L·T/2:
-/// never above the published 2·√(2·N̄·L) + L·T/2. It takes the ticks' own times, so it holds with
-/// jitter, and from the second tick on (then with the window there is).
+/// never above the published 2·√(2·N̄·L) + L·T/2. It uses the ticks' own times, so it holds under
+/// jitter, and from the second tick on (with the window available).
 ///
 /// N̄ = q/2 + line error: sampled counts, no edges. Acceleration, ours: difference of v over W, held
 /// within ± L; |error| ≤ |a| + L.
@@ -39,7 +39,7 @@ class WorstCaseDifference final : public Estimator {
   void edge(const Edge& /*edge*/) noexcept override {}
   Estimate tick(const Tick& tick) noexcept override;
 
-  /// k̄; at most 64 (a longer best window is cut, the bound says so).
+  /// k̄; at most 64 (a longer best window is truncated, and the bound reflects it).
   [[nodiscard]] std::size_t longest_window_ticks() const noexcept { return longest_; }
 
  private:

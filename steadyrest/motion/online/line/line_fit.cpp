@@ -7,8 +7,8 @@
 namespace steadyrest::motion::online {
 namespace {
 
-/// The middle line is far from the middle of the time where the speed changes much; there the fit
-/// is a poor one. README, "What the constants do".
+/// Where the speed changes much, the middle line is far from the middle of the time and the fit is
+/// poor. README, "What the constants do".
 constexpr double kMostSkew = 0.25;
 constexpr std::size_t kTerms = 4;
 

@@ -5,14 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
-/// How far one line of the encoder stands from where its neighbours say it should: no reference is
+/// How far one line of the encoder is from where its neighbours say it should be: no reference is
 /// needed, only motion that is smooth over a few dozen lines.
 ///
-/// Through 2m + 1 passages in one direction, at the times tᵢ, a cubic x(t) is laid by least
-/// squares; the middle line's error is fit(t) − x, for it was passed when the axis stood there. m
-/// is kHalf, and less, down to kLeast, at the ends of a motion in one direction. What errors have
-/// in common over more than the window is not seen, nor does it hurt: it is a slow error of scale.
-/// Principle: Boggarpu, Kavanagh, IEEE TIM 2010 (learning the lines in place).
+/// A cubic x(t) is fitted by least squares through 2m + 1 passages in one direction, at the times
+/// tᵢ; the middle line's error is fit(t) − x, since the axis was there when it passed the line. m
+/// is kHalf, or less, down to kLeast, at the ends of a motion in one direction. Errors common to
+/// more than the window are not seen, but do no harm: they are a slow scale error. Principle:
+/// Boggarpu, Kavanagh, IEEE TIM 2010 (learning the lines in place).
 namespace steadyrest::motion::online {
 
 class LineFit {
@@ -23,16 +23,16 @@ class LineFit {
 
   struct Residual {
     std::int64_t line = 0;
-    double error_mm = 0.0;  ///< to be added to the position that was given for the line
+    double error_mm = 0.0;  ///< to be added to the position given for the line
     double rms_mm = 0.0;    ///< of all residuals in the window
     bool valid = false;
   };
 
-  /// `max_span_s`: a window that took longer is not used, the motion is not smooth enough for it.
+  /// `max_span_s`: a window that took longer is not used, since the motion is not smooth enough.
   explicit LineFit(double max_span_s = 0.02) noexcept : max_span_s_(max_span_s) {}
 
-  /// A passage in order of time; a turn or a lost edge starts a new window. Valid from the window's
-  /// fill on.
+  /// A passage, in time order; a turn or a lost edge starts a new window. Valid once the window is
+  /// full.
   Residual push(double t_s, double position_mm, std::int64_t line, std::int8_t direction) noexcept;
   /// Whether a passage would start a new window; then the windows at the end of the old passages
   /// are `tail(longest_tail())` … `tail(kLeast)`.
@@ -45,7 +45,7 @@ class LineFit {
   void clear() noexcept { count_ = 0; }
 
  private:
-  /// Every passage stands in both halves of the rings, so that any window is contiguous.
+  /// Every passage is stored in both halves of the rings, so that any window is contiguous.
   void put(double t_s, double position_mm) noexcept;
 
   double max_span_s_;

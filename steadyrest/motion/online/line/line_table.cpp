@@ -10,16 +10,16 @@ namespace {
 
 using kernel::outcome::refuse;
 
-// Which test fails when one is moved: README, "What the constants do".
+// Which test fails when one is changed: README, "What the constants do".
 constexpr double kPhaseLearn =
-    0.02;  ///< of a residual, per edge: a phase is seen a quarter of the time
-/// Share of an error that is forgotten when it is learnt anew. A fit is a little wrong in the same
-/// way each time an axis does the same motion; what neighbours have in common is not seen, so
-/// without forgetting that sums up without end.
+    0.02;  ///< of a residual, per edge: each phase is seen a quarter of the time
+/// Share of an error that is forgotten when it is relearnt. A fit is slightly wrong in the same way
+/// each time the axis repeats a motion; errors common to neighbours are not seen, so without
+/// forgetting they would add up without end.
 constexpr double kForget = 0.02;
-constexpr double kWorth = 0.003;  ///< RMS in counts: below it the table is no better than none
+constexpr double kWorth = 0.003;  ///< RMS in counts: below this the table is no better than none
 constexpr double kUnseen =
-    0.2;  ///< share of the lines' error that neighbours have in common: it is not learnt
+    0.2;  ///< share of the lines' error common to neighbours, which is not learnt
 constexpr int kKnownAfter = 6;  ///< passages
 
 // Four lines to a signal period. & 3 is right for negative lines too, where % would not be.
@@ -97,7 +97,7 @@ void LineTable::learn(double t_s, std::int64_t line, std::int8_t direction, bool
     }
     fit_.clear();
   }
-  // The corrected position goes in: what is learnt is only what is left.
+  // The corrected position goes in: only the remainder is learnt.
   take(fit_.push(t_s, static_cast<double>(line) * config_.count_mm + correction_mm(line), line,
                  direction));
 }
@@ -121,7 +121,7 @@ void LineTable::take(const LineFit::Residual& r) noexcept {
   phase_mm_[phase_of(r.line)] += kPhaseLearn * r.error_mm;
   const double mean = 0.25 * (phase_mm_[0] + phase_mm_[1] + phase_mm_[2] + phase_mm_[3]);
   for (double& p : phase_mm_) {
-    p -= mean;  // what all four have in common is a shift of the scale
+    p -= mean;  // the part common to all four is a shift of the scale
   }
   weigh();
 }
@@ -164,14 +164,14 @@ void LineTable::settle() noexcept {
     }
   }
   for (std::size_t p = 0; p < 4; ++p) {
-    // A phase nobody saw has no mean; then nothing can be moved without shifting the scale.
+    // A phase never seen has no mean; then nothing can be moved without shifting the scale.
     if (n[p] <= 0.0) {
       return;
     }
     sum[p] /= n[p];
   }
-  // Each phase's mean moves from the lines to the phase, but not what all four share: that is
-  // scale.
+  // Each phase's mean moves from the lines to the phase, except the part common to all four, which
+  // is scale.
   const double common = 0.25 * (sum[0] + sum[1] + sum[2] + sum[3]);
   for (std::size_t i = 0; i < error_mm_.size(); ++i) {
     const std::size_t phase = phase_of(config_.first_line + static_cast<std::int64_t>(i));

@@ -11,19 +11,19 @@ namespace {
 
 using kernel::units::kTurn;
 
-// Which test fails when one is moved: README, "What the constants do".
-constexpr double kLongest = 0.08;       ///< s; a window that took longer is no smooth motion
+// Which test fails when one is changed: README, "What the constants do".
+constexpr double kLongest = 0.08;       ///< s; a window that took longer is not smooth motion
 constexpr double kMostResidual = 0.15;  ///< counts
 constexpr double kForgetPower = 0.9995;
 constexpr double kForgetWave = 0.999;
-constexpr double kStart = 0.05;  ///< counts, σ of a coefficient of which nothing is known
-constexpr double kPower = 14.0;  ///< of a peak, over what noise has
-constexpr double kShare = 0.1;   ///< of the residuals' power that a wave has at least
+constexpr double kStart = 0.05;  ///< counts, σ of an unknown coefficient
+constexpr double kPower = 14.0;  ///< of a peak, over that of noise
+constexpr double kShare = 0.1;   ///< least share of a wave in the residuals' power
 constexpr std::int64_t kLeastLines =
     150;  ///< travelled before waves are told from random errors of the lines
 constexpr double kLeastAmplitude = 0.004;  ///< counts
 constexpr double kApart = 0.008;           ///< 1/count, least distance of two waves
-constexpr double kSameWave = 0.004;        ///< 1/count, a wave is followed so far
+constexpr double kSameWave = 0.004;        ///< 1/count, how far a wave is followed
 constexpr double kFirstChoice = 32.0;      ///< residuals before the first choice
 constexpr std::uint32_t kEvery = 16;       ///< residuals from choice to choice
 constexpr double kFollow = 0.005;          ///< share of a residual in the mean squares
@@ -94,8 +94,8 @@ void Ripple::edge(double t_s, std::int64_t line, std::int8_t direction, bool los
 
 void Ripple::learn() noexcept {
   const std::uint32_t fresh = std::exchange(fresh_, 0U);
-  // More than two lines in a tick: only every third line or less would teach, and its waves could
-  // be any others.
+  // More than two lines in a tick: only every third line or fewer would teach, and its waves would
+  // be ambiguous.
   if (fresh == 0 || fresh > kMostFresh || count_ < kWindow || !weigh()) {
     return;
   }
@@ -108,7 +108,7 @@ void Ripple::learn() noexcept {
   }
 }
 
-/// The middle passage less the cubic through all, as weights of the passages.
+/// The middle passage minus the cubic through all, as weights of the passages.
 bool Ripple::weigh() noexcept {
   constexpr std::size_t kMiddle = kWindow / 2;
   const std::size_t newest = (next_ + kWindow - 1) % kWindow;
@@ -137,7 +137,7 @@ bool Ripple::weigh() noexcept {
     // The fit's value at u = 0 is its first coefficient, a weighted sum of the positions; the
     // weights need no positions, only times.
     weight_[i] = (i == kMiddle ? 1.0 : 0.0) - (g[0] + u[i] * (g[1] + u[i] * (g[2] + u[i] * g[3])));
-    // Positions are consecutive counts, so the index stands for them.
+    // Positions are consecutive counts, so the index represents them.
     residual_ += weight_[i] * (static_cast<double>(i) - static_cast<double>(kMiddle));
   }
   residual_ *= direction_;
@@ -147,8 +147,8 @@ bool Ripple::weigh() noexcept {
 }
 
 // Recursive least squares with forgetting. The wave goes through the same weights d as the
-// positions, so that what the cubic takes away of it is taken away of the prediction, too; cos and
-// sin along the window come from one rotation for each line.
+// positions, so that whatever the cubic removes from it is also removed from the prediction; cos
+// and sin along the window need one rotation per line.
 void Ripple::teach() noexcept {
   std::array<double, kStates> h{};
   const auto first = static_cast<double>(middle_ - static_cast<std::int64_t>(kWindow / 2) * sense_);
@@ -163,7 +163,7 @@ void Ripple::teach() noexcept {
     double c = cosine(f * first);
     double s = cosine(f * first - 0.25);
     for (const double d : weight_) {
-      // The same weights on the wave: what the residual would be if it were the wave alone.
+      // The same weights on the wave: the residual of the wave alone.
       h[2 * j] += d * c;
       h[2 * j + 1] += d * s;
       const double next = c * cr - s * sr;
@@ -190,8 +190,8 @@ void Ripple::teach() noexcept {
   for (std::size_t i = 0; i < kStates; ++i) {
     c_[i] += g[i] * nu / total;
     const double left = (p_[i][i] - g[i] * g[i] / total) / kForgetWave;
-    // Forgetting must not blow a variance up beyond what was not known at the start: rows and
-    // columns are scaled alike, so that P stays positive.
+    // Forgetting must not inflate a variance beyond its initial value: rows and columns are scaled
+    // alike, so that P stays positive.
     scale[i] = left > kStart * kStart ? kStart / std::sqrt(left) : 1.0;
   }
   for (std::size_t i = 0; i < kStates; ++i) {
@@ -201,7 +201,7 @@ void Ripple::teach() noexcept {
   }
 }
 
-// Discrete Fourier sums over the place, bins 1/1024 per count apart; only sums are kept, so the
+// Discrete Fourier sums over position, bins 1/1024 per count apart; only sums are kept, so the
 // window may be as long as the axis travels.
 void Ripple::search() noexcept {
   weight_sum_ = kForgetPower * weight_sum_ + 1.0;
@@ -254,7 +254,7 @@ std::array<Ripple::Peak, Ripple::kWaves> Ripple::peaks() const noexcept {
   return out;
 }
 
-/// Waves in use follow their peaks, or are dropped; peaks that are new take what is free.
+/// Waves in use follow their peaks or are dropped; new peaks take the free slots.
 void Ripple::choose() noexcept {
   std::array<Peak, kWaves> found = peaks();
   for (std::size_t j = 0; j < kWaves; ++j) {
@@ -276,7 +276,7 @@ void Ripple::choose() noexcept {
     }
     // The wave's value here stays.
     // Far from line 0 a small change of frequency turns the phase by many turns: the coefficients
-    // are turned back by as much.
+    // are rotated back by as much.
     const double turns = (nearest->frequency - wave_[j].frequency) * static_cast<double>(middle_);
     const double cr = cosine(turns);
     const double sr = cosine(turns - 0.25);
@@ -301,7 +301,7 @@ void Ripple::choose() noexcept {
     active_ = active_ || wave_[j].used;
     slope += kTurn * wave_[j].frequency * amplitude(j);
   }
-  // Far below 1, at which the waves would say that the axis turns back between two lines.
+  // Far below 1, at which the waves would make the axis reverse between two lines.
   if (slope > kMostSlope) {
     for (double& c : c_) {
       c *= kMostSlope / slope;

@@ -5,25 +5,26 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What repeats with place: waves of 5 … 35 counts that the position shows wherever the axis
-/// passes, learnt in place from the edges alone.
+/// Ripple that repeats with position: waves of 5 … 35 counts in the position, learnt in place from
+/// the edges alone.
 ///
 /// e(n) = Σ aⱼ·cos 2πfⱼn + bⱼ·sin 2πfⱼn, n in counts, up to four waves. Teeth, poles and the
-/// interpolation of a fine encoder make such; their velocity, v·e′, is 2 … 5 % of the speed and
-/// comes within 1 … 3 edges: news to any filter over time, but known beforehand by place.
+/// interpolation of a fine encoder cause such waves; their velocity, v·e′, is 2 … 5 % of the speed
+/// and appears within 1 … 3 edges: unpredictable for any filter over time, but known in advance by
+/// position.
 ///
-/// Learning: through 21 passages in one direction the cubic x(t) of least squares; the middle
-/// passage less the cubic is z = d·x with weights d that depend on the times alone. A bank of
-/// discrete Fourier sums over n finds the frequencies (power above 14 times that of noise), least
-/// squares with forgetting the coefficients, d·cos and d·sin in the place of the waves. Waves below
-/// five counts are left out: four counts are one period of the lines, and what repeats there is the
-/// lines' own error, no motion.
+/// Learning: a least-squares cubic x(t) through 21 passages in one direction; the middle passage
+/// minus the cubic is z = d·x with weights d that depend only on the times. A bank of discrete
+/// Fourier sums over n finds the frequencies (power above 14 times that of noise), and least
+/// squares with forgetting finds the coefficients, with d·cos and d·sin in place of the waves.
+/// Waves below five counts are excluded: four counts are one period of the lines, and what repeats
+/// there is the lines' own error, not motion.
 ///
-/// Waves are heard while they explain the residuals: what is left of them is below 0.7 of their
-/// power. The lines' random errors repeat with place too, but in no wave more than the others: a
-/// wave needs a tenth of the power, and 150 lines of travel.
+/// Waves are used while they explain the residuals: the remainder is below 0.7 of their power. The
+/// lines' random errors repeat with position too, but in no wave more than in others: a wave needs
+/// a tenth of the power and 150 lines of travel.
 ///
-/// Cost: 0.5 µs for each tick with a new passage. Lengths are counts. Figures:
+/// Cost: 0.5 µs per tick with a new passage. Lengths are counts. Figures:
 /// steadyrest/motion/README.md.
 namespace steadyrest::motion::online {
 
@@ -38,16 +39,16 @@ class Ripple {
   };
 
   Ripple() noexcept;
-  /// A passage in order of time. A turn, a lost edge or a hole in the lines starts the window anew.
+  /// A passage, in time order. A turn, a lost edge or a gap in the lines restarts the window.
   void edge(double t_s, std::int64_t line, std::int8_t direction, bool lost) noexcept;
-  /// Learns from the window that ends with the last passage. For every tick; a tick with more than
-  /// two passages teaches nothing: waves seen at every third line or less could be any others.
+  /// Learns from the window that ends with the last passage. Call at every tick; a tick with more
+  /// than two passages teaches nothing: waves sampled at every third line or fewer are ambiguous.
   void learn() noexcept;
-  /// At the place of `counts`, whose zero is line 0.
+  /// At the position `counts`, whose zero is line 0.
   [[nodiscard]] Value at(double counts) const noexcept;
-  /// Of a line, exact however far from 0.
+  /// At a line, exact however far from 0.
   [[nodiscard]] double at_line(std::int64_t line) const noexcept;
-  /// Waves were found that explain what is seen.
+  /// Waves were found that explain the residuals.
   [[nodiscard]] bool active() const noexcept { return active_ && noise_ < kHeard * power_; }
   /// Amplitude in counts of wave j, 0 = not in use; and its length in counts.
   [[nodiscard]] double amplitude(std::size_t j) const noexcept;
@@ -104,7 +105,7 @@ class Ripple {
   std::array<double, kStates> c_{};
   std::array<std::array<double, kStates>, kStates> p_{};
   double power_ = 1e-4;  ///< mean of z²
-  double noise_ = 1e-4;  ///< … of what the waves do not explain
+  double noise_ = 1e-4;  ///< … of the part that the waves do not explain
   bool active_ = false;  ///< a wave is in use
 };
 

@@ -37,10 +37,10 @@ void store_lines(const LineTable& table, kernel::machine::Encoder& encoder) {
   std::int64_t line = table.config().first_line;
   for (double& error_mm : encoder.line_table_mm) {
     if (table.learnt(line++) && std::abs(error_mm) < kLeastStored * encoder.count_mm) {
-      error_mm = kLeastStored * encoder.count_mm;  // 0 would say that it is not known
+      error_mm = kLeastStored * encoder.count_mm;  // 0 would mean "not known"
     }
   }
-  if (!table.in_use()) {  // it would say no more than the fits are wrong by
+  if (!table.in_use()) {  // it would contain no more than the fits' errors
     std::ranges::fill(encoder.phase_error_mm, 0.0);
     std::ranges::fill(encoder.line_table_mm, 0.0);
   }

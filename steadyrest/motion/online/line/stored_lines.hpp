@@ -7,12 +7,12 @@
 
 namespace steadyrest::motion::online {
 
-/// The line table that the machine file has of an encoder; without calibration a table that leaves
-/// every line where it is. It does not learn.
+/// The line table of an encoder in the machine file; without calibration a table that leaves every
+/// line where it is. It does not learn.
 [[nodiscard]] kernel::outcome::Result<LineTable> stored_lines(
     const kernel::machine::Encoder& encoder);
 
-/// What the machine file is to have of a table.
+/// Writes a table to the machine file's encoder.
 void store_lines(const LineTable& table, kernel::machine::Encoder& encoder);
 
 }  // namespace steadyrest::motion::online

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recorder as a microcontroller would build it: see edge_recorder_bare.sh.
+// The recorder as built for a microcontroller: see edge_recorder_bare.sh.
 #include <steadyrest/motion/online/edges/edge_inputs.hpp>
 #include <steadyrest/motion/online/edges/edge_ring.hpp>
 #include <steadyrest/motion/online/edges/quadrature_decoder.hpp>

@@ -9,14 +9,14 @@
 namespace steadyrest::nc::interpret {
 
 // TRANS and ROT replace the programmed frame, ATRANS and AROT add to it. Offset and rotation
-// change, the machine does not move.
+// change; the machine does not move.
 // RPL turns about the plane's normal, which is Z only in G17; ROT Z does so in any plane.
-// ATRANS shifts along the axes as they are turned already.
+// ATRANS shifts along the already rotated axes.
 bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);
   };
-  // In which order a frame and other words of its block would act is not certain.
+  // The order in which a frame and other words of its block act is not certain.
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
   if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
@@ -60,8 +60,8 @@ bool Frames::set(const Step& step) {
       shift[i] += added[i];
     }
   }
-  // What the next increment of a shifted axis means is a setting of the control (42440): settle()
-  // asks for an absolute position first.
+  // A setting of the control (42440) decides what the next increment of a shifted axis means:
+  // settle() requires an absolute position first.
   state_.frame_shift = shift;
   state_.frame_rotation_deg = angle;
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -99,14 +99,14 @@ bool Frames::set_fine(const read::Word& word) {
 }
 
 // After a new frame the first word of each axis must be absolute, unless the block goes to machine
-// coordinates: until then frame_pending and frame_turned remember it.
+// coordinates; frame_pending and frame_turned keep track.
 bool Frames::settle(const Step& step) {
   if ((state_.frame_pending == 0 && !state_.frame_turned) || step.moves_by < 0 ||
       step.machine_frame) {
     return true;
   }
   const std::uint32_t plane = Step::bit('X') | Step::bit('Y');
-  // Both ways to an increment: G91, and IC( ) for one word, unless AC( ) takes it back.
+  // The two ways to an increment: G91, unless the word has AC( ), and IC( ) for one word.
   const std::uint32_t moved = step.mask & kAxisMask;
   const std::uint32_t incremental =
       moved & (step.incremental | (state_.incremental ? ~step.absolute : 0U));
@@ -119,8 +119,8 @@ bool Frames::settle(const Step& step) {
         "setting of the control; program the axis absolutely first");
   }
   const bool arc = step.moves_by == g::kArcClockwise || step.moves_by == g::kArcCounterClockwise;
-  // After a rotation an axis that is not named keeps its work coordinate, which is another place of
-  // the machine now: both must be named, so that nothing depends on where the tool stood.
+  // After a rotation an unnamed axis keeps its work coordinate, which is now another machine
+  // position: both must be named, so that nothing depends on where the tool was.
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
     return refusals_.block(
         step, "frame_axis",

@@ -9,18 +9,19 @@ namespace steadyrest::nc::interpret {
 ///
 ///   machine = settable offset + fine offset + Rs·(shift + Rp·position) + tool
 ///
-/// TRANS and ROT delete the programmed frame before; ATRANS and AROT build on it, so that ATRANS
-/// goes along the turned axes.
+/// TRANS and ROT replace the programmed frame; ATRANS and AROT build on it, so ATRANS shifts along
+/// the rotated axes.
 class Frames : private Stage {
  public:
   using Stage::Stage;
 
   bool set(const Step& step);
   /// $P_IFRAME[X,FI]: "The written settable frame is immediately included in the calculation"; the
-  /// programmed frame stays, and the next G54 … takes what is stored ($P_UIFR). It moves nothing.
+  /// programmed frame stays, and the next G54 … loads the stored value ($P_UIFR). It moves nothing.
   bool set_fine(const read::Word& word);
-  /// Whether an increment behind a new frame contains the frame's shift is a setting of the control
-  /// (42440), so the axis must be programmed absolutely first; after a rotation X and Y together.
+  /// A setting of the control (42440) decides whether an increment after a new frame includes the
+  /// frame's shift, so the axis must first be programmed absolutely; after a rotation X and Y
+  /// together.
   bool settle(const Step& step);
 };
 

@@ -14,7 +14,7 @@ using kernel::outcome::refuse;
 using read::Block;
 
 kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config config) {
-  // All of the configuration is judged here, so that execution can rely on it.
+  // The whole configuration is checked here, so that execution can rely on it.
   for (const char letter : config.axes) {
     if (kAxisLetters.find(letter) == std::string_view::npos) {
       return refuse("axis letters `" + config.axes + "`", "name axes out of XYZABCUVW");
@@ -24,7 +24,7 @@ kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config c
     return refuse("active work offset " + std::to_string(config.active_offset + 1),
                   "choose 1 (G54) to 9 (G59.3)");
   }
-  // A word that means something already would lose that meaning.
+  // A word that already has a meaning would lose it.
   for (const std::int32_t code : {config.modulation_on, config.modulation_off}) {
     if (code < 0 || (code != 0 && group_of_m(code).known)) {
       return refuse("M" + std::to_string(code) + " for the speed modulation",
@@ -47,16 +47,16 @@ Interpreter::Interpreter(Config config) : control_(std::move(config)) {
   parameters_.keep(control_.config.numbers);
 }
 
-// One block: decode, choose its motion, check, act. False when it is refused; the state is then of
-// no further use.
+// One block: decode, choose its motion, check, act. False when it is refused; the state is then
+// useless.
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
-  // `follows`: the block before was a plain one, so the move in hand holds all but end and feed.
+  // `follows`: the previous block was plain, so the current move has everything but end and feed.
   const bool follows = plain_.forget();
   if (block.deleted() && control_.config.block_delete) {
     return true;
   }
-  // Comments, labels and empty lines are no blocks.
+  // Comments, labels and empty lines are not blocks.
   if (block.words().empty() && !block.end_mark()) {
     return true;
   }
@@ -78,7 +78,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (step_.frame != 0) {
     return frames_.set(step_);
   }
-  // The checks come before anything acts. What can be judged only on the way is refused there;
+  // The checks come before anything acts. Faults that show only during execution are refused there;
   // either way nothing runs after a refusal.
   if (!(check_.choose_motion(step_) && check_.check(step_) && frames_.settle(step_) &&
         act(step_))) {
@@ -88,7 +88,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
 }
 
-// sinumerik: CYCLE81(…) and MCALL have no words, so they pass neither decoder nor checks.
+// sinumerik: CYCLE81(…) and MCALL have no words, so they bypass decoder and checks.
 bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
   if (block.deleted() && control_.config.block_delete) {
     return true;
@@ -106,7 +106,7 @@ bool Interpreter::survey(const Block& block) {
   return decode(block);
 }
 
-// M73 brings the caller's modes back at the end of its subprogram.
+// M73 restores the caller's modes at the end of its subprogram.
 void Interpreter::leave_call(Sink& sink) {
   cutter_.send_to(sink);
   if (modes_.leave_call()) {
@@ -117,7 +117,7 @@ void Interpreter::leave_call(Sink& sink) {
 bool Interpreter::decode(const Block& block) {
   step_.reset(block);
   const bool accepted = control_.rules.decode(decoding_, block, step_);
-  // fanuc: a G0 or G1 beside G28 sets the mode only; G28 has the axis words.
+  // fanuc: a G0 or G1 in the block of G28 only sets the mode; the axis words belong to G28.
   if (step_.motion_mode != kNoCode) {
     control_.state.motion = step_.motion_mode;
   }
@@ -125,7 +125,7 @@ bool Interpreter::decode(const Block& block) {
 }
 
 // The order of execution within a block (README.md), that of RS274/NGC. It matters: a tool change
-// comes before the offset that belongs to the new tool, a dwell before the move, a stop after it.
+// comes before the new tool's offset, a dwell before the move, a stop after it.
 bool Interpreter::act(const Step& step) {
   out_.begin_block(step.line);
   if (step.modulation >= 0) {
@@ -145,7 +145,7 @@ bool Interpreter::act(const Step& step) {
   if (!machine_.outputs(step)) {
     return false;
   }
-  // The spindle is up to speed, the coolant flows: that is what a dwell waits for.
+  // A dwell waits for the spindle to reach speed and the coolant to flow.
   if (step.code(GGroup::non_modal) == g::kDwell) {
     out_.dwell(step['P']);
   }
@@ -227,7 +227,7 @@ bool Interpreter::move(const Step& step) {
 }
 
 bool Interpreter::call_program(const Step& step) {
-  // The call itself is up to whoever knows the program's lines (program.cpp).
+  // program.cpp, which knows the lines, makes the call itself.
   const int code = step.code(MGroup::program);
   if (code == kNoCode) {
     return true;
@@ -245,12 +245,12 @@ bool Interpreter::call_program(const Step& step) {
   return true;
 }
 
-// M2 and M30 end the program, M0, M1 and M60 stop it; the value tells M1, which the operator may
-// switch off.
+// M2 and M30 end the program, M0, M1 and M60 stop it; the value marks M1, which the operator may
+// disable.
 bool Interpreter::stop(const Step& step) {
   const int code = step.code(MGroup::stopping);
   if (code == m::kEnd || code == m::kEndAndRewind) {
-    // Moves that wait for cutter compensation must be out before the end and before a stop.
+    // Moves waiting for cutter compensation must go out before the end and before a stop.
     if (!cutter_.end(step)) {
       return false;
     }

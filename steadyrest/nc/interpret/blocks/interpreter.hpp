@@ -20,42 +20,43 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Executes blocks: decodes and checks each, has the stages act in order, and gives their moves and
+/// Executes blocks: decodes and checks each, runs the stages in order, and sends their moves and
 /// events to a sink.
 ///
-/// Order within a block, as LinuxCNC has it: feed mode, F, S, T, tool change, spindle, coolant,
+/// Order within a block, as in LinuxCNC: feed mode, F, S, T, tool change, spindle, coolant,
 /// override switches, dwell, plane, units, tool length, work offset, path mode, distance mode,
 /// retract mode, offsets and reference points, motion, program stop.
 ///
 /// A block is checked before it acts, but a fault that shows only while it acts (a cycle's missing
-/// word) may leave moves of the same block behind it; what was refused is never replaced by a
-/// guess. After a refusal the state is that of the last point that is certain: stop there.
+/// word) may come after moves of the same block; a refusal is never replaced by a guess. After a
+/// refusal the state is that of the last certain point: stop there.
 class Interpreter {
  public:
   static kernel::outcome::Result<std::unique_ptr<Interpreter>> make(Config config);
 
   /// False when the block is refused: see `refused()`.
   bool execute(const read::Block& block, Sink& sink);
-  /// A call of a drilling cycle (sinumerik); MCALL: after each block that moves, from now on.
+  /// A call of a drilling cycle (sinumerik); with MCALL it runs after each block that moves from
+  /// now on.
   bool execute_cycle(const read::Block& block, Sink& sink);
-  /// Looks at a block's words without executing: false when a word is not in the dialect.
+  /// Checks a block's words without executing: false when a word is not in the dialect.
   bool survey(const read::Block& block);
 
   [[nodiscard]] bool finished() const noexcept { return finished_; }
   [[nodiscard]] const read::Refused& refused() const noexcept { return control_.refusals.last(); }
   [[nodiscard]] const State& state() const noexcept { return control_.state; }
-  /// The last block was nothing but a straight move: of the state its position, motion and feed
-  /// alone may be others than before.
+  /// The last block was only a straight move: of the state, only position, motion and feed may have
+  /// changed.
   [[nodiscard]] bool moved_alone() const noexcept { return plain_.was_last(); }
   /// The line that is read next (#<_line>).
   void at_line(std::uint32_t line) noexcept { control_.state.line = line; }
-  /// What expressions of the program ask for.
+  /// The values that the program's expressions read.
   [[nodiscard]] Parameters& parameters() noexcept { return parameters_; }
-  /// The tool table as the program has left it; nothing where none was given.
+  /// The tool table as the program left it; nothing where none was given.
   [[nodiscard]] const std::optional<std::vector<Tool>>& tools() const noexcept {
     return control_.config.tools;
   }
-  /// A subprogram begins or ends: what M70 and M73 kept belongs to it.
+  /// A subprogram begins or ends: it has its own saved modes (M70, M73).
   void enter_call() { modes_.enter_call(); }
   void leave_call(Sink& sink);
   /// M98 or M99 of the block that was executed last.

@@ -13,7 +13,7 @@ void MachineWords::feed(const Step& step) noexcept {
                             : mode == g::kPerMinute ? FeedMode::per_minute
                                                     : FeedMode::per_revolution;
     // LinuxCNC clears F at every G94 and G95, the others only when the mode changes: a feed per
-    // minute would be nonsense per revolution.
+    // minute makes no sense per revolution.
     if (wanted != state_.feed_mode || control_.rules.feed_mode_clears_feed) {
       state_.feed_mode = wanted;
       state_.feed_mm_s = 0.0;
@@ -23,7 +23,7 @@ void MachineWords::feed(const Step& step) noexcept {
   if (!step.has('F')) {
     return;
   }
-  // F is in the unit in force for feeds, which G70 and G71 leave alone. Rotary axes take it in
+  // F is in the unit in force for feeds, which G70 and G71 do not change. For rotary axes it is in
   // degrees, whatever the unit.
   const double unit = state_.feed_unit_mm;
   switch (state_.feed_mode) {
@@ -31,7 +31,7 @@ void MachineWords::feed(const Step& step) noexcept {
       state_.feed_mm_s = step['F'] * unit / 60.0;
       state_.feed_deg_s = step['F'] / 60.0;
       break;
-    // F is 1/min, so feed_mm_s holds moves per second; the length turns it into mm/s later.
+    // F is 1/min, so feed_mm_s holds moves per second; the length converts it to mm/s later.
     case FeedMode::inverse_time:
       state_.feed_mm_s = step['F'] / 60.0;
       state_.feed_deg_s = state_.feed_mm_s;
@@ -58,7 +58,7 @@ bool MachineWords::spindle_speed(const Step& step) {
     state_.surface_speed_mm_s = 0.0;
     state_.spindle_limit_rev_s = 0.0;
   }
-  // G97 without S goes on at the last speed that S gave in rev/min.
+  // G97 without S continues at the last S in rev/min.
   if (!step.has('S')) {
     return true;
   }
@@ -70,14 +70,14 @@ bool MachineWords::spindle_speed(const Step& step) {
   } else {
     state_.spindle_speed_rev_s = step['S'] / 60.0;
   }
-  // A new S for a spindle that turns takes effect at once.
+  // A new S takes effect at once if the spindle is turning.
   if (state_.spindle_direction != 0) {
     out_.spindle();
   }
   return true;
 }
 
-// T prepares, M6 changes. On sinumerik a tool may have a name and no number.
+// T prepares, M6 changes. On sinumerik a tool may have a name instead of a number.
 bool MachineWords::select_tool(const Step& step) {
   if (!step.tool_name.empty()) {
     selected_name_ = step.tool_name;
@@ -90,13 +90,13 @@ bool MachineWords::select_tool(const Step& step) {
   return !step.has('T') || tool_number(control_, step, 'T', state_.selected_tool);
 }
 
-// The control takes the machine's position: behind G40 not that of the contour.
+// The control takes the machine's position: after G40 not the contour's.
 bool MachineWords::change_tool(const Step& step) {
   const int code = step.code(MGroup::tool_change);
   if (code == kNoCode) {
     return true;
   }
-  // M61 says what is in the spindle; nothing moves.
+  // M61 tells which tool is in the spindle; nothing moves.
   if (code == m::kToolInSpindle) {
     if (!step.has('Q') || step['Q'] != std::floor(step['Q']) || step['Q'] < 0.0) {
       return refusals_.m_word(step, 61, "tool_missing",
@@ -133,7 +133,7 @@ void MachineWords::coolant(const Step& step) {
   if (code == kNoCode) {
     return;
   }
-  // Bit 1 is mist, bit 2 flood: both may flow, and M9 ends both.
+  // Bit 1 is mist, bit 2 flood: both may be on; M9 switches both off.
   const auto bits = static_cast<unsigned>(state_.coolant);
   const unsigned wanted = code == m::kCoolantOff ? 0U : code == m::kMist ? bits | 1U : bits | 2U;
   state_.coolant = static_cast<double>(wanted);
@@ -152,7 +152,7 @@ void MachineWords::overrides(const Step& step) noexcept {
   } else if (code == m::kFeedOverride) {
     state_.override_off = off;
   }
-  // M51 rules the spindle override, M52 adaptive feed, M53 feed hold: no influence on the moves.
+  // M51 controls the spindle override, M52 adaptive feed, M53 feed hold: no effect on the moves.
 }
 
 // Outputs and inputs move nothing, but a missing number would be an error on the control.

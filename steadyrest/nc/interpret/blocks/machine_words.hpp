@@ -12,8 +12,8 @@ class MachineWords : private Stage {
  public:
   using Stage::Stage;
 
-  /// mm/min, mm/rev or 1/min to the inner unit. On LinuxCNC an F word acts in the units that were
-  /// in force before the block: it comes before G20/G21 in the order of execution.
+  /// Converts mm/min, mm/rev or 1/min to the internal unit. On LinuxCNC an F word uses the units in
+  /// force before the block: it comes before G20/G21 in the order of execution.
   void feed(const Step& step) noexcept;
   bool spindle_speed(const Step& step);
   bool select_tool(const Step& step);
@@ -21,8 +21,8 @@ class MachineWords : private Stage {
   void spindle(const Step& step);
   void coolant(const Step& step);
   void overrides(const Step& step) noexcept;
-  /// M62 to M68 move nothing. An input (M66) is taken to answer 0, as rs274 does: what it really
-  /// says only the machine knows.
+  /// M62 to M68 move nothing. An input (M66) is assumed to read 0, as in rs274: only the machine
+  /// knows its real value.
   bool outputs(const Step& step);
 
  private:

@@ -4,14 +4,13 @@
 
 namespace steadyrest::nc::interpret {
 
-// Lengths and feeds are converted as they are read; what is stored is mm already and needs no
-// change.
+// Lengths and feeds are converted as they are read; stored values are already in mm.
 void Modes::units(const Step& step) noexcept {
   const int code = step.code(GGroup::units);
   if (code == kNoCode) {
     return;
   }
-  // The feed's unit goes along except after G70 and G71, which are for lengths alone.
+  // The feed's unit changes too, except after G70 and G71, which are for lengths only.
   state_.unit_mm = code == g::kInch ? kMmPerInch : 1.0;
   if (step.work_feed) {
     state_.feed_unit_mm = state_.unit_mm;
@@ -31,7 +30,7 @@ void Modes::plane_and_units(const Step& step) noexcept {
 }
 
 void Modes::path(const Step& step) noexcept {
-  // ADIS stays in force from block to block, and is ready when G641 comes later.
+  // ADIS stays in force from block to block, ready for a later G641.
   if (step.rounding_mm >= 0.0) {
     rounding_mm_ = step.rounding_mm;
   }
@@ -74,8 +73,8 @@ void Modes::distance_and_retract(const Step& step) noexcept {
   }
 }
 
-// M70 keeps the modes until M72, M73 keeps them until the subprogram ends; M71 forgets them. Each
-// call has its own.
+// M70 saves the modes until M72, M73 until the subprogram ends; M71 discards them. Each call has
+// its own.
 bool Modes::keep(const Step& step) {
   const int code = step.code(MGroup::modes);
   Kept& kept = kept_.back();
@@ -100,7 +99,7 @@ bool Modes::keep(const Step& step) {
   }
 }
 
-// All modes but that of motion; positions and offsets' values are not modes.
+// All modes but the motion mode; positions and offset values are not modes.
 void Modes::restore(const State& kept) {
   state_.unit_mm = kept.unit_mm;
   state_.feed_unit_mm = kept.feed_unit_mm;
@@ -120,13 +119,13 @@ void Modes::restore(const State& kept) {
   state_.spindle_limit_rev_s = kept.spindle_limit_rev_s;
   state_.spindle_speed_rev_s = kept.spindle_speed_rev_s;
   state_.tool_offset = kept.tool_offset;
-  // Only a change loads the stored numbers of the offset: in the same system LinuxCNC goes on with
-  // those in force.
+  // Only a change loads the offset's stored numbers: in the same system LinuxCNC keeps those in
+  // force.
   if (state_.active_offset != kept.active_offset) {
     state_.active_offset = kept.active_offset;
     state_.work_in_force = state_.work_offset[kept.active_offset];
   }
-  // Spindle and coolant really change, so the machine must hear of it.
+  // Spindle and coolant really change, so events must follow.
   if (state_.spindle_direction != kept.spindle_direction) {
     state_.spindle_direction = kept.spindle_direction;
     out_.spindle();
@@ -142,7 +141,7 @@ void Modes::enter_call() {
   kept_.emplace_back();
 }
 
-// True when modes came back, so the move in hand must be filled in again.
+// True when modes were restored, so the current move must be filled in again.
 bool Modes::leave_call() {
   const Kept kept = kept_.back();
   kept_.pop_back();

@@ -8,7 +8,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Modes that stay in force, and M70 to M73, which keep them and bring them back.
+/// Modes that stay in force, and M70 to M73, which save and restore them.
 class Modes : private Stage {
  public:
   using Stage::Stage;
@@ -18,8 +18,8 @@ class Modes : private Stage {
   void path(const Step& step) noexcept;
   void distance_and_retract(const Step& step) noexcept;
   bool keep(const Step& step);
-  /// A subprogram begins or ends: what M70 and M73 have kept belongs to it. True where the modes of
-  /// before come back.
+  /// A subprogram begins or ends: it has its own saved modes (M70, M73). True where earlier modes
+  /// are restored.
   void enter_call();
   bool leave_call();
 

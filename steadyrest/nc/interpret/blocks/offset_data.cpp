@@ -33,8 +33,8 @@ bool OffsetData::work(const Step& step, double form) {
                             "G10 names no work offset; P0 (active) to P9 (G59.3) are allowed");
   }
   if (step.has('R') && form == 20.0) {
-    // L20 computes the offset for a given rotation; a new rotation in the same words would make two
-    // unknowns of one equation.
+    // L20 computes the offset for a given rotation; a new rotation in the same words would leave
+    // one equation with two unknowns.
     return refusals_.letter(step, 'R', "g10_form", "a rotation (R) in G10 L20; G10 L2 takes one");
   }
   if (!state_.work_offset_on && number == 0.0) {
@@ -47,7 +47,7 @@ bool OffsetData::work(const Step& step, double form) {
     state_.rotation_deg[set] = step['R'];
   }
   if (form == 2.0) {
-    // Other systems than the active one change silently: they act when they are selected.
+    // Inactive systems change silently: they act when selected.
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
       if (step.has(kAxisLetters[i])) {
         offset[i] = component(step, i, state_);
@@ -59,14 +59,14 @@ bool OffsetData::work(const Step& step, double form) {
   if (set != state_.active_offset) {
     return true;
   }
-  // For below: the offset as it was, and the position along the machine's axes.
+  // Needed below: the old offset, and the position along the machine's axes.
   const Axes before = state_.work_in_force;
   state_.work_in_force = offset;
   const double before_deg = state_.rotation_in_force_deg;
   Axes place = turned(state_.position, before_deg);
   update_offset(state_);
-  // LinuxCNC 2.9 leaves G92 out of account where the rotation changes: from here on it has X and Y
-  // at another place than the machine, and an axis that is not programmed goes there.
+  // LinuxCNC 2.9 ignores G92 when the rotation changes: from then on its X and Y differ from the
+  // machine's, and an axis that is not programmed goes there.
   if (state_.rotation_in_force_deg != before_deg) {
     for (std::size_t i = 0; i < place.size(); ++i) {
       place[i] += before[i] - offset[i];
@@ -78,8 +78,8 @@ bool OffsetData::work(const Step& step, double form) {
   return true;
 }
 
-// L2 alone: P1 to P6 are G54 to G59, P0 is the external offset that is added to all of them; on a
-// Haas P0 is G52. In G91 the words are added to what the offset has.
+// L2 alone: P1 to P6 are G54 to G59, P0 is the external offset added to all of them; on a Haas P0
+// is G52. In G91 the words are added to the offset.
 bool OffsetData::added_work(const Step& step, double form) {
   if (form != 2.0) {
     return refusals_.g_word(step, g::kSetData, "g10_form",
@@ -97,7 +97,7 @@ bool OffsetData::added_work(const Step& step, double form) {
   if (step.has('R')) {
     return refusals_.letter(step, 'R', "unused_word", "an R word with G10 L2");
   }
-  // Added, not replaced, in G91: so corrections can be written without knowing the value.
+  // G91 adds instead of replacing, so corrections can be written without knowing the value.
   Axes& offset =
       number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -112,8 +112,8 @@ bool OffsetData::added_work(const Step& step, double form) {
   return true;
 }
 
-// L20: sets `offset` so that the present position reads as the words say, in the coordinates that
-// it turns.
+// L20: sets `offset` so that the present position reads as the words say, in the rotated
+// coordinates.
 void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset) const {
   // machine = offset + R·(position + G92) + tool, solved for the offset.
   const Axes machine = to_machine(state_, state_.position);
@@ -125,8 +125,8 @@ void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset)
     }
     return;
   }
-  // With a rotation the unknown offset is turned into the work's axes: there each named axis gives
-  // one equation, and what is not named stays.
+  // With a rotation the unknown offset is turned into the work axes: each named axis gives one
+  // equation there, and the others stay.
   Axes from_origin{};
   for (std::size_t i = 0; i < from_origin.size(); ++i) {
     from_origin[i] = machine[i] - state_.tool_offset[i] - offset[i];
@@ -142,13 +142,13 @@ void OffsetData::place_here(const Step& step, double rotation_deg, Axes& offset)
   }
 }
 
-// L10 in rotated coordinates: X or Y that is not named stays where the tool's old data have it.
+// L10 in rotated coordinates: an unnamed X or Y stays where the tool's old data put it.
 void OffsetData::place_tool(const Step& step, const Axes& machine, const Axes& frame,
                             double turn_deg, Tool& tool) const {
   Axes tip{};
   for (std::size_t i = 0; i < 2; ++i) {
     // Where the tip is now, from the origin of the work offset, along the machine's axes; then
-    // turned into those of the work.
+    // turned into the work axes.
     tip[i] = machine[i] - frame[i] - tool.offset[i];
   }
   tip = turned(tip, -turn_deg);
@@ -163,8 +163,8 @@ void OffsetData::place_tool(const Step& step, const Axes& machine, const Axes& f
   }
 }
 
-// L1 sets a tool's data; L10 and L11 set them so that the tip would be at the given place of the
-// present work offset or of G59.3. What is in force changes with the next G43.
+// L1 sets a tool's data; L10 and L11 set them so that the tip would be at the given place in the
+// present work offset or in G59.3. The next G43 puts them in force.
 bool OffsetData::tool(const Step& step, double form) {
   const double number = step.has('P') ? step['P'] : -1.0;
   Tool* const place = number == std::floor(number) && number > 0.0 && number < 1e6
@@ -175,7 +175,7 @@ bool OffsetData::tool(const Step& step, double form) {
                             "G10 names a tool (P) that is not in the tool table");
   }
   constexpr std::size_t kFixtures = 8;  // G59.3
-  // L11 measures against a fixture on the table, whose place G59.3 holds: independent of the part's
+  // L11 measures against a fixture on the table, located by G59.3: independent of the part's
   // offset.
   const Axes& frame = form == 11.0 ? state_.work_offset[kFixtures] : state_.work_in_force;
   const Axes machine = to_machine(state_, state_.position);

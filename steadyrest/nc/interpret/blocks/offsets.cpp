@@ -5,12 +5,12 @@
 
 namespace steadyrest::nc::interpret {
 
-// G43 takes all of the tool's offsets, not Z alone: LinuxCNC has X and others for lathes.
+// G43 applies all of the tool's offsets, not only Z: LinuxCNC has X and others for lathes.
 bool Offsets::tool_length(const Step& step) {
   switch (step.code(GGroup::tool_length)) {
     case g::kToolLength:
     case g::kAddToolLength: {
-      // Without H the tool in the spindle, as on LinuxCNC.
+      // Without H it is the tool in the spindle, as on LinuxCNC.
       std::int32_t number = state_.tool_in_spindle;
       if (step.code(GGroup::tool_length) == g::kAddToolLength && !step.has('H')) {
         return refusals_.g_word(step, g::kAddToolLength, "tool_missing",
@@ -46,8 +46,8 @@ bool Offsets::tool_length(const Step& step) {
 }
 
 bool Offsets::work_offset(const Step& step) {
-  // A programmed frame is turned by the settable one, so changing that under it would move the
-  // frame: refused.
+  // The settable frame rotates the programmed one, so changing it would move the programmed frame:
+  // refused.
   const int code = step.code(GGroup::work_offset);
   if ((step.zero_offset || code != kNoCode) &&
       (state_.frame_rotation_deg != 0.0 || state_.frame_shift != Axes{})) {
@@ -61,8 +61,8 @@ bool Offsets::work_offset(const Step& step) {
     // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
     const auto active = static_cast<std::size_t>(
         code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
-    // LinuxCNC keeps what it has when the system is in force already, even if the program has set
-    // its numbers (#5221 …) since.
+    // LinuxCNC keeps its values when the system is already in force, even if the program has since
+    // set its numbers (#5221 …).
     if (active != state_.active_offset || !state_.work_offset_on) {
       state_.work_in_force = state_.work_offset[active];
     }
@@ -71,8 +71,8 @@ bool Offsets::work_offset(const Step& step) {
   } else {
     return true;
   }
-  // $P_IFRAME is that of the offset in force: selecting one loads its stored frame, without the
-  // fine part.
+  // $P_IFRAME belongs to the offset in force: selecting an offset loads its stored frame, without
+  // the fine part.
   state_.frame_fine = {};
   update_offset(state_);
   return true;
@@ -112,7 +112,7 @@ void Offsets::origin(const Step& step, int code) {
 }
 
 void Offsets::store_home(int code) noexcept {
-  // G28.1 stores the machine's position, so later offsets do not change where it is.
+  // G28.1 stores the machine position, so later offsets do not move it.
   state_.home[code == g::kStoreHome ? 0 : 1] = to_machine(state_, state_.position);
 }
 

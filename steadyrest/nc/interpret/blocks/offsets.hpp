@@ -5,7 +5,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Offsets and coordinate systems: what changes the meaning of positions without moving.
+/// Offsets and coordinate systems: they change the meaning of positions without moving.
 class Offsets : private Stage {
  public:
   using Stage::Stage;

@@ -8,8 +8,8 @@ namespace steadyrest::nc::interpret {
 namespace {
 
 // Nearly all lines of a CAM program are G0 or G1, axes and F. For these the checks and most stages
-// have nothing to do. What is done here must be exactly what the long way does: plain_block_test
-// runs random programs both ways.
+// have nothing to do. The result must equal the long path's exactly: plain_block_test runs random
+// programs both ways.
 
 constexpr std::uint32_t kRotaryMask = Step::bit('A') | Step::bit('B') | Step::bit('C');
 constexpr std::uint32_t kRotaryAxes = 0b111000;  // in Axes
@@ -19,7 +19,7 @@ constexpr std::uint32_t kRotaryAxes = 0b111000;  // in Axes
 bool PlainBlock::takes(const Step& step) const noexcept {
   const int motion = step.code(GGroup::motion);
   const int now = motion != kNoCode ? motion : state_.motion;
-  // Cutter compensation and open splines keep a move back or change it: not here.
+  // Cutter compensation and open splines hold a move back or change it: not here.
   return !step.others && control_.rules.short_way && (now == g::kRapid || now == g::kLinear) &&
          (motion != kNoCode || (step.mask & kAxisMask) != 0) && state_.cutter_side == 0 &&
          !cutter_.active() && !splines_.open();
@@ -42,7 +42,7 @@ bool PlainBlock::end_of(const Step& step, Axes& end) const noexcept {
   return fits;
 }
 
-// With `follows` the move in hand is the last one's: only kind, end and feed can differ.
+// With `follows` the current move is the previous one: only kind, end and feed can differ.
 bool PlainBlock::execute(Step& step, bool follows) {
   const int motion = step.code(GGroup::motion);
   step.moves_by = motion != kNoCode ? motion : state_.motion;
@@ -63,7 +63,7 @@ bool PlainBlock::execute(Step& step, bool follows) {
   }
   cutter_.goes_straight();
   const MoveKind kind = cutting ? MoveKind::linear : MoveKind::rapid;
-  // A rotary axis may make the feed one of degrees; then the whole move is filled in.
+  // A rotary axis may turn the feed into degrees; then the whole move is filled in.
   if (!follows || (step.mask & kRotaryMask) != 0) {
     was_last_ = !out_.beside();
     out_.move(kind, end);

@@ -11,9 +11,9 @@
 
 namespace steadyrest::nc::interpret {
 
-/// The short way for a block of G0 or G1, F and axis words alone: nearly all lines of a long
-/// program. Of all that the checks and the other stages look for, only what is done here can come
-/// of such a block. `test/plain_block_test.cpp` holds it against the long way.
+/// The fast path for a block of only G0 or G1, F and axis words: nearly all lines of a long
+/// program. Such a block can have no effect or fault other than those handled here.
+/// `test/plain_block_test.cpp` compares it with the long path.
 class PlainBlock : private Stage {
  public:
   PlainBlock(Control& control, MoveOutput& out, MachineWords& machine, CutterStage& cutter,
@@ -21,13 +21,13 @@ class PlainBlock : private Stage {
       : Stage(control, out), machine_(machine), cutter_(cutter), splines_(splines) {}
 
   [[nodiscard]] bool takes(const Step& step) const noexcept;
-  /// `follows`: so did the block before, and the modes of its move are those in force.
+  /// `follows`: the previous block was one too, and its move has the modes in force.
   bool execute(Step& step, bool follows);
 
-  /// The block that was executed last was such a block: of the state its position, motion and feed
-  /// alone may be others than before.
+  /// The last executed block was a plain one: of the state, only position, motion and feed may have
+  /// changed.
   [[nodiscard]] bool was_last() const noexcept { return was_last_; }
-  /// Another block, or a change of modes. True when the last one was a plain one.
+  /// Notes another kind of block or a change of modes. True when the last block was plain.
   bool forget() noexcept { return std::exchange(was_last_, false); }
 
  private:

@@ -8,7 +8,7 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-// Non-modal words that take the axis words for themselves, so that no motion may.
+// Non-modal words that use the axis words themselves, so no motion may.
 constexpr bool uses_axes(int non_modal) noexcept {
   return non_modal == g::kSetData || non_modal == g::kHome || non_modal == g::kSecondHome ||
          non_modal == g::kShift || non_modal == g::kSetOrigin;
@@ -24,7 +24,7 @@ std::string with_article(char letter) {
 
 }  // namespace
 
-// Which word uses the axis words: a motion of this block, a non-modal word (G10 G28 G30 G52 G92),
+// Which word uses the axis words: a motion in this block, a non-modal word (G10 G28 G30 G52 G92),
 // G43.1, or else the modal motion. Two users are refused: either could be meant. As in RS274/NGC.
 bool BlockCheck::choose_motion(Step& step) const {
   const int motion = step.code(GGroup::motion);
@@ -44,7 +44,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
                                motion == g::kThreadCycle || motion == g::kCubicSpline ||
                                motion == g::kQuadraticSpline)) {
-      // Without an axis word these have nothing to do: more likely a word is missing.
+      // Without an axis word these do nothing: most likely a word is missing.
       return refusals_.g_word(step, motion, "axis_words_missing", "a motion without any axis word");
     }
     step.moves_by = motion;
@@ -70,7 +70,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     }
     step.moves_by = state_.motion;
   }
-  // I and J alone under a modal G2 or G3: a full circle.
+  // Only I and J under a modal G2 or G3: a full circle.
   if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) &&
       non_modal != g::kSetData) {
     step.moves_by = state_.motion;
@@ -78,13 +78,13 @@ bool BlockCheck::choose_motion(Step& step) const {
   return true;
 }
 
-// Each is complete in itself; their order only decides which fault is named.
+// The checks are independent; their order only decides which fault is reported.
 bool BlockCheck::check(const Step& step) const {
   return check_values(step) && check_non_modal(step) && check_unused(step) && check_cutter(step);
 }
 
-// Every value is bounded, so no arithmetic behind this check overflows or meets infinity; the
-// negated comparison also catches what is not a number.
+// Every value is bounded, so no arithmetic after this check overflows or meets infinity; the
+// negated comparison also catches NaN.
 bool BlockCheck::check_values(const Step& step) const {
   for (std::uint32_t left = step.mask; left != 0; left &= left - 1) {
     const auto letter = static_cast<char>('A' + std::countr_zero(left));
@@ -133,7 +133,7 @@ bool BlockCheck::check_non_modal(const Step& step) const {
       return refusals_.g_word(step, g::kMachineFrame, "g53_without_straight_motion",
                               "machine coordinates need G0 or G1 in force");
     }
-    // What machine coordinates mean as increments is not defined.
+    // Incremental machine coordinates are undefined.
     const int distance = step.code(GGroup::distance);
     if (!lone &&
         (distance == g::kIncremental || (distance != g::kAbsolute && state_.incremental))) {
@@ -144,8 +144,8 @@ bool BlockCheck::check_non_modal(const Step& step) const {
   return true;
 }
 
-// A word that nothing in its block uses is a slip of the post processor: it is refused, as LinuxCNC
-// does, and not skipped. Each line below lists the users of one letter.
+// A word that nothing in its block uses is a post processor's mistake: like LinuxCNC, refuse it
+// instead of skipping it. Each line below lists the users of one letter.
 bool BlockCheck::check_unused(const Step& step) const {
   constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
                                      Step::bit('L') | Step::bit('P') | Step::bit('Q') |

@@ -8,12 +8,12 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Far beyond every machine; values above lose their meaning in the arithmetic that follows.
+/// Far beyond any machine; larger values would lose their meaning in later arithmetic.
 inline constexpr double kLargestValue = 1e7;
 
-/// What a block must and must not contain, before anything of it acts. Reads the state and changes
-/// nothing. The rules are those that LinuxCNC 2.9 shows (docs "G-code overview", and rs274 by
-/// experiment). All return false when the block is refused.
+/// Checks what a block must and must not contain before any of it acts. Reads the state and changes
+/// nothing. The rules are LinuxCNC 2.9's (docs "G-code overview", and rs274 by experiment). All
+/// functions return false when the block is refused.
 class BlockCheck {
  public:
   explicit BlockCheck(Control& control) noexcept
@@ -21,9 +21,9 @@ class BlockCheck {
 
   /// Sets `moves_by`: the block's own G word, or the modal one when axis words ask for it.
   bool choose_motion(Step& step) const;
-  /// Everything else; `moves_by` is set.
+  /// Checks everything else; `moves_by` must be set.
   bool check(const Step& step) const;
-  /// Numbers within their range.
+  /// Checks the range of all numbers.
   bool check_values(const Step& step) const;
 
  private:
@@ -38,7 +38,7 @@ class BlockCheck {
   Refusals& refusals_;
 };
 
-/// A feed is in force for a cutting move, and a spindle speed where the feed needs one.
+/// Checks that a feed is in force for a cutting move, and a spindle speed where the feed needs one.
 bool has_feed(const Step& step, const State& state, Refusals& refusals);
 
 }  // namespace steadyrest::nc::interpret

@@ -4,7 +4,7 @@
 
 #include <steadyrest/nc/interpret/check/block_check.hpp>
 
-// What cutter radius compensation forbids, as LinuxCNC 2.9 shows (rs274 by experiment).
+// What cutter radius compensation forbids in LinuxCNC 2.9 (rs274, by experiment).
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -23,8 +23,8 @@ bool sets_active_offset(const Step& step, const State& state) noexcept {
 
 }  // namespace
 
-// What comes before G40 to G42 in the order of execution meets the compensation of before the
-// block, what comes behind that of the block itself.
+// Whatever comes before G40 to G42 in the order of execution meets the compensation in force before
+// the block; whatever comes after them meets the block's own.
 bool BlockCheck::check_cutter(const Step& step) const {
   const int code = step.code(GGroup::cutter);
   const bool before = state_.cutter_side != 0;
@@ -65,8 +65,8 @@ bool BlockCheck::cutter_permits_what_comes_before(const Step& step) const {
   return true;
 }
 
-// A canned cycle, a thread or a probe has no contour; an offset that changes would bend the one in
-// hand.
+// A canned cycle, a thread or a probe has no contour; a changing offset would distort the current
+// one.
 bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
   struct Rule {
     bool broken;
@@ -78,12 +78,11 @@ bool BlockCheck::cutter_permits_what_comes_behind(const Step& step) const {
   const int length = step.code(GGroup::tool_length);
   const int path = step.code(GGroup::path_mode);
   const int retract = step.code(GGroup::retract);
-  // LinuxCNC goes on with a contour that has jumped; so only a change that does something is
-  // refused.
+  // LinuxCNC continues with a contour that has jumped, so only an effective change is refused.
   const bool clears =
       (non_modal == g::kForgetOrigin || non_modal == g::kOriginOff) && state_.g92 != Axes{};
   const bool shifts = clears || (non_modal == g::kOriginOn && state_.g92 != state_.g92_stored);
-  if (shifts) {  // the control takes it and goes on from another place
+  if (shifts) {  // the control accepts it and continues from another place
     return refusals_.g_word(step, non_modal, "cutter_comp_shift",
                             "an axis offset that changes while cutter radius compensation is on");
   }

@@ -25,8 +25,8 @@ Control::Control(Config start) : config(std::move(start)), rules(rules_of(config
   state.tool_in_spindle = config.tool_in_spindle;
   state.selected_tool = config.tool_in_spindle;
   state.retract_to_initial = rules.starts_with_g98;
-  // update_offset() keeps the machine where it is and moves the work coordinates. So it must run
-  // before the given machine position is turned into them.
+  // update_offset() keeps the machine where it is and moves the work coordinates, so it must run
+  // before the given machine position is converted to them.
   state.position = config.start;
   update_offset(state);
   state.position = to_work(state, config.start);

@@ -10,9 +10,9 @@
 
 namespace steadyrest::nc::interpret {
 
-/// What a control holds while it executes a program. All stages share it.
+/// The state of a control while it executes a program. All stages share it.
 struct Control {
-  /// `start` is taken as it is: see Interpreter::make.
+  /// `start` is not checked: see Interpreter::make.
   explicit Control(Config start);
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;

@@ -11,8 +11,8 @@ namespace {
 
 // Machine and work coordinates; machine = R·work + offset, R the rotation in force about Z.
 
-// G53: the named axes go to machine coordinates, the machine's others stay. The tool's length stays
-// in force on SINUMERIK, on the others it is suppressed as well.
+// G53: the named axes go to machine coordinates, the others stay. The tool length stays in force on
+// SINUMERIK and is suppressed on the other controls.
 Axes machine_end(const Step& step, const Control& control) {
   const State& state = control.state;
   Axes end = state.position;
@@ -24,8 +24,8 @@ Axes machine_end(const Step& step, const Control& control) {
                    (keeps_tool || tool_stays(control.rules, i) ? state.tool_offset[i] : 0.0);
     }
   }
-  // Where the coordinates are turned, moving one of the machine's X and Y changes both in work
-  // coordinates, even if the block names only one.
+  // In rotated coordinates, moving the machine's X or Y changes both in work coordinates, even if
+  // the block names only one.
   const Axes work = to_work(state, machine);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     const bool turns = i < 2 && state.rotation_in_force_deg != 0.0;
@@ -61,9 +61,9 @@ Axes to_work(const State& state, const Axes& machine) noexcept {
   return turned(out, -state.rotation_in_force_deg);
 }
 
-// A change of offsets does not move the machine: its work position changes instead. The order of
-// the parts, from the machine inwards: settable offset and external offset, fine offset, the
-// programmed frame turned by the settable rotation, G92 turned by both rotations, the tool.
+// A change of offsets does not move the machine; the work position changes instead. The parts, from
+// the machine inwards: settable offset and external offset, fine offset, the programmed frame
+// turned by the settable rotation, G92 turned by both rotations, the tool.
 void update_offset(State& state) noexcept {
   const double settable_deg = state.work_offset_on ? state.rotation_deg[state.active_offset] : 0.0;
   const double rotation_deg = settable_deg + state.frame_rotation_deg;
@@ -73,11 +73,11 @@ void update_offset(State& state) noexcept {
   const Axes g92 = turned(state.g92, rotation_deg);
   for (std::size_t i = 0; i < state.offset.size(); ++i) {
     const double work = state.work_offset_on ? state.work_in_force[i] : 0.0;
-    // The tool's offset is not turned: tools are measured along the machine's axes.
+    // The tool offset is not rotated: tools are measured along the machine's axes.
     const double offset =
         work + state.external[i] + state.frame_fine[i] + frame[i] + g92[i] + state.tool_offset[i];
-    // Without a rotation the difference is added rather than the position computed again: it costs
-    // no digit, however often offsets change.
+    // Without a rotation the difference is added instead of recomputing the position: no digit is
+    // lost, however often offsets change.
     state.position[i] += state.offset[i] - offset;
     state.offset[i] = offset;
   }
@@ -93,8 +93,8 @@ bool tool_stays(const DialectRules& rules, std::size_t axis) noexcept {
 
 void polar_point(const Step& step, const State& state, Axes& point) noexcept {
   using kernel::units::kDegree;
-  // A polar word that is left out keeps its present value; in G91 the words add to the present
-  // ones. Zero is the angle of +X.
+  // An omitted polar word keeps its present value; in G91 the words add to the present values. The
+  // angle of +X is zero.
   double radius = std::hypot(point[0], point[1]);
   double angle = std::atan2(point[1], point[0]);
   if (!std::isnan(step.polar_radius)) {
@@ -107,19 +107,18 @@ void polar_point(const Step& step, const State& state, Axes& point) noexcept {
   point[1] = radius * std::sin(angle);
 }
 
-// Where the block goes, in work coordinates; axes that it does not name stay.
+// Where the block goes, in work coordinates; unnamed axes stay.
 Axes end_point(const Step& step, const Control& control) noexcept {
   const State& state = control.state;
   if (step.machine_frame) {
     return machine_end(step, control);
   }
   Axes end = state.position;
-  // One pass over the axis words that there are, not over all nine axes: nearly all blocks have one
-  // to three.
+  // Loops over the axis words present, not all nine axes: nearly all blocks have one to three.
   for (std::uint32_t left = step.mask & kAxisMask; left != 0; left &= left - 1) {
     const std::uint32_t bit = left & (~left + 1);
     const std::size_t i = kAxisOfLetter[static_cast<std::size_t>(std::countr_zero(left))];
-    // AC( ) and IC( ) beat G90 and G91 for their own word.
+    // AC( ) and IC( ) override G90 and G91 for their own word.
     const bool incremental =
         (step.incremental & bit) != 0 || (state.incremental && (step.absolute & bit) == 0);
     const double value = component(step, i, state);

@@ -15,22 +15,22 @@ namespace steadyrest::nc::interpret {
 [[nodiscard]] Axes to_machine(const State& state, const Axes& work) noexcept;
 [[nodiscard]] Axes to_work(const State& state, const Axes& machine) noexcept;
 
-/// After a change of any offset. The machine stays where it is: the work position takes the
-/// difference.
+/// To be called after any offset change. The machine stays where it is: the work position takes up
+/// the difference.
 ///
 ///   machine = R·(position + g92) + work offset + frame + tool
 ///
 /// with R the rotation of the work offset and of sinumerik's programmed frame.
 void update_offset(State& state) noexcept;
 
-/// Where the block's words lead, in work coordinates; axes that are not named stay.
+/// Where the block's words lead, in work coordinates; unnamed axes stay.
 [[nodiscard]] Axes end_point(const Step& step, const Control& control) noexcept;
 
-/// @ and ^ from the point `point`: the distance from the origin and the angle, each the present one
-/// where it is not given; in G91 both are added. Always in the XY plane, as on LinuxCNC.
+/// Applies @ and ^ to `point`: the distance from the origin and the angle, each the present one if
+/// omitted; in G91 both are added. Always in the XY plane, as on LinuxCNC.
 void polar_point(const Step& step, const State& state, Axes& point) noexcept;
 
-/// LinuxCNC 2.9 takes the tool's offset off on its way to machine coordinates, but for A, B and C.
+/// LinuxCNC 2.9 removes the tool offset for machine coordinates, except for A, B and C.
 [[nodiscard]] bool tool_stays(const DialectRules& rules, std::size_t axis) noexcept;
 
 }  // namespace steadyrest::nc::interpret

@@ -6,7 +6,8 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-// The feed of rotary axes alone is in degrees a second; with any linear axis it is along X Y Z.
+// When only rotary axes move, the feed is in degrees per second; with any linear axis it is along X
+// Y Z.
 bool only_rotary_moves(const Axes& from, const Axes& to) noexcept {
   bool rotary = false;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -39,7 +40,7 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
   current_.start = state_.position;
   current_.end = end;
   put_modes(current_);
-  // A rapid has no feed of the program's.
+  // A rapid has no programmed feed.
   const bool cutting = kind != MoveKind::rapid;
   current_.feed_mm_s = !cutting                                  ? 0.0
                        : only_rotary_moves(state_.position, end) ? state_.feed_deg_s
@@ -52,7 +53,7 @@ Move& MoveOutput::fill(MoveKind kind, const Axes& end) noexcept {
 
 void MoveOutput::move(MoveKind kind, const Axes& end) {
   fill(kind, end);
-  // After G40 the tool is still beside the contour. The first move starts there and ends on the
+  // After G40 the tool is still off the contour. The first move starts there and ends on the
   // contour.
   if (beside_) {
     time_by_contour();
@@ -63,7 +64,7 @@ void MoveOutput::move(MoveKind kind, const Axes& end) {
   current_.machine_axes = 0;
 }
 
-// A new move: the one in hand may be half made, with an arc's centre or machine axes set.
+// A new move: the current one may be half filled, with an arc's centre or machine axes set.
 void MoveOutput::dwell(double seconds) {
   Move out;
   out.kind = MoveKind::dwell;
@@ -96,7 +97,7 @@ void MoveOutput::along(MoveKind kind, std::size_t axis, double value) {
   move(kind, end);
 }
 
-// Rev/s with the sign of the direction. Under G96 the speed depends on X, so the event says 0 and
+// Rev/s with the sign of the direction. Under G96 the speed depends on X, so the event has 0 and
 // the moves carry the cutting speed.
 void MoveOutput::spindle() {
   const double speed = state_.surface_speed ? 0.0 : state_.spindle_speed_rev_s;
@@ -107,9 +108,8 @@ void MoveOutput::event(EventKind kind, double value, std::string_view tool_name)
   sink_->on_event({.kind = kind, .line = current_.line, .value = value, .tool_name = tool_name});
 }
 
-// G93 gives the time of the block. Under compensation the contour's length counts, not that of the
-// tool's path, which differs at every corner; as a feed it keeps its meaning whatever path comes
-// out.
+// G93 gives the time of the block. Under compensation the contour's length counts, not the tool
+// path's, which differs at every corner; converted to a feed, it holds for any resulting path.
 void MoveOutput::time_by_contour() noexcept {
   if (current_.feed_mode == FeedMode::inverse_time && current_.kind != MoveKind::rapid) {
     current_.feed_mm_s *= path_length(current_);
@@ -117,7 +117,7 @@ void MoveOutput::time_by_contour() noexcept {
   }
 }
 
-// Once only: from then on the tool is where the program says.
+// Only once: from then on the tool is where the program says.
 Axes MoveOutput::take_beside(Axes point) noexcept {
   for (std::size_t i = 0; beside_ && i < point.size(); ++i) {
     point[i] += (*beside_)[i];

@@ -11,8 +11,8 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Gives moves and events to the sink, with the modes in force. Whatever moves brings the state's
-/// position along.
+/// Sends moves and events to the sink, with the modes in force. Each move updates the state's
+/// position.
 class MoveOutput {
  public:
   explicit MoveOutput(State& state) noexcept : state_(state) {}
@@ -20,7 +20,7 @@ class MoveOutput {
   void send_to(Sink& sink) noexcept { sink_ = &sink; }
   void begin_block(std::uint32_t line) noexcept { current_.line = line; }
   [[nodiscard]] std::uint32_t line() const noexcept { return current_.line; }
-  /// The next move: what a stage sets here goes out with it. The stage takes it back.
+  /// The next move: whatever a stage sets here goes out with it. The stage resets it afterwards.
   [[nodiscard]] Move& current() noexcept { return current_; }
 
   /// Completes the next move without sending it.
@@ -28,9 +28,9 @@ class MoveOutput {
   void move(MoveKind kind, const Axes& end);
   /// Along one axis.
   void along(MoveKind kind, std::size_t axis, double value);
-  /// In rapid to where `above` is, but at `level` of the axis along the hole; then the spindle.
+  /// Rapid to `above`, but at `level` of the axis along the hole; then sets the spindle.
   void back_over(const Axes& above, std::size_t axis, double level, int spindle_direction);
-  /// A straight move with the modes of the one before, which were those in force now.
+  /// A straight move with the modes of the previous one, which must still be in force.
   void move_on(MoveKind kind, const Axes& end) {
     current_.kind = kind;
     current_.start = state_.position;
@@ -40,20 +40,20 @@ class MoveOutput {
     sink_->on_move(current_);
   }
   void dwell(double seconds);
-  /// The spindle as the state has it.
+  /// Sends the spindle's state.
   void spindle();
   void event(EventKind kind, double value, std::string_view tool_name = {});
 
-  /// In G93 the length of the contour gives the feed, whatever way the tool's centre has.
+  /// In G93 the contour's length gives the feed, whatever the path of the tool centre.
   void time_by_contour() noexcept;
-  /// Behind G40 the tool stands beside the point in force, by this, until the next move.
+  /// The tool's offset from the current point after G40, until the next move.
   [[nodiscard]] const std::optional<Axes>& beside() const noexcept { return beside_; }
   void stand_beside(const Axes& by) noexcept { beside_ = by; }
-  /// `point` and where the tool stands beside it, from now on at the point in force.
+  /// `point` plus the tool's offset from it, which is cleared.
   [[nodiscard]] Axes take_beside(Axes point) noexcept;
 
  private:
-  /// Frame, modes and spindle as the state has them.
+  /// Copies frame, modes and spindle from the state.
   void put_modes(Move& move) const noexcept;
 
   State& state_;

@@ -6,7 +6,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// What every stage works with: it reads and sets the control's state, and gives out moves.
+/// Base of every stage: reads and sets the control's state and sends out moves.
 class Stage {
  public:
   Stage(Control& control, MoveOutput& out) noexcept

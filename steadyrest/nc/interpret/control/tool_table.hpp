@@ -7,10 +7,11 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Without a table every tool exists, with length 0; with one, tool 0 does. nullptr: no such tool.
+/// Without a table every tool exists with length 0; with one, tool 0 always does. nullptr: no such
+/// tool.
 [[nodiscard]] const Tool* find_tool(const Config& config, std::int32_t number) noexcept;
 
-/// The table's own entry, to be changed.
+/// The table's own entry, for changes.
 [[nodiscard]] Tool* place_of_tool(Config& config, std::int32_t number);
 
 /// The number in a word; refused when there is no such tool.

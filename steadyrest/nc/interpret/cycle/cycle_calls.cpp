@@ -14,7 +14,7 @@ using read::Flow;
 struct Known {
   std::string_view name;
   int number;
-  std::size_t values;  ///< what it takes; newer versions have more, which must be left out or zero
+  std::size_t values;  ///< how many it takes; further ones of newer versions must be omitted or 0
 };
 constexpr std::array kKnownCycles = {
     Known{"CYCLE81", 81, 5}, Known{"CYCLE82", 82, 6},  Known{"CYCLE84", 84, 12},
@@ -67,7 +67,7 @@ bool CycleCalls::call(const Flow& call) {
     return drill(call);
   }
   // MCALL without a name ends the modal call; with one, the planes are checked at once, so a fault
-  // is named in its own line and not at the first hole.
+  // is reported in its own line, not at the first hole.
   modal_.reset();
   Hole hole;
   if (call.label.view().empty()) {
@@ -80,12 +80,12 @@ bool CycleCalls::call(const Flow& call) {
   return true;
 }
 
-// Called by the interpreter behind every block that moves an axis.
+// The interpreter calls this after every block that moves an axis.
 bool CycleCalls::after_move() {
   return !modal_ || drill(*modal_);
 }
 
-// The planes that all cycles share: retraction, reference and safety clearance, depth.
+// The planes common to all cycles: retraction, reference and safety clearance, depth.
 bool CycleCalls::planes(const Flow& call, Hole& hole) {
   const std::string_view name = call.label.view();
   const auto* const known = std::ranges::find_if(
@@ -94,7 +94,7 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
     return refuse(call, "cycle_not_interpreted",
                   "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
   }
-  // Zero is what the control takes for a value left out.
+  // The control treats an omitted value as zero.
   for (std::size_t i = known->values; i < call.count; ++i) {
     if (value(call, i) != 0.0) {
       return refuse(call, "cycle_value",
@@ -106,8 +106,8 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
                   "a cycle without its retraction plane, reference plane or depth");
   }
   const double unit = state_.unit_mm;
-  // DP is absolute; DPR is measured from the reference plane, its sign does not count. Both are
-  // allowed if they agree.
+  // DP is absolute; DPR is measured from the reference plane, regardless of sign. Both are allowed
+  // if they agree.
   const double reference = value(call, kRfp);
   const double relative = reference - std::abs(value(call, kDpr));
   const bool absolute = given(call, kDp) && value(call, kDpr) == 0.0;
@@ -160,7 +160,7 @@ bool CycleCalls::drill(const Flow& call) {
   if (number == '5' && !(value(call, 6) > 0.0 && value(call, 7) > 0.0)) {
     return refuse(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
   }
-  // Every cycle begins at the reference plane plus clearance, at rapid.
+  // Every cycle begins with a rapid to the reference plane plus clearance.
   out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
   switch (number) {
     case '4':
@@ -182,9 +182,9 @@ bool CycleCalls::drill(const Flow& call) {
   return true;
 }
 
-// (RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF): in and out with feeds of their own.
+// (RTP, RFP, SDIS, DP, DPR, DTB, FFR, RFF): in and out at separate feeds.
 void CycleCalls::ream(const Flow& call, const Hole& hole) {
-  // FFR and RFF are feeds in the program's unit, so they are converted like an F word.
+  // FFR and RFF are feeds in the program's unit, so convert them like an F word.
   const double feed = state_.feed_mm_s;
   const double scale =
       state_.feed_unit_mm / (state_.feed_mode == FeedMode::per_minute ? 60.0 : 1.0);
@@ -214,7 +214,7 @@ void CycleCalls::bore(const Flow& call, const Hole& hole) {
   const int direction = state_.spindle_direction;
   state_.spindle_direction = 0;
   out_.spindle();
-  // RPA, RPO, RPAP lift the tool off the wall before it comes out; they are increments.
+  // RPA, RPO, RPAP, all increments, lift the tool off the wall before it comes out.
   Axes aside = state_.position;
   aside[axes.first] += value(call, 7) * unit;
   aside[axes.second] += value(call, 8) * unit;
@@ -245,7 +245,7 @@ bool CycleCalls::tap(const Flow& call, const Hole& hole) {
     return refuse(call, "bad_value",
                   "CYCLE84 without what the spindle does after it (SDAC: 3, 4 or 5)");
   }
-  // The cycle's own feed mode, pitch and speed must not stay in force behind it.
+  // The cycle's own feed mode, pitch and speed must not stay in force after it.
   const State kept = state_;
   state_.surface_speed = false;
   state_.feed_mode = FeedMode::per_revolution;
@@ -257,7 +257,7 @@ bool CycleCalls::tap(const Flow& call, const Hole& hole) {
   if (value(call, kDtb) > 0.0) {
     out_.dwell(value(call, kDtb));
   }
-  // Out with the spindle reversed, at SST1 if that is given: the pitch keeps both in step.
+  // Out with the spindle reversed, at SST1 if given: the pitch keeps both in step.
   state_.spindle_direction = -state_.spindle_direction;
   state_.spindle_speed_rev_s = out / 60.0;
   out_.spindle();

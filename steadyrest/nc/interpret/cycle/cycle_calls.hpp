@@ -7,15 +7,15 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Sinumerik's cycles by their calls: CYCLE81, 82, 84, 85, 86 in the sequences of the manual
-/// "Cycles", CYCLE800() alone.
+/// Sinumerik's cycle calls: CYCLE81, 82, 84, 85, 86 in the sequences of the manual "Cycles",
+/// CYCLE800() only without values.
 class CycleCalls : private Stage {
  public:
   using Stage::Stage;
 
-  /// A call; MCALL: from now on after each block that moves.
+  /// A call; with MCALL from now on after each block that moves.
   bool call(const read::Flow& call);
-  /// After a block that has moved an axis.
+  /// To be called after a block that moved an axis.
   bool after_move();
 
  private:

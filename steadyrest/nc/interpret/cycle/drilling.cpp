@@ -10,7 +10,7 @@ namespace steadyrest::nc::interpret {
 namespace {
 
 constexpr std::string_view kNormalLetters = "XYZ";
-/// Most moves that one block may unfold into: bounded time for every program.
+/// The most moves that one block may expand to: bounds the time of every program.
 constexpr double kMostMoves = 1e6;
 /// G73 and G83 return to this height above the bottom of the last peck: 0.254 mm or 0.010 in.
 constexpr double kPeckClearance_mm = 0.254;
@@ -21,14 +21,14 @@ double repeats_of(const Step& step) noexcept {
 
 }  // namespace
 
-// Sticky words: they stay while the same cycle goes on from block to block.
+// Sticky words: they persist while the same cycle continues from block to block.
 bool Drilling::remember(const Step& step) {
-  // Words are kept in the program's units. `fresh` is the first block of a cycle: LinuxCNC asks for
+  // Words are kept in the program's units. `fresh` is the first block of a cycle: LinuxCNC requires
   // the words again when another cycle begins, FANUC when a cycle follows something else.
   CycleMemory& memory = state_.cycle;
   const bool stay = control_.rules.cycle_words_stay;
   const bool fresh = stay ? !is_cycle(state_.motion) : state_.motion != step.moves_by;
-  // The initial level of G98 is where the first block of a row of holes began.
+  // The initial level of G98 is the level at which a row of holes began.
   if (!is_cycle(state_.motion) || memory.begins_anew) {
     memory.initial = state_.position[axes_of(state_.plane).normal] / state_.unit_mm;
     memory.begins_anew = false;
@@ -48,7 +48,7 @@ bool Drilling::remember(const Step& step) {
   const bool taps = code == g::kTapRight || code == g::kTapLeft;
   const bool back = code == g::kBackBore;
   // LinuxCNC keeps P from cycle to cycle, but tapping begins without a dwell; FANUC begins every
-  // row of holes with none.
+  // row of holes without one.
   if (fresh && (taps || stay)) {
     memory.dwell_s = 0.0;
   }
@@ -98,8 +98,8 @@ bool Drilling::check(const Step& step) {
   return has_feed(step, state_, refusals_);
 }
 
-// The levels of the hole by the sticky words; refused where they are in the wrong order or too many
-// moves would follow from them.
+// The levels of the hole from the sticky words; refused where they are in the wrong order or would
+// need too many moves.
 bool Drilling::measure(const Step& step, Hole& hole) {
   const CycleMemory& memory = state_.cycle;
   const double unit = state_.unit_mm;
@@ -117,8 +117,8 @@ bool Drilling::measure(const Step& step, Hole& hole) {
   hole.clear_mm = state_.retract_to_initial ? high : hole.retract_mm;
   const double depth = hole.retract_mm - hole.bottom_mm;
   const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
-  // A peck is at most three moves. Without the bound a misplaced decimal point in Q would unfold
-  // into any number of them.
+  // A peck is at most three moves. Without the bound a misplaced decimal point in Q could expand to
+  // any number.
   const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refusals_.letter(step, step.has('L') ? 'L' : 'Q', "out_of_range",
@@ -127,7 +127,7 @@ bool Drilling::measure(const Step& step, Hole& hole) {
   return true;
 }
 
-// Over the next hole at the given height, then down to the retract plane.
+// Goes over the next hole at the given height, then down to the retract plane.
 void Drilling::go_to(const Step& step, const Hole& hole, double height_mm) {
   Axes over = state_.position;
   for (const std::size_t axis : {hole.axes.first, hole.axes.second}) {
@@ -162,15 +162,15 @@ bool Drilling::cycle(const Step& step) {
   }
   state_.motion = step.moves_by;
   const bool lifts = control_.rules.cycle_lifts_first;
-  // LinuxCNC goes up to R before it goes across; FANUC goes across first.
+  // LinuxCNC lifts to R before it moves across; FANUC moves across first.
   if (lifts && hole.initial_mm < hole.retract_mm) {
     out_.along(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
   }
-  // Cycles run on the exact path whatever G64 says: a rounded corner at R would begin the hole
-  // beside it.
+  // Cycles run on the exact path whatever G64 says: a corner rounded at R would start the hole off
+  // its axis.
   const PathMode path_mode = state_.path_mode;
   state_.path_mode = PathMode::exact_path;
-  // LinuxCNC lifts to the clearance first where the cycle goes on without its G word.
+  // LinuxCNC first lifts to the clearance where the cycle continues without its G word.
   const bool goes_on = step.code(GGroup::motion) == kNoCode;
   double height = state_.position[hole.axes.normal];
   if (lifts) {
@@ -178,7 +178,7 @@ bool Drilling::cycle(const Step& step) {
   }
   const double repeats = repeats_of(step);
   bool accepted = true;
-  // The second and later holes of a block start from the clearance of the one before.
+  // The second and later holes of a block start from the previous one's clearance.
   for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
     go_to(step, hole, height);
     accepted = drill(step, hole);
@@ -189,8 +189,8 @@ bool Drilling::cycle(const Step& step) {
   return accepted;
 }
 
-// From the R plane down and out to the clearance; the cycles differ in how they stop at the bottom
-// and come out.
+// From the R plane down and back out to the clearance; the cycles differ in what they do at the
+// bottom and on the way out.
 bool Drilling::drill(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   switch (step.moves_by) {
@@ -225,12 +225,12 @@ bool Drilling::drill(const Step& step, const Hole& hole) {
   }
 }
 
-// G83 clears the chips by going up to the R plane, G73 only breaks them.
+// G83 clears the chips by retracting to the R plane; G73 only breaks them.
 bool Drilling::peck(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
   const double peck_mm = state_.cycle.peck * state_.unit_mm;
   const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
-  // When subtracting a peck changes nothing any more, the loop below would not end.
+  // If subtracting a peck no longer changes anything, the loop below would not end.
   if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
     return refusals_.g_word(step, step.moves_by, "out_of_range",
                             "a peck this small is lost in rounding at this distance from zero");
@@ -247,8 +247,8 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
   return true;
 }
 
-// In at feed, reverse, dwell, out at feed. The programmed F and S make the pitch: nothing here ties
-// them together, as with a floating holder.
+// In at feed, reverse, dwell, out at feed. The programmed F and S make the pitch: nothing else
+// couples them, as with a floating holder.
 bool Drilling::tap(const Step& step, const Hole& hole) {
   const int into = step.moves_by == g::kTapRight ? 1 : -1;
   if (state_.spindle_direction != into) {
@@ -289,8 +289,8 @@ bool Drilling::bore(const Step& step, const Hole& hole) {
   out_.spindle();
   if (step.moves_by == g::kBoreHandOut) {
     out_.event(EventKind::stop, 0.0);
-    // The interpreter goes on from the clearance, where the operator is asked to bring it.
-    state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: no move of the program
+    // The interpreter continues from the clearance, where the operator is asked to bring the tool.
+    state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: not a move of the program
   } else {
     out_.along(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
   }
@@ -311,7 +311,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   const PlaneAxes axes = hole.axes;
   const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
   // Aside by I and J, down with the spindle stopped so that the bar passes, back onto the axis
-  // below; only there does the spindle start.
+  // below; only then does the spindle start.
   const Axes above = state_.position;
   Axes beside = above;
   beside[axes.first] += memory.ijk[axes.first] * unit;
@@ -321,7 +321,7 @@ bool Drilling::back_bore(const Step& step, const Hole& hole) {
   out_.spindle();
   out_.along(MoveKind::rapid, axes.normal, hole.bottom_mm);
   out_.back_over(above, axes.normal, hole.bottom_mm, direction);
-  // Up to cut, down again to let go of the shoulder; then aside and out the way it came.
+  // Up to cut, down again to clear the shoulder; then aside and out the way it came.
   out_.along(MoveKind::linear, axes.normal, upper);
   out_.along(MoveKind::linear, axes.normal, hole.bottom_mm);
   state_.spindle_direction = 0;

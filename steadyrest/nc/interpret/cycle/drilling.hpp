@@ -8,7 +8,7 @@
 namespace steadyrest::nc::interpret {
 
 /// Canned cycles G73, G74, G81–G89. The sequence of moves is LinuxCNC 2.9's (documentation "Canned
-/// cycles" and rs274 by experiment).
+/// cycles", and rs274 by experiment).
 class Drilling : private Stage {
  public:
   using Stage::Stage;
@@ -19,7 +19,7 @@ class Drilling : private Stage {
   /// One hole, in mm along the normal axis of the plane.
   struct Hole {
     PlaneAxes axes;
-    double initial_mm;  ///< where the cycle was begun
+    double initial_mm;  ///< where the cycle began
     double retract_mm;  ///< R plane
     double bottom_mm;
     double clear_mm;  ///< where the cycle ends: R plane (G99) or initial level (G98)

@@ -8,7 +8,7 @@ namespace steadyrest::nc::interpret {
 namespace {
 
 // Codes are the word times ten: G54 is 540, G59.1 is 591. The modal groups are those of RS274/NGC
-// (NISTIR 6556) with LinuxCNC's additions: of each group a block takes one word.
+// (NISTIR 6556) with LinuxCNC's additions: a block takes one word of each group.
 struct Range {
   int first;
   int last;
@@ -79,8 +79,7 @@ constexpr std::array kGroups = {
 constexpr std::size_t kCodes = 1000;
 constexpr std::uint8_t kUnknown = 0xff;
 
-// One entry for each code up to G99.9, filled in when the program is compiled: a G word costs one
-// look-up.
+// One entry for each code up to G99.9, filled in at compile time: a G word costs one look-up.
 constexpr auto kGroupOfG = [] {
   std::array<std::uint8_t, kCodes> table{};
   table.fill(kUnknown);
@@ -98,8 +97,7 @@ struct RefusedRange {
   std::string_view text;
 };
 
-// Words whose meaning is known but not interpreted get their own text: the user should not
-// look for a typing error.
+// Known words that are not interpreted get their own text, so that nobody looks for a typing error.
 constexpr std::array kRefusedG = {
     RefusedRange{g::kCutterLeft, g::kCutterLeftBy,
                  "cutter radius compensation (G41) is not interpreted; let the CAM system "
@@ -122,7 +120,7 @@ constexpr std::array kRefusedM = {
 
 }  // namespace
 
-// One look-up; anything outside of the table is unknown.
+// One look-up; anything outside the table is unknown.
 GroupOfG group_of_g(int code) noexcept {
   if (code < 0 || code >= static_cast<int>(kCodes)) {
     return {};
@@ -131,8 +129,8 @@ GroupOfG group_of_g(int code) noexcept {
   return {.known = group != kUnknown, .group = static_cast<GGroup>(group)};
 }
 
-// M words number few and lie close together: a switch. M98 and M99 form a group, as a block either
-// calls or returns.
+// M words are few and close together, hence a switch. M98 and M99 form a group, since a block
+// either calls or returns.
 GroupOfM group_of_m(int code) noexcept {
   switch (code) {
     case m::kStop:
@@ -181,7 +179,7 @@ GroupOfM group_of_m(int code) noexcept {
   }
 }
 
-// Empty for a code that is not known at all. Only refusals come here, so a search will do.
+// Empty for an unknown code. Only refusals come here, so a search will do.
 std::string_view known_but_refused_g(int code) noexcept {
   for (const RefusedRange& note : kRefusedG) {
     if (code >= note.first && code <= note.last) {

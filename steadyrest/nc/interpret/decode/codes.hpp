@@ -8,7 +8,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Modal group of a G code (times ten), nothing where the code is not interpreted.
+/// Modal group of a G code (times ten); nothing where the code is not interpreted.
 struct GroupOfG {
   bool known = false;
   GGroup group = GGroup::non_modal;
@@ -21,8 +21,7 @@ struct GroupOfM {
 };
 [[nodiscard]] GroupOfM group_of_m(int code) noexcept;
 
-/// Why a code that stands in a control's manual is not interpreted here; empty for a code that
-/// nobody knows.
+/// Why a code from a control's manual is not interpreted here; empty for an unknown code.
 [[nodiscard]] std::string_view known_but_refused_g(int code) noexcept;
 [[nodiscard]] std::string_view known_but_refused_m(int code) noexcept;
 

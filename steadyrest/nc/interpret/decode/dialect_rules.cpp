@@ -6,7 +6,7 @@
 
 namespace steadyrest::nc::interpret {
 
-// A switch and no array: the compiler names a dialect that is forgotten here.
+// A switch, not an array: the compiler names a dialect that is missing here.
 const DialectRules& rules_of(read::Dialect dialect) noexcept {
   switch (dialect) {
     case read::Dialect::fanuc:

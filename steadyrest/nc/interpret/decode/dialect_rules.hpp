@@ -30,30 +30,30 @@ enum class Variables : std::uint8_t {
   typed        ///< R-parameters and declared names of sinumerik
 };
 
-/// A dialect: its decoder, and how the same step is executed where dialects differ. Each dialect's
-/// folder has its own; `rules_of` is their table.
+/// A dialect: its decoder, and how it executes steps where dialects differ. Each dialect's folder
+/// has its own; `rules_of` is their table.
 struct DialectRules {
   Decoder decode = nullptr;
   bool units_first = true;             ///< in a block; on linuxcnc F acts in the units before it
-  bool feed_mode_clears_feed = false;  ///< also where the mode was in force already
+  bool feed_mode_clears_feed = false;  ///< even if the mode was already in force
   bool starts_with_g98 = false;
-  bool machine_frame_alone = false;           ///< G53 stands in blocks without a move
-  bool tool_in_machine_frame = false;         ///< the tool's length stays in force under G53 …
+  bool machine_frame_alone = false;           ///< G53 may be in a block without a move
+  bool tool_in_machine_frame = false;         ///< the tool length stays in force under G53 …
   bool rotary_tool_in_machine_frame = false;  ///< … at least that of A, B and C, there and in G28
-  bool rounding_distance = false;             ///< a distance stays in force for continuous mode
-  bool g10_adds = false;          ///< G10 has L2 alone: P0 is the external offset, G91 adds
+  bool rounding_distance = false;             ///< a rounding distance stays in force for G64
+  bool g10_adds = false;          ///< G10 has only L2: P0 is the external offset, G91 adds
   bool cycle_words_stay = false;  ///< from one drilling cycle to the next, until G80
   bool cycle_needs_dwell = true;  ///< P must be given where a cycle dwells
   bool cycle_lifts_first = true;  ///< to the R plane before it goes to the hole
   bool taps_in_xy_alone = false;
   Variables variables = Variables::parameters;
-  bool programs_in_a_row = true;   ///< in one file, each of which ends before the next begins
+  bool programs_in_a_row = true;   ///< in one file; each ends before the next begins
   bool numbered_programs = false;  ///< M98 P looks for its number in the file first
   bool named_calls = false;  ///< of cycles and subprograms, with values; M17 or RET ends these
-  bool short_way = false;    ///< plain lines may go past the checks: see plain_block.hpp
-  bool plain_words = false;  ///< letters and written numbers alone mean the same in every state
+  bool short_way = false;    ///< plain lines may bypass the checks: see plain_block.hpp
+  bool plain_words = false;  ///< letters with literal numbers mean the same in any state
   bool has_g92 = true;
-  bool settable_frames = false;  ///< G54 … G57, G500 … G599 choose them; G70, G71, G700, G710 units
+  bool settable_frames = false;  ///< G54 … G57, G500 … G599 select them; G70, G71, G700, G710 units
   bool edge_chooses_length = false;  ///< D and T, not G43
 };
 

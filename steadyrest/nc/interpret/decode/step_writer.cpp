@@ -9,8 +9,8 @@ namespace steadyrest::nc::interpret {
 
 using read::Word;
 
-// One word of each modal group: a second one is refused, as on LinuxCNC. Which of two would
-// count differs between the other controls.
+// One word of each modal group: a second one is refused, as on LinuxCNC. The other controls differ
+// in which of two counts.
 bool StepWriter::put_g(const Word& word, int code) {
   const GroupOfG found = group_of_g(code);
   const bool compensates = found.group == GGroup::cutter && code != g::kCutterOff;
@@ -19,7 +19,7 @@ bool StepWriter::put_g(const Word& word, int code) {
     return note.empty() ? refuse(word, "unknown_g_code", "an unknown G word")
                         : refuse(word, "g_code_not_interpreted", note);
   }
-  // Anything outside the motion group rules out the short way for plain lines (plain_block.cpp).
+  // Anything outside the motion group rules out the fast path for plain lines (plain_block.cpp).
   step_.others = step_.others || found.group != GGroup::motion;
   std::int16_t& place = step_.g[static_cast<std::size_t>(found.group)];
   if (place != kNoCode && found.group == GGroup::motion &&
@@ -61,7 +61,7 @@ bool StepWriter::take_m(const Word& word) {
 
 bool StepWriter::put_m(const Word& word, int code) {
   const GroupOfM found = group_of_m(code);
-  // Calls by number belong to linuxcnc and fanuc, outputs and kept modes to linuxcnc alone.
+  // Calls by number belong to linuxcnc and fanuc, outputs and saved modes only to linuxcnc.
   const bool foreign =
       found.group == MGroup::program
           ? !vocabulary_.numbered_programs
@@ -86,7 +86,7 @@ bool StepWriter::put_letter(const Word& word, char letter, double value) {
   if ((step_.mask & bit) != 0) {
     return refuse(word, "word_twice", std::string{"a second "} + letter + " word in one block");
   }
-  // A word for an axis that the machine does not have would otherwise be lost silently.
+  // Otherwise a word for an axis that the machine lacks would be silently lost.
   if ((bit & kAxisMask) != 0 && (bit & in_.axes) == 0) {
     return refuse(word, "no_such_axis",
                   std::string{"the machine has no axis "} + letter + "; it has " + in_.config.axes);

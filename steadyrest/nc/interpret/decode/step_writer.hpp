@@ -8,7 +8,7 @@
 namespace steadyrest::nc::interpret {
 
 /// Puts words into a step: the part of decoding that all dialects share. A decoder translates what
-/// its dialect says otherwise and hands the rest over.
+/// its dialect writes differently and passes the rest on.
 class StepWriter {
  public:
   /// Words that not every dialect has.
@@ -23,9 +23,9 @@ class StepWriter {
 
   /// A G word by its code in `words.hpp`.
   bool put_g(const read::Word& word, int code);
-  /// An M word as it is written.
+  /// An M word as written.
   bool take_m(const read::Word& word);
-  /// A value under a letter, which need not be the word's own.
+  /// Stores a value under a letter, which need not be the word's own.
   bool put_letter(const read::Word& word, char letter, double value);
 
  protected:

@@ -13,7 +13,7 @@ using read::FlowKind;
 // A label heads one block of its subprogram.
 bool FlowControl::define(const Block& block) {
   // A label belongs to one subprogram of one file: the same label may head a block in another. A
-  // loop comes back to the same line, which is no second head.
+  // loop returns to the same line, which is not a second head.
   const std::string key = frames_.back().sub + '\n' + std::to_string(files_.line_begin().file) +
                           '\n' + std::string{block.flow().label.view()};
   const auto [known, fresh] = heads_.try_emplace(key, files_.line_begin());
@@ -37,14 +37,14 @@ bool FlowControl::condition(const Block& block) {
   if (!open(block, files_.line_begin())) {
     return false;
   }
-  // The reader has evaluated the condition already; 0 is false, all else true, as in LinuxCNC.
+  // The reader has already evaluated the condition; 0 is false, anything else true, as in LinuxCNC.
   if (block.flow().values[0] == 0.0) {
     pass(Passing::to_else, block.flow().label.view());
   }
   return true;
 }
 
-// Met while executing: the branch that was taken ends here.
+// Reached while executing: the branch taken ends here.
 bool FlowControl::otherwise(const Block& block) {
   const Open* const found = find(block, false);
   if (found == nullptr || found->kind != FlowKind::when) {
@@ -55,7 +55,7 @@ bool FlowControl::otherwise(const Block& block) {
   return true;
 }
 
-// An end must belong to the innermost open block of its label, and be of its kind.
+// An end must match the innermost open block in label and kind.
 bool FlowControl::close(const Block& block, FlowKind head) {
   const Open* const found = find(block, false);
   if (found == nullptr || found->kind != head) {
@@ -73,7 +73,7 @@ bool FlowControl::head_of_while(const Block& block) {
   if (found != nullptr && found->kind == FlowKind::loop_do) {
     if (goes_on) {
       const Place head = found->head;
-      // What the turn has left open ends with it; the do loop itself stays.
+      // Blocks left open by the turn end with it; the do loop itself stays.
       frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
       return go(block.line(), head);
     }
@@ -102,8 +102,8 @@ bool FlowControl::end_of_turn(const Block& block, FlowKind loop, std::string_vie
   return go(block.line(), head);
 }
 
-// LinuxCNC forgets the count at the end of the last turn alone: after a return, break or continue
-// out of the loop, and in a call within it, the next turns are those that were left.
+// LinuxCNC resets the count only at the end of the last turn: after a return, break or continue out
+// of the loop, and in a call within it, the remaining turns continue.
 bool FlowControl::head_of_repeat(const Block& block) {
   const Place head = files_.line_begin();
   const auto left =
@@ -120,8 +120,8 @@ bool FlowControl::head_of_repeat(const Block& block) {
   return true;
 }
 
-// `break` passes over the rest of the loop; in a do loop that ends at its `while`. A repeat has
-// neither break nor continue in LinuxCNC 2.9.
+// `break` skips the rest of the loop, in a do loop up to its `while`. In LinuxCNC 2.9 a repeat has
+// neither break nor continue.
 bool FlowControl::leave_loop(const Block& block) {
   const Open* const found = find(block, true);
   if (found == nullptr || found->kind == FlowKind::repeat) {
@@ -140,8 +140,8 @@ bool FlowControl::next_turn(const Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                   "continue outside its while or do loop (a repeat has none)");
   }
-  // `continue` of a do loop goes forward to its `while`, where the condition is; that of a while
-  // loop goes back to the head.
+  // In a do loop `continue` goes forward to the `while`, where the condition is; in a while loop it
+  // goes back to the head.
   if (found->kind == FlowKind::loop_do) {
     frames_.back().open.resize(static_cast<std::size_t>(found - frames_.back().open.data()) + 1);
     pass(Passing::to_condition, block.flow().label.view());

@@ -9,7 +9,7 @@ namespace steadyrest::nc::interpret {
 using read::Block;
 using read::FlowKind;
 
-// The main program has a frame like every call: labels and open blocks need no special case.
+// The main program has a frame like any call, so labels and open blocks need no special case.
 FlowControl::FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
                          const Config& config)
     : files_(files),
@@ -27,10 +27,10 @@ bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string
   return false;
 }
 
-// Loops and calls alone can make a finite file run for ever, so only what they execute counts. A
-// cycle's moves count as well: time is bounded for every program.
+// Only loops and calls can make a finite file run forever, so only lines executed in them count. A
+// cycle's moves count too, so every program's time is bounded.
 bool FlowControl::count_line(std::uint64_t moves_before) {
-  constexpr std::uint64_t kMovesOfALine = 100;  // a cycle that pecks may make a million
+  constexpr std::uint64_t kMovesOfALine = 100;  // a pecking cycle may make a million
   repeated_lines_ += repeating() ? 1 + moves_before / kMovesOfALine : 0;
   if (!repeating() || repeated_lines_ <= most_repeated_lines_) {
     return true;
@@ -40,8 +40,8 @@ bool FlowControl::count_line(std::uint64_t moves_before) {
                     " lines: the program does not seem to end");
 }
 
-// Passing over means reading O-words only until the one that ends it. The label goes with it, since
-// blocks of other labels may lie in between.
+// Skipping reads only O-words until the one that ends it. It needs the label, since blocks with
+// other labels may lie in between.
 void FlowControl::pass(Passing how, std::string_view label) {
   passing_ = how;
   passing_label_ = label;
@@ -54,7 +54,7 @@ bool FlowControl::go(std::uint32_t line, const Place& place) {
                 "a loop or call in a file that can only be read once; give a file, not a pipe");
 }
 
-// An O-word that is executed. What is passed over goes through pass_over() instead.
+// An executed O-word. Skipped lines go through pass_over() instead.
 bool FlowControl::act(const Block& block) {
   switch (block.flow().kind) {
     case FlowKind::label:
@@ -97,10 +97,10 @@ bool FlowControl::act(const Block& block) {
   return true;
 }
 
-// What ends the passing over of lines.
+// Decides what ends the skipping of lines.
 bool FlowControl::pass_over(Block& block) {
   const auto& source = files_.now();
-  // Nothing behind the closing % belongs to the program.
+  // Nothing after the closing % belongs to the program.
   if (reader_.ends_program(source.line())) {
     return !refuse_end();
   }
@@ -113,7 +113,7 @@ bool FlowControl::pass_over(Block& block) {
     return refuse(block.line(), block.flow().label.view(), "o_word_misplaced",
                   "a subprogram begins inside another one");
   }
-  // LinuxCNC looks at these whether they are executed or not.
+  // LinuxCNC acts on these whether they are executed or not.
   if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
     const Open* const loop = find(block, true);
     if (loop != nullptr && loop->kind == FlowKind::repeat) {
@@ -124,8 +124,8 @@ bool FlowControl::pass_over(Block& block) {
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
     return true;
   }
-  // LinuxCNC evaluates the endsub and return of a definition that it passes over and takes the
-  // value over; what a call would have set is not missed there.
+  // LinuxCNC evaluates endsub and return even in a skipped definition and keeps the value; unset
+  // arguments are not an error there.
   const bool ends_sub = kind == FlowKind::endsub || kind == FlowKind::back;
   const bool asks = passing_ == Passing::to_endsub      ? ends_sub
                     : passing_ == Passing::to_else      ? kind == FlowKind::elseif
@@ -144,7 +144,7 @@ bool FlowControl::pass_over(Block& block) {
         passing_ = Passing::nothing;
       }
       return true;
-    // The definition that a call was looking for: noted, so that the next call goes there at once.
+    // The definition that a call was looking for: noted, so that the next call goes straight there.
     case Passing::to_sub:
     case Passing::to_program:
       if (kind == (passing_ == Passing::to_sub ? FlowKind::sub : FlowKind::label)) {
@@ -158,7 +158,7 @@ bool FlowControl::pass_over(Block& block) {
   }
 }
 
-// The label was found; whether this O-word ends the passing over depends on what was looked for.
+// The label was found; whether this O-word ends the skipping depends on what was looked for.
 bool FlowControl::arrived(Block& block) {
   const FlowKind kind = block.flow().kind;
   const auto ends = [&](FlowKind closing) {
@@ -186,7 +186,7 @@ bool FlowControl::arrived(Block& block) {
     case Passing::to_endwhile:
       return ends(FlowKind::endwhile);
     case Passing::to_endrepeat:
-      // LinuxCNC sees them here too: the label is that of the repeat.
+      // LinuxCNC sees them here too: the label is the repeat's.
       if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
         return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                       "break or continue in a repeat; only while and do loops have them");
@@ -202,7 +202,7 @@ bool FlowControl::arrived(Block& block) {
   }
 }
 
-// Passing over reads O-words without their values; here the value counts.
+// Skipping reads O-words without their values; here the value counts.
 bool FlowControl::evaluate(Block& block) {
   const auto& source = files_.now();
   if (!reader_.read(source.line(), source.number(), source.ending_length(), block)) {
@@ -212,8 +212,7 @@ bool FlowControl::evaluate(Block& block) {
   return true;
 }
 
-// At the end of a file: what is still looked for is not there, and a subprogram must have come
-// back.
+// At the end of a file: whatever is still sought is missing, and a subprogram must have returned.
 bool FlowControl::refuse_end() {
   if (passing_over()) {
     return !refuse(passing_from_, passing_label_, "o_word_without_end",
@@ -229,7 +228,7 @@ bool FlowControl::refuse_end() {
 
 FlowControl::Open* FlowControl::find(const Block& block, bool loops_only) {
   auto& open = frames_.back().open;
-  // From the innermost outwards; `continue` and `break` look past the if that they are in.
+  // From the innermost outwards; `continue` and `break` ignore the if they are in.
   const auto found = std::find_if(open.rbegin(), open.rend(), [&](const Open& one) {
     return one.label == block.flow().label.view() && !(loops_only && one.kind == FlowKind::when);
   });
@@ -249,7 +248,7 @@ bool FlowControl::sub(const Block& block) {
                   in_call() ? "a subprogram begins inside another one"
                             : "this subprogram is already defined");
   }
-  // A definition is not executed where it occurs: its place is noted, its lines are passed over.
+  // A definition is not executed where it occurs: its place is noted, its lines are skipped.
   subs_[label] = files_.line_end();
   pass(Passing::to_endsub, label);
   return true;
@@ -261,7 +260,7 @@ bool FlowControl::call(const Block& block) {
     return refuse(block.line(), flow.label.view(), "calls_too_deep",
                   "subprogram calls nested more than ten deep");
   }
-  // #1 to #30 of the caller are put aside before the subprogram can change them.
+  // Saves the caller's #1 to #30 before the subprogram can change them.
   parameters_.enter({flow.values.data(), flow.count});
   const std::string label{flow.label.view()};
   return enter(block.line(), label, Passing::to_sub,
@@ -290,8 +289,8 @@ bool FlowControl::enter(std::uint32_t line, std::string_view label, Passing how,
     frames_.push_back(std::move(frame));
     return go(line, found->second);
   }
-  // Not met so far: NAME.ngc where there is one, otherwise further down in this file. Either way
-  // lines are passed over until its definition.
+  // Not seen so far: NAME.ngc if it exists, otherwise further down in this file. Either way lines
+  // are skipped until its definition.
   frames_.push_back(std::move(frame));
   pass(how, label);
   const auto file = files_.find(label);
@@ -313,7 +312,7 @@ bool FlowControl::end_program(std::uint32_t line) {
     return refuse(line, {}, "endless_program",
                   "M99 in the main program would restart it forever; end it with M30");
   }
-  // M98 L5 executes the same frame five times: M99 goes back to the head until none is left.
+  // M98 L5 executes the same frame five times: M99 returns to the head until none is left.
   Frame& frame = frames_.back();
   if (frame.left > 0.5) {
     frame.left -= 1.0;
@@ -323,7 +322,7 @@ bool FlowControl::end_program(std::uint32_t line) {
   return leave(nullptr);
 }
 
-// Back to the line behind the call, with the caller's parameters.
+// Returns to the line after the call, with the caller's parameters.
 bool FlowControl::leave(const double* returned) {
   const Place back = frames_.back().back;
   frames_.pop_back();

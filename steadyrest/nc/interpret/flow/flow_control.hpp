@@ -16,14 +16,13 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Which line comes next: subprograms, conditions and loops.
+/// Decides which line comes next: subprograms, conditions and loops.
 ///
-/// As LinuxCNC 2.9's interpreter does it (rs274, by experiment): a subprogram's definition is
-/// passed over where it is met and executed where it is called; a call looks among the definitions
-/// that were met, then for NAME.ngc, then further down in the file. Calls nest ten deep. A label
-/// belongs to the subprogram in which it stands and may head one block only. What is passed over
-/// is not read but for O-words. Every program ends: the lines that are executed in loops and calls
-/// are counted against a bound.
+/// Follows LinuxCNC 2.9's interpreter (rs274, by experiment): a subprogram's definition is skipped
+/// where it occurs and executed where it is called; a call looks among the definitions seen so far,
+/// then for NAME.ngc, then further down in the file. Calls nest ten deep. A label belongs to the
+/// subprogram that contains it and may head only one block. Of skipped lines only O-words are read.
+/// Every program ends: lines executed in loops and calls count against a limit.
 class FlowControl {
  public:
   static constexpr std::size_t kDeepestCall = 10;
@@ -32,7 +31,7 @@ class FlowControl {
   FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,
               const Config& config);
 
-  /// The next lines are passed over: give them to pass_over() instead of executing them.
+  /// The next lines are skipped: give them to pass_over() instead of executing them.
   [[nodiscard]] bool passing_over() const noexcept { return passing_ != Passing::nothing; }
   bool pass_over(read::Block& block);
   /// Executes the O-word of a block. False when it is refused: see refused().
@@ -40,13 +39,12 @@ class FlowControl {
   /// M98 P… L… and M99.
   bool call_program(std::uint32_t line, std::string_view label, double repeats);
   bool end_program(std::uint32_t line);
-  /// M98 of fanuc: a program of the same file, before or behind, else a file in the folders named
-  /// after its number.
+  /// M98 of fanuc: a program anywhere in the same file, else a file in the folders named after its
+  /// number.
   bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
   /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
   bool call_named(const read::Block& block);
-  /// To be called for each line, with the moves of the line before; false when the bound is
-  /// reached.
+  /// To be called for each line, with the moves so far; false when the limit is reached.
   bool count_line(std::uint64_t moves_before);
   /// Why the file must not end here; false when it may.
   bool refuse_end();
@@ -67,7 +65,7 @@ class FlowControl {
     to_endif,
     to_endwhile,
     to_endrepeat,
-    to_while,     ///< behind the `while` that ends a do loop
+    to_while,     ///< after the `while` that ends a do loop
     to_condition  ///< to that `while` itself
   };
   struct Open {
@@ -79,7 +77,7 @@ class FlowControl {
     std::string sub;
     Place back;
     Place head;
-    double left = 0.0;  ///< further repeats (M98 L)
+    double left = 0.0;  ///< remaining repeats (M98 L)
     bool by_number = false;
     std::vector<Open> open;
   };
@@ -118,8 +116,8 @@ class FlowControl {
   std::uint64_t most_repeated_lines_;
   std::uint64_t repeated_lines_ = 0;
   std::vector<Frame> frames_;
-  std::map<std::string, Place> subs_;      ///< label → behind the line of its `sub`
-  std::map<std::string, Place> programs_;  ///< number → behind the line of its O
+  std::map<std::string, Place> subs_;      ///< label → after the line of its `sub`
+  std::map<std::string, Place> programs_;  ///< number → after the line of its O
   std::map<std::string, Place> heads_;     ///< labels that head a block
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
   bool programs_noted_ = false;

@@ -8,7 +8,7 @@
 #include <steadyrest/nc/interpret/flow/flow_control.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
-// Subprograms by number as FANUC's controls have them.
+// Subprograms by number, as on FANUC controls.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -59,9 +59,9 @@ std::vector<std::string> file_names(std::int32_t number) {
 
 }  // namespace
 
-// Where the programs of a file begin: each behind the line of its number.
+// Notes where the programs of a file begin: after the line with the number.
 bool FlowControl::note_programs(std::uint32_t line, std::uint32_t file) {
-  // One pass over the file notes every program in it; the second call needs no search.
+  // One pass over the file notes every program in it; later calls need no search.
   const Place back = files_.line_end();
   if (!go(line, {.file = file, .line = 0, .offset = 0})) {
     return false;
@@ -73,7 +73,7 @@ bool FlowControl::note_programs(std::uint32_t line, std::uint32_t file) {
       break;
     }
     if (const auto number = program_number(text)) {
-      // Of two programs with one number the first counts.
+      // Of two programs with the same number the first counts.
       programs_.try_emplace(std::to_string(*number), files_.line_end());
     }
   }
@@ -107,7 +107,7 @@ bool FlowControl::call_numbered(std::uint32_t line, std::int32_t number, double 
   return enter_numbered(line, label, found->second, repeats);
 }
 
-// Also sinumerik's calls by name: no O-words, a head and a number of repeats.
+// Also for sinumerik's calls by name: no O-words, a head and a number of repeats.
 bool FlowControl::enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
                                  double repeats) {
   parameters_.enter_shared();
@@ -126,7 +126,7 @@ bool FlowControl::call_named(const read::Block& block) {
     return refuse(block.line(), name, "calls_too_deep",
                   "subprogram calls nested more than ten deep");
   }
-  // The control does not tell small letters from capitals, but many file systems do.
+  // The control ignores case, but many file systems do not.
   std::string big = name;
   std::string small = name;
   std::ranges::transform(name, big.begin(), read::upper);

@@ -10,7 +10,7 @@ using read::LineSource;
 
 ProgramFiles::ProgramFiles(LineSource& main, std::vector<std::string> folders)
     : folders_(std::move(folders)), sources_{&main}, paths_{std::string{}} {
-  opened_.reserve(kMostFiles);  // the sources are pointed at
+  opened_.reserve(kMostFiles);  // pointers to the sources must stay valid
 }
 
 Place ProgramFiles::line_end() const noexcept {
@@ -18,12 +18,12 @@ Place ProgramFiles::line_end() const noexcept {
 }
 
 LineSource::Status ProgramFiles::next() noexcept {
-  // Where the line begins is where a loop goes back to.
+  // A loop returns to the beginning of the line.
   line_begin_ = line_end();
   return sources_[current_]->next();
 }
 
-// The file and the place in it; a pipe has no way back, so this may fail.
+// Goes to the file and the place in it; may fail, since a pipe cannot go back.
 bool ProgramFiles::go(const Place& place) noexcept {
   current_ = place.file;
   return sources_[current_]->seek(place.offset, place.line);
@@ -53,7 +53,7 @@ std::optional<Place> ProgramFiles::find(std::string_view name) {
 std::optional<Place> ProgramFiles::find(const std::vector<std::string>& names) {
   for (const std::string& folder : folders_) {
     for (const std::string& name : names) {
-      // The folders in their order: the first that has the name wins.
+      // The folders in order: the first that has the name wins.
       if (const auto place = open((folder.empty() ? std::string{} : folder + "/") + name)) {
         return place;
       }

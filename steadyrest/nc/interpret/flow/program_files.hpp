@@ -18,10 +18,10 @@ struct Place {
   std::uint64_t offset = 0;  ///< bytes before it
 };
 
-/// The program and the files that its subprograms come from, one of them being read.
+/// The program and its subprogram files, one of which is being read.
 class ProgramFiles {
  public:
-  /// `main` outlives the object. A subprogram NAME is looked for as NAME.ngc in `folders`.
+  /// `main` outlives the object. A subprogram NAME is searched as NAME.ngc in `folders`.
   ProgramFiles(read::LineSource& main, std::vector<std::string> folders);
 
   read::LineSource::Status next() noexcept;
@@ -29,19 +29,19 @@ class ProgramFiles {
   [[nodiscard]] bool in_main() const noexcept { return current_ == 0; }
   /// The path of the file being read; empty for the program itself.
   [[nodiscard]] const std::string& path() const noexcept { return paths_[current_]; }
-  /// Those that have been opened, in their order.
+  /// Those opened so far, in order.
   [[nodiscard]] std::vector<std::string> subprograms() const {
     return {paths_.begin() + 1, paths_.end()};
   }
 
-  /// Before and behind the line that next() gave last.
+  /// Before and after the line that next() returned last.
   [[nodiscard]] Place line_begin() const noexcept { return line_begin_; }
   [[nodiscard]] Place line_end() const noexcept;
   /// False when the file cannot be read from there.
   [[nodiscard]] bool go(const Place& place) noexcept;
-  /// The beginning of the file of a subprogram; nothing when there is none that can be read.
+  /// The beginning of a subprogram's file; nothing when no readable file exists.
   [[nodiscard]] std::optional<Place> find(std::string_view name);
-  /// The same for the first of `names` (with what follows the point) that a folder has.
+  /// The same for the first of `names` (with extension) that a folder has.
   [[nodiscard]] std::optional<Place> find(const std::vector<std::string>& names);
 
  private:

@@ -5,7 +5,7 @@
 #include <steadyrest/nc/interpret/control/tool_table.hpp>
 #include <steadyrest/nc/interpret/motion/cutter_stage.hpp>
 
-// When compensation may come and go, as LinuxCNC 2.9 shows (rs274 by experiment).
+// When compensation may start and end, as in LinuxCNC 2.9 (rs274, by experiment).
 namespace steadyrest::nc::interpret {
 
 bool CutterStage::stop(const Step& step) {
@@ -35,7 +35,7 @@ bool CutterStage::set(const Step& step) {
   if (!choose_tool(step, code, tool)) {
     return false;
   }
-  // From where the tool is: behind a G40 without a move it may still be beside the contour.
+  // From where the tool is: after a G40 without a move it may still be off the contour.
   compensation_.begin(state_.plane, tool, out_.take_beside(state_.position));
   out_.send_to(compensation_);
   state_.cutter_side = compensation_.side();
@@ -48,7 +48,7 @@ bool CutterStage::end(const Step& step) {
     if (fault != Fault::none) {
       return refuse(step, fault);
     }
-    // The tool stays beside the contour until the next move, whose start includes the difference.
+    // The tool stays off the contour until the next move, whose start includes the difference.
     Axes beside = compensation_.machine();
     for (std::size_t i = 0; i < beside.size(); ++i) {
       beside[i] -= state_.position[i];
@@ -63,7 +63,7 @@ bool CutterStage::end(const Step& step) {
   return true;
 }
 
-// G41.1 and G42.1 name the diameter; G41 and G42 a tool of the table, without D the one in the
+// G41.1 and G42.1 give the diameter; G41 and G42 a tool of the table, without D the one in the
 // spindle.
 bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::Tool& tool) {
   tool.side = code < g::kCutterRight ? -1 : 1;
@@ -88,7 +88,7 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
       return refusals_.letter(step, 'D', "not_an_integer",
                               "the tool's number (D) is not valid; allowed: whole numbers from 0");
     }
-    // D0 is the tool in the spindle, as no D is.
+    // D0 means the tool in the spindle, as does no D.
     if (step['D'] != 0.0 && !tool_number(control_, step, 'D', number)) {
       return false;
     }
@@ -106,14 +106,14 @@ bool CutterStage::choose_tool(const Step& step, int code, CutterCompensation::To
                           "cutter radius compensation with a lathe tool outside G18");
 }
 
-// The program's position goes on along the contour; what goes out is the compensation's affair.
+// The program's position continues along the contour; the compensation decides what goes out.
 bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   if (step.machine_frame) {
     return refusals_.g_word(step, g::kMachineFrame, "cutter_comp_on",
                             "machine coordinates while cutter radius compensation is on");
   }
   const Axes start = state_.position;
-  // Filled, but not sent: the compensation keeps it until it knows the next move.
+  // Filled but not sent: the compensation keeps it until it knows the next move.
   const Move& move = out_.fill(kind, end);
   out_.time_by_contour();
   const bool inch = state_.unit_mm != 1.0;
@@ -122,7 +122,7 @@ bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   if (fault != Fault::none) {
     return refuse(step, fault);
   }
-  // The program goes on from the contour; the shift says how far the tool is from it.
+  // The program continues from the contour; the shift is the tool's distance from it.
   state_.position = end;
   const Axes centre = compensation_.centre(end);
   for (std::size_t i = 0; i < end.size(); ++i) {
@@ -131,8 +131,7 @@ bool CutterStage::compensate(const Step& step, MoveKind kind, const Axes& end) {
   return true;
 }
 
-// The fault is found at the next corner, so the line that is named is the one after the move in
-// question.
+// The fault shows at the next corner, so the reported line is the one after the move in question.
 bool CutterStage::refuse(const Step& step, Fault fault) {
   const auto because = [&](std::string_view reason, std::string_view text) {
     return refusals_.block(step, reason, text);

@@ -7,12 +7,12 @@
 namespace steadyrest::nc::interpret {
 
 /// G40, G41, G42, G41.1, G42.1: puts cutter compensation between the output and the sink while it
-/// is on, and sends it the contour.
+/// is on, and feeds it the contour.
 class CutterStage : private Stage {
  public:
   using Stage::Stage;
 
-  /// Where moves go from here on, through the compensation where it is on.
+  /// Sets where moves go from here on, through the compensation if it is on.
   void send_to(Sink& sink) noexcept {
     compensation_.bind(sink);
     out_.send_to(state_.cutter_side != 0 ? static_cast<Sink&>(compensation_) : sink);
@@ -23,10 +23,10 @@ class CutterStage : private Stage {
   bool end(const Step& step);
   /// Before a stop of the program.
   bool stop(const Step& step);
-  /// The closing %: what waits goes out.
+  /// The closing %: waiting moves go out.
   void end_mark(std::uint32_t line);
 
-  /// Moves have to go through compensate().
+  /// Moves must go through compensate().
   [[nodiscard]] bool active() const noexcept { return compensation_.active(); }
   bool compensate(const Step& step, MoveKind kind, const Axes& end);
   /// False from G40 to the next straight move.

@@ -6,9 +6,9 @@
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 
-// The long way. A plain G0 or G1 block, nearly every line of a long program, goes past it, through
+// The long path. A plain G0 or G1 block, nearly every line of a long program, bypasses it through
 // blocks/plain_block.cpp: change what a straight move does in both. The property test
-// PlainBlock.MovesAsTheLongWayDoes holds them equal.
+// PlainBlock.MovesAsTheLongWayDoes keeps them equal.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -20,7 +20,7 @@ unsigned named_axes(const Step& step) noexcept {
   return axes;
 }
 
-/// G9 is for its block alone, whichever way the block ends.
+/// G9 applies only to its block, however the block ends.
 class ExactStop {
  public:
   ExactStop(const Step& step, State& state) noexcept : mode_(state.path_mode), before_(mode_) {
@@ -49,8 +49,8 @@ bool Motion::straight(const Step& step) {
   if (cutter_.active()) {
     return cutter_.compensate(step, kind, end);
   }
-  // Machine coordinates hold whatever the work offset: machine_check judges such a move without
-  // knowing one.
+  // Machine coordinates are valid whatever the work offset: machine_check can check such a move
+  // without knowing it.
   if (step.machine_frame) {
     out_.current().machine_axes = named_axes(step);
   }
@@ -58,9 +58,9 @@ bool Motion::straight(const Step& step) {
   return true;
 }
 
-// G38.2 to G38.5: where it really ends only the machine knows. It is given as programmed; the probe
-// is taken to touch there and the axes to stand 0.254 mm (after G20 0.01 in, which is the same)
-// before, as in LinuxCNC's own interpreter without a machine.
+// G38.2 to G38.5: only the machine knows where the move really ends. It is sent as programmed; the
+// probe is assumed to touch there, with the axes 0.254 mm (0.01 in after G20) short of it, as in
+// LinuxCNC's own interpreter without a machine.
 bool Motion::probe(const Step& step) {
   constexpr double kBefore_mm = 0.254;
   if (state_.feed_mode == FeedMode::per_revolution) {
@@ -76,7 +76,7 @@ bool Motion::probe(const Step& step) {
       return refusals_.letter(step, kAxisLetters[i], "probe_axis", "probing moves only X, Y and Z");
     }
   }
-  // Behind G40 the probe starts beside the contour.
+  // After G40 the probe starts off the contour.
   Axes start = state_.position;
   for (std::size_t i = 0; out_.beside() && i < start.size(); ++i) {
     start[i] += (*out_.beside())[i];
@@ -97,7 +97,7 @@ bool Motion::probe(const Step& step) {
 }
 
 bool Motion::refuse_arc(const Step& step, ArcFault fault) {
-  // The word that the message shows: the one that gives the centre.
+  // The message shows the word that gives the centre.
   const char letter = step.has('R') ? 'R' : step.has('I') ? 'I' : step.has('J') ? 'J' : 'K';
   switch (fault) {
     case ArcFault::radius_too_small:
@@ -145,7 +145,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
         (step.absolute & bit) != 0 || (state_.centre_absolute && (step.incremental & bit) == 0);
     return (absolute ? 0.0 : from) + step[letter] * state_.unit_mm;
   };
-  // From the program's zero a centre word that is left out could mean 0 or the start.
+  // Measured from the program's zero, an omitted centre word could mean 0 or the start.
   if (state_.centre_absolute &&
       !(step.has(kCentreLetters[axes.first]) && step.has(kCentreLetters[axes.second]))) {
     return refusals_.g_word(step, step.moves_by, "arc_centre_missing",
@@ -157,7 +157,7 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
   return checked.has_value() || refuse_arc(step, checked.error());
 }
 
-// Exactly one way of giving the centre, in the plane in force.
+// Requires exactly one way of giving the centre, in the plane in force.
 bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
   const bool by_centre = (step.mask & kCentreMask) != 0;
   if (!by_centre && !step.has('R')) {
@@ -187,7 +187,7 @@ bool Motion::arc(const Step& step) {
     return false;
   }
   if (!cutter_.arc_allowed()) {
-    // After G40 the tool is beside the contour: an arc from there would have another radius.
+    // After G40 the tool is off the contour: an arc from there would have another radius.
     return refusals_.g_word(step, step.moves_by, "arc_after_cutter_comp",
                             "the move after G40 is an arc; it must be a straight line");
   }
@@ -198,7 +198,7 @@ bool Motion::arc(const Step& step) {
     return false;
   }
   Move& move = out_.current();
-  // Off the plane the centre is at the start's height.
+  // Along the normal the centre is at the start's height.
   move.centre_mm = {state_.position[0], state_.position[1], state_.position[2]};
   move.centre_mm[axes.first] = centre.first;
   move.centre_mm[axes.second] = centre.second;
@@ -212,19 +212,19 @@ bool Motion::arc(const Step& step) {
   } else {
     out_.move(MoveKind::arc, end);
   }
-  // The move in hand serves the next block too, which may be no arc.
+  // The current move is reused for the next block, which may not be an arc.
   move.centre_mm = {};
   move.normal = {};
   move.turns = 0;
   return accepted;
 }
 
-// By way of the given point to the reference point; only the named axes go there, all when none is.
+// Via the given point to the reference point; only the named axes go there, all if none is named.
 void Motion::home(const Step& step, std::size_t which) {
   const bool some = (step.mask & kAxisMask) != 0;
   Axes end = end_point(step, control_);
   out_.move(MoveKind::rapid, end);
-  // The reference point is a machine position, so it is turned into the work coordinates in force.
+  // The reference point is a machine position, so it is converted to the work coordinates in force.
   const Axes reference = to_work(state_, state_.home[which]);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!some || step.has(kAxisLetters[i])) {

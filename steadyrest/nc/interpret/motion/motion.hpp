@@ -10,7 +10,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// The moves of a block by itself: straight lines, arcs, probing, reference points.
+/// Moves of a single block: straight lines, arcs, probing, reference points.
 class Motion : private Stage {
  public:
   Motion(Control& control, MoveOutput& out, CutterStage& cutter, Parameters& parameters) noexcept

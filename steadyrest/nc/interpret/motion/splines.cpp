@@ -19,7 +19,7 @@ bool Splines::spline(const Step& step) {
     return refusals_.g_word(step, step.moves_by, "spline_off_xy",
                             "a spline outside the XY plane (G17)");
   }
-  // Control points are in XY; LinuxCNC's splines know no other plane.
+  // Control points are in XY; LinuxCNC's splines have no other plane.
   for (const char letter : std::string_view{"ZABCUVW"}) {
     if (step.has(letter)) {
       return refusals_.letter(step, letter, "axis_in_spline", "a spline moves only X and Y");
@@ -60,8 +60,7 @@ bool Splines::cubic(const Step& step) {
   }
   const Axes end = end_point(step, control_);
   const double unit = state_.unit_mm;
-  // G5 behind G5 without I and J: the mirror of the last P and Q, so the curves meet with one
-  // tangent.
+  // G5 after G5 without I and J: mirrors the last P and Q, so the curves join tangentially.
   const std::array<double, 2> first =
       step.has('I') ? std::array{step['I'] * unit, step['J'] * unit}
                     : std::array{-cubic_tangent_mm_[0], -cubic_tangent_mm_[1]};
@@ -106,8 +105,7 @@ bool Splines::control_point(const Step& step) {
     return refusals_.letter(step, 'X', "spline_words",
                             "a spline of more than 10000 control points");
   }
-  // The first G5.2 also makes the present position a control point; its P is the weight of that one
-  // too.
+  // The first G5.2 also makes the present position a control point; its P is the weight of both.
   if (points_.empty()) {
     order_ = step.has('L') ? static_cast<int>(step['L']) : 3;
     if (order_ < 2 || order_ > 8) {
@@ -141,19 +139,19 @@ bool Splines::end(const Step& step) {
   }
   emit(points_, order_, end_);
   points_.clear();
-  // LinuxCNC leaves no motion mode behind G5.3.
+  // LinuxCNC has no motion mode after G5.3.
   state_.motion = -1;
   return true;
 }
 
-// The move only points at the control points: they must live until it has gone out, and are taken
-// back then.
+// The move only points to the control points: they must live until it has gone out and are then
+// cleared.
 void Splines::emit(std::span<const SplinePoint> points, int order, const Axes& end) {
   out_.current().spline = points;
   out_.current().spline_order = order;
   const PathMode mode = state_.path_mode;
   out_.move(MoveKind::spline, end);
-  // A drilling cycle behind it measures its initial level again.
+  // A following drilling cycle takes a new initial level.
   state_.cycle.begins_anew = true;
   state_.path_mode = mode;
   out_.current().spline = {};

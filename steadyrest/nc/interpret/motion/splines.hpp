@@ -10,16 +10,15 @@
 namespace steadyrest::nc::interpret {
 
 /// G5 (cubic), G5.1 (quadratic), G5.2 … G5.3 (control points with weights): splines in the XY
-/// plane. Behind G5 and G5.1 the motion that was in force before goes on, behind G5.3 none is in
-/// force.
+/// plane. After G5 and G5.1 the previous motion mode is in force again, after G5.3 none.
 class Splines : private Stage {
  public:
   using Stage::Stage;
 
   bool spline(const Step& step);
-  /// Control points of G5.2 wait for G5.3: no other motion may come.
+  /// Control points of G5.2 are waiting for G5.3: no other motion is allowed.
   [[nodiscard]] bool open() const noexcept { return !points_.empty(); }
-  /// Another motion: the next G5 needs its first control point.
+  /// Another motion intervenes: the next G5 needs its first control point.
   void interrupt() noexcept { cubic_goes_on_ = false; }
 
  private:
@@ -30,7 +29,7 @@ class Splines : private Stage {
   void emit(std::span<const SplinePoint> points, int order, const Axes& end);
   bool words(const Step& step, std::string_view text);
 
-  std::array<double, 2> cubic_tangent_mm_{};  ///< P and Q of the G5 before
+  std::array<double, 2> cubic_tangent_mm_{};  ///< P and Q of the last G5
   bool cubic_goes_on_ = false;
   std::vector<SplinePoint> points_;  ///< of G5.2
   int order_ = 0;

@@ -17,7 +17,7 @@ double word_or(const Step& step, char letter, double otherwise) noexcept {
 }  // namespace
 
 bool Threading::spindle_turns(const Step& step) {
-  // The feed follows the spindle; with the spindle stopped it would never arrive.
+  // The feed follows the spindle; with the spindle stopped the move would never end.
   return (state_.spindle_direction != 0 &&
           (state_.spindle_speed_rev_s != 0.0 || state_.surface_speed_mm_s != 0.0)) ||
          refusals_.g_word(step, step.moves_by, "spindle_stands",
@@ -35,7 +35,7 @@ void Threading::emit(const Axes& end, double pitch_mm) {
   state_.feed_mm_s = feed;
 }
 
-// K is the travel in a revolution. G33.1 turns the spindle back at the end and goes out again.
+// K is the travel per revolution. G33.1 reverses the spindle at the end and retracts.
 bool Threading::thread(const Step& step) {
   if (!step.has('K')) {
     return refusals_.g_word(step, g::kThread, "pitch_missing", "a thread without its pitch (K)");
@@ -57,7 +57,7 @@ bool Threading::thread(const Step& step) {
   if (pitch_mm == 0.0) {
     return refusals_.letter(step, 'K', "out_of_range", "a pitch of zero");
   }
-  // G33.1 goes back to where it began, the spindle reversed, and leaves it turning as before.
+  // G33.1 returns to its start with the spindle reversed, then restores the direction.
   const Axes start = state_.position;
   const int direction = state_.spindle_direction;
   emit(end, pitch_mm);
@@ -78,11 +78,11 @@ struct Threading::Cycle {
   double slope;       ///< tan of the compound slide's angle
   double taper_mm;    ///< E
   double degression;  ///< R
-  double springs;     ///< H: passes at full depth behind the first one there
+  double springs;     ///< H: further passes at full depth
   bool entry;
   bool exit;
-  double start_mm;  ///< where Z stands
-  double drive_mm;  ///< where X stands
+  double start_mm;  ///< Z at the start
+  double drive_mm;  ///< X at the start
 };
 
 // G76 in LinuxCNC's form: one block with all words; depths are measured from the drive line.
@@ -119,7 +119,7 @@ bool Threading::read(const Step& step, Cycle& cycle) {
   return is_possible(step, cycle);
 }
 
-// Bounds that keep the loops below finite and the geometry real, each with the letter it is about.
+// Bounds that keep the loops below finite and the geometry real, each reported with its letter.
 // Passes n until J·n^(1/R) reaches K: (K/J)^R.
 bool Threading::is_possible(const Step& step, const Cycle& cycle) {
   const double springs = cycle.springs;
@@ -170,14 +170,14 @@ bool Threading::cycle(const Step& step) {
   return true;
 }
 
-// X positions of one pass. The drive line is where X is at the start, the peak I away from it. The
+// X positions of one pass. The drive line is X at the start, the peak is I away from it. The
 // compound slide feeds in at its angle: a shallow pass begins and ends earlier by depth·tan.
 void Threading::pass(const Cycle& cycle, double depth_mm) {
   const double side = cycle.peak_mm > 0.0 ? 1.0 : -1.0;  // inside: the tool goes outwards
   const double along = cycle.end_mm > cycle.start_mm ? 1.0 : -1.0;
   const double left_mm = cycle.full_mm - depth_mm;
-  // Along a taper the tool has a longer way for the same travel in Z: the pitch along the path
-  // grows by the same ratio.
+  // Along a taper the tool travels further for the same Z, so the pitch along the path grows by the
+  // same ratio.
   const double taper_pitch_mm =
       cycle.taper_mm > 0.0
           ? cycle.pitch_mm * std::hypot(cycle.taper_mm, cycle.full_mm) / cycle.taper_mm

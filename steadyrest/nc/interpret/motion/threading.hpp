@@ -10,7 +10,7 @@ class Threading : private Stage {
  public:
   using Stage::Stage;
 
-  /// G33; G33.1 turns the spindle back at the end and goes out again.
+  /// G33; G33.1 reverses the spindle at the end and retracts.
   bool thread(const Step& step);
   /// G76.
   bool cycle(const Step& step);

@@ -25,12 +25,12 @@ void skip_blanks(std::string_view& text) noexcept {
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
 }
 
-// One `T1`-like word off the head of a line. False when there is none.
+// Takes one `T1`-like word off the head of a line. False when there is none.
 bool take_word(std::string_view& text, char& letter, double& value) noexcept {
   if (text.empty()) {
     return false;
   }
-  // Clearing one bit makes a letter a capital; LinuxCNC reads both.
+  // Clearing one bit capitalises a letter; LinuxCNC reads both.
   letter = static_cast<char>(static_cast<unsigned char>(text.front()) & 0xdfU);
   text.remove_prefix(1);
   const read::Number number = read::read_number(text);
@@ -39,7 +39,7 @@ bool take_word(std::string_view& text, char& letter, double& value) noexcept {
   return number.length != 0;
 }
 
-// One tool a line: words in any order, lengths in the units of the machine's files, angles in
+// One tool per line: words in any order, lengths in the units of the machine's files, angles in
 // degrees. I, J and Q are a lathe tool's: front angle, back angle, orientation of its edge. The
 // pocket (P) moves nothing.
 Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_view text,
@@ -84,8 +84,7 @@ Result<Tool> tool_from(const std::string& path, std::size_t line, std::string_vi
 
 }  // namespace
 
-// `;` begins a comment; a tool without a number is refused, since which one it is matters to every
-// line.
+// `;` begins a comment; a tool without a number is refused, since every line depends on the number.
 Result<std::vector<Tool>> read_tool_table(const std::string& path, double unit_mm) {
   auto source = LineSource::open(path);
   if (!source) {
@@ -117,7 +116,7 @@ Result<std::vector<Tool>> read_tool_table(const std::string& path, double unit_m
 namespace {
 
 // LinuxCNC's numbering: nine values from 5161 (G28), 5181 (G30) and 5211 (G92); work offset n from
-// 5221 + 20·(n − 1), its rotation behind the nine values.
+// 5221 + 20·(n − 1), its rotation after the nine values.
 bool put_variable(Config& config, int number, double value, double unit_mm) {
   // 5161 and so on are absolute numbers; a slot is the place within its group of nine or twenty.
   const auto slot = [&](int first) { return static_cast<std::size_t>(number - first); };
@@ -151,7 +150,7 @@ bool put_variable(Config& config, int number, double value, double unit_mm) {
 
 }  // namespace
 
-// `number value` a line, as LinuxCNC writes it. With this file the control's start is known.
+// `number value` per line, as LinuxCNC writes it. With this file the control's start is known.
 Result<void> read_variables(const std::string& path, double unit_mm, Config& config) {
   auto source = LineSource::open(path);
   if (!source) {
@@ -162,7 +161,7 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
     if (status == LineSource::Status::end) {
       break;
     }
-    // A line that could not be read is no `number value` either: it is refused below.
+    // A line that could not be read is not `number value` either: it is refused below.
     std::string_view text = status == LineSource::Status::line ? source->line() : "?";
     skip_blanks(text);
     if (text.empty()) {
@@ -181,7 +180,7 @@ Result<void> read_variables(const std::string& path, double unit_mm, Config& con
       continue;
     }
     const int index = static_cast<int>(number.value);
-    // 5210 says whether the G92 that follows it is in force or only stored.
+    // 5210 tells whether the G92 after it is in force or only stored.
     config.g92_on = config.g92_on || (index == 5210 && value.value != 0.0);
     if (!put_variable(config, index, value.value, unit_mm)) {
       return refuse(path, source->number(), "an active coordinate system that does not exist",

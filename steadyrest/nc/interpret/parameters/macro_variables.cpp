@@ -11,13 +11,13 @@ namespace {
 using read::Lookup;
 
 // Locals, volatile commons and permanent commons of FANUC's custom macro. All start vacant here:
-// what a control keeps from earlier programs is unknown.
+// values kept from earlier programs are unknown.
 constexpr bool is_kept(int index) noexcept {
   return (index >= 1 && index <= 33) || (index >= 100 && index <= 199) ||
          (index >= 500 && index <= 999);
 }
 
-/// What #4001 … show.
+/// The mode that #4001 … show.
 constexpr ModeMask mode_of(int index) noexcept {
   switch (index) {
     case 4001:
@@ -67,18 +67,18 @@ Lookup MacroVariables::number(int index, double& value) const {
   return mode(index, value) || position(index, value) ? Lookup::found : Lookup::not_known_here;
 }
 
-// Codes of the blocks before this one. Group 9 (cycles) counts as one with group 1 here, so both
-// are answered only where no cycle is in force.
+// Codes of the blocks before this one. Group 9 (cycles) is part of group 1 here, so both are
+// answered only where no cycle is in force.
 bool MacroVariables::mode(int index, double& value) const {
   const auto yes = [&](double answer) {
     value = answer;
     return true;
   };
-  // Whoever rewrites programs must know which modes a line depends on.
+  // A rewriter must know which modes a line depends on.
   asked_.about_mode(mode_of(index));
   switch (index) {
     case 4001:
-      // Codes are kept times ten (G38.2); FANUC's groups hold whole ones.
+      // Codes are stored times ten (G38.2); FANUC's groups hold whole ones.
       return state_.motion >= 0 && state_.motion <= 30 && yes(state_.motion / 10.0);
     case 4002:
       return yes(state_.plane == Plane::xy ? 17.0 : state_.plane == Plane::zx ? 18.0 : 19.0);
@@ -112,7 +112,7 @@ bool MacroVariables::position(int index, double& value) const {
   constexpr int kBlockEnd = 5001;
   constexpr int kMachine = 5021;
   constexpr int kNose = 5041;
-  constexpr int kAnswered = 3;  // X Y Z: what the fourth axis is called is machine data
+  constexpr int kAnswered = 3;  // X Y Z: the name of the fourth axis is machine data
   for (const int first : {kBlockEnd, kMachine, kNose}) {
     if (index < first || index >= first + kAnswered) {
       continue;
@@ -122,14 +122,14 @@ bool MacroVariables::position(int index, double& value) const {
     if (first == kMachine && state_.unit_mm != 1.0) {
       return false;
     }
-    // 5001 is the programmed position, 5021 that of the machine, 5041 that of the spindle nose in
+    // 5001 is the programmed position, 5021 the machine position, 5041 that of the spindle nose in
     // work coordinates.
     value = state_.position[axis] + (first == kBlockEnd  ? 0.0
                                      : first == kMachine ? state_.offset[axis]
                                                          : state_.tool_offset[axis]);
     value /= state_.unit_mm;
     asked_.about_position(axis);
-    if (first != kBlockEnd) {  // what the offset and the tool add is not the program's
+    if (first != kBlockEnd) {  // offset and tool length are not the program's
       asked_.about("#" + std::to_string(index));
     }
     return true;
@@ -148,7 +148,7 @@ Lookup MacroVariables::set_number(int index, double value) {
   if (!is_kept(index)) {
     return index < 1000 ? Lookup::no_such_number : Lookup::read_only;
   }
-  // In force once the block has been read to its end, as on the control.
+  // Takes effect once the block has been read to its end, as on the control.
   pending_.emplace_back(index, value);
   return Lookup::found;
 }
@@ -176,7 +176,7 @@ void MacroVariables::drop() noexcept {
   pending_.clear();
 }
 
-// Least increments of IS-B: a calculated address is rounded to them, as on the control. Other
+// Least increments of IS-B: a calculated address is rounded to them, as on the control; other
 // addresses (F, S, P …) are not.
 double MacroVariables::increment(char letter) const {
   constexpr double kMetric = 0.001;

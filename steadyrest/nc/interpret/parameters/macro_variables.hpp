@@ -16,11 +16,11 @@ namespace steadyrest::nc::interpret {
 
 /// The variables of a FANUC custom macro: local #1 … #33, common #100 … #199 and #500 … #999, and
 /// the system variables that follow from the program alone: #4001 … (modes), #5001 … (end of the
-/// block before, work coordinates), #5021 … (machine coordinates; not after G20, for their unit is
-/// the machine's), #5041 … (work coordinates of the spindle nose).
+/// previous block, work coordinates), #5021 … (machine coordinates; not after G20, since their unit
+/// is the machine's), #5041 … (work coordinates of the spindle nose).
 ///
-/// All are vacant at the start: what the control has kept in #500 … is not known. M98 leaves the
-/// local ones as they are.
+/// All are vacant at the start: the values kept in #500 … are unknown. M98 leaves the local ones
+/// unchanged.
 class MacroVariables final : public read::Values {
  public:
   /// `state` outlives the object.
@@ -37,7 +37,7 @@ class MacroVariables final : public read::Values {
 
   [[nodiscard]] Asked& asked() noexcept { return asked_; }
   [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
-  /// The variables that are set, `#500`, with their values.
+  /// The set variables, `#500`, with their values.
   void list(std::vector<std::pair<std::string, double>>& out) const;
 
  private:

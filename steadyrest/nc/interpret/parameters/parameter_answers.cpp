@@ -13,9 +13,9 @@ constexpr double truth(bool yes) noexcept {
   return yes ? 1.0 : 0.0;
 }
 
-// LinuxCNC's predefined named parameters (documentation 2.9, "Parameters"). An answer's `mode` says
-// which part of the state it shows: so a rewriter knows what a line depends on. G codes are shown
-// times ten, as LinuxCNC does: G54 is 540, G59.1 is 591.
+// LinuxCNC's predefined named parameters (documentation 2.9, "Parameters"). An answer's `mode`
+// tells which part of the state it shows, so that a rewriter knows what a line depends on. G codes
+// are shown times ten, as in LinuxCNC: G54 is 540, G59.1 is 591.
 constexpr auto kAnswers = std::to_array<std::pair<std::string_view, Answer>>({
     {"_vmajor", {.value = [](const State&) { return 2.9; }}},
     {"_vminor", {.value = [](const State&) { return 0.0; }}},

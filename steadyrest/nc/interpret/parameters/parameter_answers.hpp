@@ -8,12 +8,12 @@
 
 namespace steadyrest::nc::interpret {
 
-/// What a read-only named parameter of LinuxCNC shows of the modal state.
+/// The part of the modal state shown by a read-only named parameter of LinuxCNC.
 struct Answer {
   double (*value)(const State&) = nullptr;
   ModeMask mode = 0;  ///< the modes it follows from
 };
-/// By the name without `<` and `>`; nullptr where it is none of them.
+/// By name without `<` and `>`; nullptr for any other name.
 [[nodiscard]] const Answer* answer_of(std::string_view name);
 
 }  // namespace steadyrest::nc::interpret

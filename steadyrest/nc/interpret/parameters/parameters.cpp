@@ -13,10 +13,10 @@ namespace {
 using read::Lookup;
 
 // Three stores: numbers, global names, and the local names of each call. #5161 … and the predefined
-// names have no store: they show the state itself, so they never lag behind a G10 or a move. What a
-// line assigns waits until the whole line has been read.
+// names have no store: they show the state itself, so they never lag behind a G10 or a move. A
+// line's assignments wait until the whole line has been read.
 
-constexpr int kProbe = 5061;       // … 5069, and 5070 whether it touched
+constexpr int kProbe = 5061;       // … 5069; 5070 tells whether it touched
 constexpr int kHome = 5161;        // … 5169
 constexpr int kSecondHome = 5181;  // … 5189
 constexpr int kG92InForce = 5210;
@@ -30,7 +30,7 @@ constexpr int kToolDiameter = 5410;  // then front angle, back angle, orientatio
 constexpr int kPosition = 5420;      // … 5428
 constexpr int kAxes = 9;
 constexpr int kDebugging = 5599;     // whether (DEBUG,…) shows: 1 at the start
-constexpr int kChangerFault = 5600;  // and 5601: the tool changer's, nothing can be set there
+constexpr int kChangerFault = 5600;  // and 5601: the tool changer's, read-only
 
 constexpr bool within(int index, int first) noexcept {
   return index >= first && index < first + kAxes;
@@ -40,7 +40,7 @@ constexpr bool reads_only(int index) noexcept {
          index == kG92InForce || index == kActiveOffset;
 }
 
-// What only the running machine knows.
+// Values that only the running machine knows.
 bool of_machine(std::string_view name) noexcept {
   return name.starts_with("_hal[") || name.starts_with("_ini[") || name == "_current_pocket" ||
          name == "_selected_pocket" || name == "_metric_machine";
@@ -56,7 +56,7 @@ Parameters::Parameters()
 
 void Parameters::keep(std::span<const std::pair<int, double>> numbers) {
   for (const auto& [index, value] : numbers) {
-    // Probe results (#5061 …) are not taken over, and from #5161 on numbers show the state.
+    // Probe results (#5061 …) are not kept, and from #5161 on numbers show the state.
     if (index >= 1 && index < kProbe) {
       numbers_[static_cast<std::size_t>(index)] = value;
       set_[static_cast<std::size_t>(index)] = true;
@@ -77,7 +77,7 @@ void Parameters::list(std::vector<std::pair<std::string, double>>& out) const {
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
 }
 
-// Of the numbers that of_state() answers for.
+// For the numbers that of_state() answers.
 void Parameters::ask(int index) const {
   if (within(index, kPosition)) {
     asked_.about_position(static_cast<std::size_t>(index - kPosition));
@@ -195,8 +195,7 @@ bool Parameters::of_state(int index, double& value) const {
   }
 }
 
-// #<_x> and the like are work positions, #<_abs_x> those of the machine; both in the program's
-// unit.
+// #<_x> and the like are work positions, #<_abs_x> machine positions; both in the program's unit.
 bool Parameters::of_state(std::string_view name, double& value) const {
   if (name.size() == 2 && name[0] == '_') {
     constexpr std::string_view kLetters = "xyzabcuvw";
@@ -232,8 +231,8 @@ bool Parameters::of_state(std::string_view name, double& value) const {
   return true;
 }
 
-// Numbers that a program has not set read as 0 in LinuxCNC; they count as asked, since the control
-// may hold another value.
+// Numbers that a program has not set read as 0 in LinuxCNC; they count as read from the control,
+// which may hold another value.
 Lookup Parameters::number(int index, double& value) const {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
@@ -288,7 +287,7 @@ Lookup Parameters::name(std::string_view name, double& value) const {
   return of_machine(name) ? Lookup::not_known_here : Lookup::no_such_name;
 }
 
-// In force once the line has been read: `#1=2 G0 X#1` still uses the old #1.
+// Takes effect once the line has been read: `#1=2 G0 X#1` still uses the old #1.
 Lookup Parameters::set_number(int index, double value) {
   if (index < 1 || index >= kNumbers) {
     return Lookup::no_such_number;
@@ -314,8 +313,8 @@ Lookup Parameters::set_name(std::string_view name, double value) {
 void Parameters::assign(int index, double value) {
   bool rotary = false;
   if (double* const place = index >= kHome ? stored(index, rotary) : nullptr; place != nullptr) {
-    // Only the stored number changes. LinuxCNC acts on it when the system is selected again, so
-    // what is in force stays.
+    // Only the stored number changes. LinuxCNC acts on it when the system is selected again, so the
+    // values in force stay.
     *place = rotary ? value : value * config_->data_unit_mm;
     if (index >= kOffsets) {
       asked_.about_offset(std::uint32_t{1}
@@ -348,12 +347,12 @@ void Parameters::drop() noexcept {
 }
 
 void Parameters::record_probe(const Axes& end) {
-  // LinuxCNC would record where the probe touched. Here it is taken to touch at the end, but the
-  // numbers count as unset: a program that uses them is told so.
+  // LinuxCNC would record where the probe touched. Here it is assumed to touch at the end, but the
+  // numbers count as unset, so that their use is reported.
   for (std::size_t axis = 0; axis < kAxes; ++axis) {
     const auto number = static_cast<std::size_t>(kProbe) + axis;
     numbers_[number] = end[axis] / (is_rotary(axis) ? 1.0 : state_->unit_mm);
-    set_[number] = false;  // where it touches is not known
+    set_[number] = false;  // where it touches is unknown
   }
   set_[kProbe + kAxes] = false;
   numbers_[kProbe + kAxes] = 0.0;
@@ -374,7 +373,7 @@ void Parameters::enter_shared() {
   calls_.emplace_back().shared = true;
 }
 
-// LinuxCNC gives #1 to #30 back to the caller; a value returned shows in #<_value>.
+// LinuxCNC restores the caller's #1 to #30; a returned value shows in #<_value>.
 void Parameters::leave(const double* returned) {
   if (!calls_.back().shared) {
     std::ranges::copy(calls_.back().saved, numbers_.begin() + 1);
@@ -384,7 +383,7 @@ void Parameters::leave(const double* returned) {
   record_value(returned);
 }
 
-// endsub and return without a value leave 0, and say so in #<_value_returned>.
+// endsub and return without a value leave 0, and #<_value_returned> tells so.
 void Parameters::record_value(const double* returned) noexcept {
   value_ = returned != nullptr ? *returned : 0.0;
   value_returned_ = returned != nullptr ? 1.0 : 0.0;

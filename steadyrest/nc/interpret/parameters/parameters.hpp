@@ -19,13 +19,13 @@
 namespace steadyrest::nc::interpret {
 
 /// The parameters of a program: numbered (#1 … #5601), named local (#<a>) and global (#<_a>), and
-/// what the interpreter itself answers for (#5061 … #5070, #5161 …, #5400 …, #<_x> …).
+/// those that the interpreter itself answers (#5061 … #5070, #5161 …, #5400 …, #<_x> …).
 ///
-/// #1 … #30 and the local names belong to a call: enter() saves them, leave() brings them back.
-/// The answers follow LinuxCNC 2.9 (rs274, by experiment): offsets, reference points and tool data
-/// in the units of the machine's files (`Config::data_unit_mm`), positions in the units in force.
-/// What only the running machine knows (#<_hal[…]>, #<_ini[…]>) is not answered. A probing move is
-/// taken to end where it was programmed, and #5061 … say so.
+/// #1 … #30 and the local names belong to a call: enter() saves them, leave() restores them. The
+/// answers follow LinuxCNC 2.9 (rs274, by experiment): offsets, reference points and tool data in
+/// the units of the machine's files (`Config::data_unit_mm`), positions in the units in force.
+/// Values that only the running machine knows (#<_hal[…]>, #<_ini[…]>) are not answered. A probing
+/// move is assumed to end where programmed, and #5061 … show that.
 class Parameters final : public read::Values {
  public:
   static constexpr int kNumbers = 5602;
@@ -33,7 +33,7 @@ class Parameters final : public read::Values {
 
   Parameters();
 
-  /// Whose state is asked and set; both must stay where they are while it is used.
+  /// The state to read and set; both must outlive the object's use.
   void bind(State& state, const Config& config) noexcept {
     state_ = &state;
     config_ = &config;
@@ -52,19 +52,19 @@ class Parameters final : public read::Values {
   void enter(std::span<const double> arguments);
   /// A call that shares #1 … and the names with its caller (M98).
   void enter_shared();
-  /// The end of a call; `returned` what #<_value> is then.
+  /// The end of a call; `returned` becomes #<_value>.
   void leave(const double* returned);
-  /// What #<_value> and #<_value_returned> are from now on; nullptr: nothing was returned.
+  /// Sets #<_value> and #<_value_returned>; nullptr: nothing was returned.
   void record_value(const double* returned) noexcept;
   [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
 
-  /// What the control has kept from before the program.
+  /// The values that the control kept from before the program.
   void keep(std::span<const std::pair<int, double>> numbers);
-  /// What the line in hand has asked of the control's own state; cleared by whoever reads lines.
+  /// What the current line has read of the control's own state; whoever reads lines clears it.
   [[nodiscard]] Asked& asked() noexcept { return asked_; }
   [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
-  /// Numbers and global names that are set, `#100` and `#<_name>`, with their values: what the
-  /// control keeps when the program is over.
+  /// Numbers and global names that are set, `#100` and `#<_name>`, with their values: the control
+  /// keeps these after the program.
   void list(std::vector<std::pair<std::string, double>>& out) const;
 
  private:
@@ -87,7 +87,7 @@ class Parameters final : public read::Values {
   [[nodiscard]] Axes position() const noexcept;
   [[nodiscard]] bool of_state(int index, double& value) const;
   [[nodiscard]] bool of_state(std::string_view name, double& value) const;
-  /// Where a stored offset or reference point lies in the state; nullptr when it is none of them.
+  /// The place of a stored offset or reference point in the state; nullptr for other numbers.
   [[nodiscard]] double* stored(int index, bool& rotary) const noexcept;
   void assign(int index, double value);
   void ask(int index) const;

@@ -13,7 +13,7 @@ using read::ValueType;
 
 constexpr int kParameters = 1000;
 
-// DEF INT rounds to the nearest; BOOL is 1 for everything but 0.
+// DEF INT rounds to the nearest; BOOL is 1 for anything but 0.
 double converted(ValueType type, double value) noexcept {
   return type == ValueType::real      ? value
          : type == ValueType::integer ? std::round(value)
@@ -39,8 +39,8 @@ Lookup SinumerikVariables::number(int index, double& value) const {
   if (index < 0 || index >= kParameters) {
     return Lookup::no_such_number;
   }
-  // Whether a read within the block sees the new value or the old one is not certain: refused
-  // rather than guessed.
+  // Whether a read within the block sees the new or the old value is not certain: refused rather
+  // than guessed.
   if (std::ranges::any_of(pending_numbers_, [&](const auto& one) { return one.first == index; })) {
     return Lookup::assigned_in_block;
   }
@@ -49,7 +49,7 @@ Lookup SinumerikVariables::number(int index, double& value) const {
 }
 
 Lookup SinumerikVariables::name(std::string_view name, double& value) const {
-  // Variables belong to the program that defines them; a caller's are out of sight.
+  // Variables belong to the program that defines them; a caller's are not visible.
   const auto found = frames_.back().variables.find(name);
   if (found == frames_.back().variables.end()) {
     return Lookup::no_such_name;
@@ -104,7 +104,7 @@ bool SinumerikVariables::define(std::string_view name, ValueType type, double va
 bool SinumerikVariables::define_argument(std::string_view name, ValueType type, std::size_t place,
                                          double otherwise) {
   Frame& frame = frames_.back();
-  // PROC names the values of the call by place; what the call leaves out has its default.
+  // PROC names the values of the call by place; omitted ones take their default.
   const bool given = place < frame.call.count && (frame.call.given >> place & 1U) != 0;
   frame.taken = std::max(frame.taken, place + 1);
   return define(name, type, given ? frame.call.values[place] : otherwise);
@@ -114,7 +114,7 @@ void SinumerikVariables::enter(const read::Flow& call) {
   frames_.emplace_back().call = call;
 }
 
-// The next turn of NAME P3: variables begin again, the call's values stay.
+// The next repeat of NAME P3: variables start over, the call's values stay.
 void SinumerikVariables::restart() {
   frames_.back().variables.clear();
   frames_.back().taken = 0;

@@ -14,10 +14,10 @@
 
 namespace steadyrest::nc::interpret {
 
-/// R0 … R999 and the variables that DEF and PROC make. R-parameters are common to all programs; a
-/// variable belongs to the program or subprogram that defines it. What the control has kept in an
-/// R-parameter is not known: it is unset until the program sets it. Assignments of a block take
-/// effect when it has been read; a value that is set and used in one block is refused.
+/// R0 … R999 and the variables that DEF and PROC define. R-parameters are common to all programs; a
+/// variable belongs to the program or subprogram that defines it. The value that the control kept
+/// in an R-parameter is unknown: it is unset until the program sets it. A block's assignments take
+/// effect once it has been read; setting and using a value in one block is refused.
 class SinumerikVariables final : public read::TypedValues {
  public:
   SinumerikVariables();
@@ -32,13 +32,13 @@ class SinumerikVariables final : public read::TypedValues {
   bool define_argument(std::string_view name, read::ValueType type, std::size_t place,
                        double otherwise) override;
 
-  /// The R-parameters that are set, `R5`, with their values: what the control keeps.
+  /// The R-parameters that are set, `R5`, with their values, which the control keeps.
   void list(std::vector<std::pair<std::string, double>>& out) const;
-  /// A subprogram begins with the values of its call, begins again (P), ends.
+  /// A subprogram begins with the values of its call, starts over (P), ends.
   void enter(const read::Flow& call);
   void restart();
   void leave();
-  /// More values were given than the subprogram has taken.
+  /// The call has more values than the subprogram has taken.
   [[nodiscard]] bool values_left() const noexcept {
     return frames_.back().taken < frames_.back().call.count;
   }

@@ -7,7 +7,7 @@
 namespace steadyrest::nc::interpret {
 
 // LinuxCNC 2.9's bounds, found by bisection with rs274 (README.md). In inch mode the spiral's
-// bounds are constants of LinuxCNC's own, 0.0028 in and 0.28 in, and not the metric ones converted.
+// bounds are LinuxCNC's own constants, 0.0028 in and 0.28 in, not the metric ones converted.
 ArcTolerance arc_tolerance(bool inch) noexcept {
   if (!inch) {
     return {};
@@ -27,19 +27,19 @@ std::expected<PlanePoint, ArcFault> centre_from_radius(PlanePoint start, PlanePo
   const double along_first = end.first - start.first;
   const double along_second = end.second - start.second;
   const double chord = std::hypot(along_first, along_second);
-  // Every centre at distance R would do: a full circle needs its centre in words.
+  // Any centre at distance R would do: a full circle needs its centre given in words.
   if (chord == 0.0) {
     return std::unexpected(ArcFault::no_chord);
   }
   const double half = 0.5 * chord;
   const double radius = std::abs(radius_mm);
-  // A radius short of half the chord by no more than the tolerance is a rounding of the CAM system:
-  // the half circle is meant.
+  // A radius short of half the chord by no more than the tolerance is CAM rounding: a half circle
+  // is meant.
   if (half - radius > tolerance.radius_mm) {
     return std::unexpected(ArcFault::radius_too_small);
   }
-  // (R − c/2)·(R + c/2) instead of R² − c²/4: no difference of nearly equal squares. Just above c/2
-  // the rounding could make it negative, so there the height is 0.
+  // (R − c/2)·(R + c/2) instead of R² − c²/4 avoids cancellation. Just above c/2 rounding could
+  // make it negative, so the height is 0 there.
   const double height =
       half / radius > 1.0 - 1e-12 ? 0.0 : std::sqrt((radius - half) * (radius + half));
   const double side = (radius_mm > 0.0) == clockwise ? -height : height;
@@ -54,8 +54,8 @@ std::expected<void, ArcFault> check_centre(PlanePoint start, PlanePoint end, Pla
   if (at_start < tolerance.radius_mm || at_end < tolerance.radius_mm) {
     return std::unexpected(ArcFault::zero_radius);
   }
-  // Words are rounded, so the two radii never agree exactly. The relative bound allows large arcs
-  // more; the absolute one on top of it catches a wrong word on any arc.
+  // Words are rounded, so the two radii never agree exactly. The relative bound allows more for
+  // large arcs; the absolute one also catches a wrong word on any arc.
   const double miss = std::abs(at_start - at_end);
   if (miss > tolerance.spiral_most_mm ||
       (miss > tolerance.spiral_mm && miss > tolerance.spiral_ratio * std::max(at_start, at_end))) {

@@ -12,7 +12,7 @@ struct PlanePoint {
   double second = 0.0;
 };
 
-/// How far an arc may miss: as LinuxCNC 2.9 decides (measured with rs274).
+/// How far an arc may miss in LinuxCNC 2.9 (measured with rs274).
 struct ArcTolerance {
   double radius_mm = 0.00127;               ///< smallest radius; slack of R against half the chord
   double spiral_mm = 0.028284271247461903;  ///< start and end radius may differ by this,
@@ -29,12 +29,12 @@ enum class ArcFault : unsigned char {
   does_not_close     ///< start and end radius differ too much
 };
 
-/// Centre from radius: R > 0 the arc up to 180°, R < 0 the one beyond.
+/// Centre from radius: R > 0 for arcs up to 180°, R < 0 for longer ones.
 [[nodiscard]] std::expected<PlanePoint, ArcFault> centre_from_radius(
     PlanePoint start, PlanePoint end, double radius_mm, bool clockwise,
     const ArcTolerance& tolerance) noexcept;
 
-/// Whether `centre` serves for an arc from `start` to `end`.
+/// Whether `centre` is valid for an arc from `start` to `end`.
 [[nodiscard]] std::expected<void, ArcFault> check_centre(PlanePoint start, PlanePoint end,
                                                          PlanePoint centre,
                                                          const ArcTolerance& tolerance) noexcept;

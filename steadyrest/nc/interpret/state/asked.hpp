@@ -21,13 +21,13 @@ inline constexpr ModeMask kOverrideMode = kToolMode << 3U;      ///< M48 …
 inline constexpr ModeMask kFeedMode = kToolMode << 4U;          ///< F
 inline constexpr ModeMask kSpeedMode = kToolMode << 5U;         ///< S
 
-/// What the expressions of a line have asked of the control: values that the program need not have
-/// set, so that they may be those of the state in which it was started.
+/// What the expressions of a line have read from the control: values that the program may not have
+/// set, so that they may come from the state in which it started.
 struct Asked {
-  std::uint32_t positions = 0;  ///< axes whose work position was asked for, a mask
+  std::uint32_t positions = 0;  ///< axes whose work position was read, a mask
   ModeMask modes = 0;
-  std::string value;  ///< the first value that the program has certainly not set, as it is written
-  /// Work offsets whose numbers (#5221 …) it has set, a mask; kShift: those of G92.
+  std::string value;  ///< the first value that the program certainly has not set, as written
+  /// Work offsets whose numbers (#5221 …) it has set, a mask; kShift: G92's.
   std::uint32_t offsets_set = 0;
   static constexpr std::uint32_t kShift = std::uint32_t{1} << 31U;
 

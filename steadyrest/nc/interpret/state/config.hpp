@@ -13,7 +13,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// One tool as the control's tool table has it.
+/// One tool of the control's tool table.
 struct Tool {
   std::int32_t number = 0;
   Axes offset{};  ///< mm and degrees
@@ -28,13 +28,13 @@ struct Tool {
 /// Work offsets G54–G59.3, in this order; for sinumerik G54–G57, G505 ….
 inline constexpr std::size_t kWorkOffsets = 9;
 
-/// How a number without a decimal point is meant in a word that takes one (dialect `fanuc`).
+/// What a number without a decimal point means in a word that takes one (dialect `fanuc`).
 enum class DecimalRule : std::uint8_t {
-  calculator,      ///< X100 is 100 mm (parameter DPI = 1): what most CAM programs rely on
+  calculator,      ///< X100 is 100 mm (parameter DPI = 1): most CAM programs rely on it
   least_increment  ///< X100 is 100 increments of 0.001 mm or 0.0001 inch (DPI = 0, IS-B)
 };
 
-/// What the interpreter must know that does not stand in the program.
+/// What the interpreter must know that the program does not say.
 struct Config {
   read::Dialect dialect = read::Dialect::linuxcnc;
   bool block_delete = false;  ///< the operator's switch: lines that begin with / are left out
@@ -42,27 +42,27 @@ struct Config {
   bool inch = false;            ///< units in force at the start (G20)
   bool external_offset = true;  ///< fanuc: G10 L2 P0 is the external offset; false: G52 (Haas)
   Axes external{};              ///< fanuc: external work offset in force at the start
-  std::string axes = "XYZABC";  ///< letters of the axes that the machine has
+  std::string axes = "XYZABC";  ///< letters of the machine's axes
   Axes start{};                 ///< machine position at the start, mm and degrees
   std::array<Axes, kWorkOffsets> work_offset{};
   std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets about Z
   std::size_t active_offset = 0;  ///< index into work_offset that is in force at the start
   Axes g92{};                     ///< G92 offset at the start
-  bool g92_on = false;            ///< it is in force; false: only stored, for G92.3
+  bool g92_on = false;            ///< in force; false: only stored, for G92.3
   Axes tool_offset{};             ///< tool length in force at the start
   std::array<Axes, 2> home{};     ///< G28 and G30, machine coordinates
-  /// linuxcnc: other numbered parameters that the control keeps, with their values at the start.
+  /// linuxcnc: other numbered parameters kept by the control, with their values at the start.
   std::vector<std::pair<int, double>> numbers;
-  /// The offsets, the active one, the reference points and the parameters above are those of the
-  /// control; false: they are only taken for the want of better.
+  /// The offsets, the active one, the reference points and the parameters above are the control's;
+  /// false: they are only assumed.
   bool start_known = false;
-  /// Without a table every tool exists, with length 0: positions are then those of the tool tip of
-  /// a tool without length. With a table a tool that is not in it is refused.
+  /// Without a table every tool exists with length 0: positions are then the tip of a tool without
+  /// length. With a table, a tool that is not in it is refused.
   std::optional<std::vector<Tool>> tools;
-  double data_unit_mm = 1.0;  ///< unit in which #5161 … #5410 are written: 1 or 25.4
-  /// Folders in which `o<name> call` looks for NAME.ngc, in this order.
+  double data_unit_mm = 1.0;  ///< unit of #5161 … #5410: 1 or 25.4
+  /// Folders that `o<name> call` searches for NAME.ngc, in this order.
   std::vector<std::string> subprogram_folders;
-  /// Lines that a program may execute in loops and subprograms together; then it is refused.
+  /// Most lines that a program may execute in loops and subprograms; beyond that it is refused.
   std::uint64_t most_repeated_lines = 20'000'000;
   std::int32_t tool_in_spindle = 0;
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none

@@ -6,11 +6,11 @@
 namespace steadyrest::nc::interpret {
 namespace {
 
-// The contour's points come in as `programmed`; the tool's centre goes out at the tool's radius
-// beside them. Where a move ends depends on the corner behind it, so each waits until the next one
-// is known (cutter_compensation_waiting.cpp). `current_` is the tool's centre at the end of what is
-// planned so far, `start_` where the waiting move begins. Bounds and special cases are those of
-// LinuxCNC 2.9, found with rs274.
+// The contour's points come in as `programmed`; the tool centre goes out, offset by the tool
+// radius. Where a move ends depends on the corner after it, so each waits until the next one is
+// known (cutter_compensation_waiting.cpp). `current_` is the tool centre at the end of what is
+// planned so far, `start_` where the waiting move begins. Bounds and special cases are LinuxCNC
+// 2.9's, found with rs274.
 
 constexpr double kMmPerMil = 0.0254;
 
@@ -37,8 +37,8 @@ CutterCompensation::Fault CutterCompensation::end(bool inch) {
   return meet_at(current_, inch);
 }
 
-// A program stop lets out what waits, since the operator acts at that point. The move before it can
-// no longer be shortened: a concave corner right after it is refused.
+// A program stop releases the waiting moves, since the operator acts at that point. The move before
+// it can no longer be shortened: a concave corner right after it is refused.
 CutterCompensation::Fault CutterCompensation::stop(bool inch) {
   if (!active() || !entered_) {
     return Fault::none;
@@ -56,7 +56,7 @@ void CutterCompensation::put(Axes& axes, PlanePoint value) const noexcept {
   axes[axes_.second] = value.second;
 }
 
-// Where the tool's centre is for a point of the contour; before the entry they are the same.
+// The tool centre for a point of the contour; before the entry they are the same.
 Axes CutterCompensation::centre(Axes point) const noexcept {
   if (active() && entered_) {
     put(point, current_);
@@ -69,7 +69,7 @@ PlanePoint CutterCompensation::to_tool(PlanePoint direction) const noexcept {
   return left() ? normal : PlanePoint{.first = -normal.first, .second = -normal.second};
 }
 
-// The contour's direction from its normal: left_of() twice is a turn by 180°, hence the sign on the
+// The contour's direction from its normal: left_of() twice turns by 180°, hence the sign on the
 // left side.
 PlanePoint CutterCompensation::from_tool(PlanePoint normal) const noexcept {
   const PlanePoint direction = left_of(normal);
@@ -92,7 +92,7 @@ const Move* CutterCompensation::waiting_arc() const noexcept {
   return first != nullptr && first->move.kind == MoveKind::arc ? &first->move : nullptr;
 }
 
-// Decides how a reversal counts (offset_corner.cpp).
+// Decides how to treat a reversal (offset_corner.cpp).
 bool CutterCompensation::behind_outer_arc() const noexcept {
   const Move* const arc = waiting_arc();
   return arc != nullptr && left() != (arc->turns > 0);
@@ -117,18 +117,18 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
     return wait(offset, to_tool(unit(between(from, to))), 0.0);
   }
   const PlanePoint way = between(from, to);
-  if (way.first == 0.0 && way.second == 0.0) {  // other axes alone
+  if (way.first == 0.0 && way.second == 0.0) {  // only other axes
     put(offset.end, current_);
     return wait(offset, way, 0.0);
   }
   const PlanePoint direction = unit(way);
   const PlanePoint normal = to_tool(direction);
-  // The tool is on the contour's normal at the corner, so its position tells the direction before
-  // the corner, whatever kind of move came before.
+  // The tool is on the contour's normal at the corner, so its position gives the direction before
+  // the corner, whatever the kind of the previous move.
   const double turn = turn_between(from_tool(unit(between(from, current_))), direction, tool_.side);
   const Corner corner = kind_of(turn, behind_outer_arc());
   if (corner == Corner::concave) {
-    // Both offsets end where they cross, so the move before must still be here to be shortened.
+    // Both offsets end where they cross, so the previous move must still be here to be shortened.
     if (waiting_.empty() || stopped_) {
       return Fault::after_stop;
     }
@@ -139,7 +139,7 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
       return fault;
     }
   } else {
-    // Tangent or convex: the move before keeps its end. A convex corner gets an arc about the
+    // Tangent or convex: the previous move keeps its end. A convex corner gets an arc about the
     // contour's point.
     const Fault fault = corner == Corner::convex ? meet_at(current_, inch) : Fault::none;
     if (fault != Fault::none) {
@@ -156,8 +156,8 @@ CutterCompensation::Fault CutterCompensation::line(const Move& move, const Axes&
   return wait(offset, way, 0.0);
 }
 
-// An arc about the contour's corner, for G0 a straight line, at the place of the other axes before
-// the move.
+// An arc about the contour's corner, for G0 a straight line, with the other axes where they were
+// before the move.
 void CutterCompensation::join(const Move& move, const Axes& programmed, PlanePoint normal) {
   const PlanePoint corner = point(programmed);
   Move arc = move;
@@ -184,7 +184,7 @@ CutterCompensation::Fault CutterCompensation::line_corner(PlanePoint corner, Pla
     OffsetCircle circle = offset_of(centre, 0.0, arc->turns);
     circle.radius = length(between(centre, point(arc->end)));
     const PlanePoint normal = to_tool(direction);
-    // An entry arc's centre may lie beyond its end: the contour's radius is counted from the
+    // An entry arc's centre may lie beyond its end: the contour's radius is measured from the
     // offset.
     const double contour =
         circle.radius + (circle.tool_inside ? tool_.radius_mm : -tool_.radius_mm);
@@ -211,7 +211,7 @@ CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, Plane
                          .second = arc->centre_mm[axes_.second]};
     OffsetCircle before = offset_of(old, 0.0, arc->turns);
     before.radius = length(between(old, point(arc->end)));
-    // Circles about one centre coincide or never meet: there is no corner point.
+    // Concentric circles coincide or never meet: there is no corner point.
     if (before.radius == 0.0 || length(between(old, centre)) == 0.0) {
       return Fault::same_centre;
     }
@@ -220,7 +220,7 @@ CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, Plane
     return found ? Fault::none : Fault::does_not_fit;
   }
   const PlanePoint normal = unit(between(corner, current_));
-  // Height of the arc's centre over the tangent line at the corner, for the crossing of a line and
+  // Height of the arc's centre above the tangent line at the corner, for the crossing of a line and
   // a circle.
   const double height = radius * dot(unit(between(corner, centre)), normal);
   const auto found = crossing(after, normal, from_tool(normal), height, tool_.radius_mm, false);
@@ -228,16 +228,16 @@ CutterCompensation::Fault CutterCompensation::arc_corner(const Move& move, Plane
   return found ? Fault::none : Fault::does_not_fit;
 }
 
-// From the start to the offset of the end on a new arc: its centre is where the end's radius meets
-// the perpendicular bisector of the chord.
+// A new arc from the start to the offset of the end: its centre is where the end's radius meets the
+// perpendicular bisector of the chord.
 CutterCompensation::Fault CutterCompensation::entry_arc(const Move& move, PlanePoint end,
                                                         PlanePoint& centre) const {
   const PlanePoint old{.first = move.centre_mm[axes_.first],
                        .second = move.centre_mm[axes_.second]};
   const PlanePoint inwards = unit(between(end, old));
   const PlanePoint chord = between(end, current_);
-  // The centre is as far from the tool's position as from the end: in this isosceles triangle the
-  // leg is half the chord over the cosine of the angle at the end.
+  // The centre is equally far from the tool's position and the end: in this isosceles triangle the
+  // leg is half the chord divided by the cosine of the angle at the end.
   const double cosine = dot(unit(chord), inwards);
   if (std::abs(cosine) < 1e-6) {
     return Fault::entry_arc;
@@ -261,7 +261,7 @@ CutterCompensation::Fault CutterCompensation::enter_on_arc(const Move& move, con
   start_ = from;
   entered_ = true;
   if (lathe_ && tool_.orientation != 0 && tool_.orientation != 9) {
-    Move first = move;  // the edge's own point goes to its place first
+    Move first = move;  // the tool point goes to its place first
     first.kind = MoveKind::linear;
     first.end = programmed;
     first.centre_mm = {};
@@ -277,7 +277,7 @@ CutterCompensation::Fault CutterCompensation::enter_on_arc(const Move& move, con
   return wait(offset, {}, 0.0);
 }
 
-// The corner before an arc: what waits ends at it, or goes out and is joined to the arc.
+// The corner before an arc: the waiting moves end there, or go out and are joined to the arc.
 CutterCompensation::Fault CutterCompensation::turn_into_arc(const Move& move,
                                                             const Axes& programmed,
                                                             bool tool_inside, bool inch) {
@@ -317,7 +317,7 @@ CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& 
   const PlanePoint outwards = unit(between(centre, to));
   const PlanePoint end =
       along(to, outwards, circle.tool_inside ? -tool_.radius_mm : tool_.radius_mm);
-  // Inside, the tool's centre runs on R − r: nothing is left of the arc.
+  // Inside, the tool centre runs on R − r: nothing remains of the arc.
   if (circle.tool_inside && circle.radius <= 0.0) {
     return Fault::arc_too_small;
   }
@@ -335,7 +335,7 @@ CutterCompensation::Fault CutterCompensation::arc(const Move& move, const Axes& 
   return wait(offset, {}, angle);
 }
 
-// Everything that waits ends at the corner found; then it goes out.
+// All waiting moves end at the corner found and go out.
 CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch) {
   for (Waiting& one : waiting_) {
     auto* const waiting = std::get_if<WaitingMove>(&one);
@@ -346,23 +346,21 @@ CutterCompensation::Fault CutterCompensation::meet_at(PlanePoint meet, bool inch
     if (move.kind == MoveKind::arc) {
       const PlanePoint centre{.first = move.centre_mm[axes_.first],
                               .second = move.centre_mm[axes_.second]};
-      // The crossing found must lie on the arc's own circle; otherwise the corner was worked out
-      // from another arc.
+      // The crossing must lie on the arc's own circle; otherwise the corner came from another arc.
       const double miss =
           std::abs(length(between(centre, point(move.end))) - length(between(centre, meet)));
       if (miss > (inch ? 0.01 * kMmPerInch : 0.01)) {
         return Fault::arc_broken;
       }
-      // Shortened at a corner, the arc may sweep less than the contour, never more: more means that
-      // it would have to run backwards, all the way round. LinuxCNC applies its tolerance of
-      // lengths to this angle.
+      // Shortened at a corner, the arc may sweep less than the contour but never more: more means
+      // running all the way round. LinuxCNC applies its length tolerance to this angle.
       const double angle = swept(start_, meet, centre, move.turns);
       if (waiting->angle != 0.0 &&
           std::abs(angle) > std::abs(waiting->angle) + (inch ? 0.001 : kMmPerMil)) {
         return Fault::runs_backwards;
       }
     } else if (dot(waiting->direction, between(start_, meet)) < 0.0) {
-      // The new end lies behind the beginning: the tool cannot get between the two corners.
+      // The new end lies before the start: the tool does not fit between the two corners.
       return Fault::runs_backwards;
     }
     put(move.end, meet);

@@ -12,21 +12,20 @@
 
 namespace steadyrest::nc::interpret {
 
-/// The path of the tool's centre beside the programmed contour (G41, G42), as LinuxCNC 2.9 makes
-/// it.
+/// The path of the tool centre along the programmed contour (G41, G42), as in LinuxCNC 2.9.
 ///
 /// Law, with tool radius r, contour point P and unit normal n to the tool's side: the offset of a
 /// line ends at P + r·n; the offset of an arc has its centre and the radius R ± r. The entry move
-/// goes straight (or on an arc of a new centre) to the offset of its own end. At a convex corner an
-/// arc of radius r about P joins the offsets (a straight line for G0), at a concave corner both end
-/// where they cross; changes of direction up to 0.05 rad are passed without either.
+/// goes straight (or on an arc about a new centre) to the offset of its own end. At a convex corner
+/// an arc of radius r about P joins the offsets (a straight line for G0), at a concave corner both
+/// end where they cross; changes of direction up to 0.05 rad need neither.
 ///
-/// The end of a move is known when the next one is: moves wait until then, together with what
-/// stands between them (moves of other axes, dwells, events), at most `kMostWaiting`. Each goes out
-/// with the line, feed and modes of its own block.
+/// The end of a move depends on the next one: moves wait until then, with anything between them
+/// (moves of other axes, dwells, events), at most `kMostWaiting`. Each goes out with the line, feed
+/// and modes of its own block.
 ///
-/// A move that would have to run backwards, or an offset arc that does not reach, is refused: the
-/// tool would gouge. Only neighbours are looked at, as on the control.
+/// Refuses a move that would have to run backwards, or an offset arc that does not reach: the tool
+/// would gouge. Only neighbours are checked, as on the control.
 class CutterCompensation final : public Sink {
  public:
   static constexpr std::size_t kMostWaiting = 4096;
@@ -36,45 +35,45 @@ class CutterCompensation final : public Sink {
     entry_too_short,
     arc_too_small,   ///< the tool does not fit into the arc
     entry_arc,       ///< no arc leads from the start to the offset of the end
-    same_centre,     ///< arcs about one centre have no corner
+    same_centre,     ///< concentric arcs have no corner
     does_not_fit,    ///< the offsets do not cross
     runs_backwards,  ///< the crossing lies before the move's start
     arc_broken,      ///< the crossing is not on the offset arc
-    after_stop,      ///< a concave corner behind a stop: the move before it has gone out
+    after_stop,      ///< a concave corner after a stop: the previous move has gone out
     too_many_waiting
   };
 
   struct Tool {
     int side = 0;  ///< −1 left of the contour, +1 right
     double radius_mm = 0.0;
-    int orientation = 0;  ///< of a lathe tool's edge, G18 alone
+    int orientation = 0;  ///< of a lathe tool's edge, only G18
   };
 
-  /// Whom moves and events go to.
+  /// Sets where moves and events go.
   void bind(Sink& out) noexcept { out_ = &out; }
   void begin(Plane plane, const Tool& tool, const Axes& machine);
-  /// G40: what waits goes out as it is.
+  /// G40: the waiting moves go out unchanged.
   Fault end(bool inch);
-  /// A stop of the program: the same, and compensation goes on.
+  /// A program stop: the same, but compensation continues.
   Fault stop(bool inch);
   void forget() noexcept { tool_ = {}; }
   [[nodiscard]] Sink* out() const noexcept { return out_; }
   [[nodiscard]] int side() const noexcept { return tool_.side; }
 
-  /// A programmed straight line: `move.end` is the contour's point. Where the tool goes comes out
-  /// later. `programmed` is the point before it.
+  /// A programmed straight line: `move.end` is the contour's point. The tool's move goes out later.
+  /// `programmed` is the previous point.
   /// `inch`: units in force.
   Fault line(const Move& move, const Axes& programmed, bool inch);
   /// The same for an arc with its programmed centre and turns.
   Fault arc(const Move& move, const Axes& programmed, bool inch);
 
-  /// Whether moves are compensated at all: a radius of zero forbids the same words and moves
-  /// nothing.
+  /// Whether moves are compensated at all: with zero radius the same words are forbidden, but
+  /// nothing is offset.
   [[nodiscard]] bool active() const noexcept { return tool_.side != 0 && tool_.radius_mm > 0.0; }
   [[nodiscard]] bool entered() const noexcept { return entered_; }
-  /// The tool centre at the end of the last move, as far as it is known; other axes as in `point`.
+  /// The tool centre at the end of the last move, as far as known; other axes as in `point`.
   [[nodiscard]] Axes centre(Axes point) const noexcept;
-  /// Where the last move that went out has ended.
+  /// The end of the last move that went out.
   [[nodiscard]] const Axes& machine() const noexcept { return machine_; }
 
   void on_move(const Move& move) override;
@@ -85,7 +84,7 @@ class CutterCompensation final : public Sink {
     Move move;
     PlanePoint direction;   ///< of the contour; of lines
     double angle = 0.0;     ///< swept by the contour's arc; 0 is not checked
-    bool in_plane = false;  ///< has an end in the plane that may change
+    bool in_plane = false;  ///< its end in the plane may change
   };
   using Waiting = std::variant<WaitingMove, Event>;
 
@@ -96,7 +95,7 @@ class CutterCompensation final : public Sink {
   [[nodiscard]] PlanePoint from_tool(PlanePoint normal) const noexcept;
 
   [[nodiscard]] OffsetCircle offset_of(PlanePoint centre, double radius, int turns) const noexcept;
-  /// The arc that waits first, if it is one.
+  /// The first waiting move if it is an arc.
   [[nodiscard]] const Move* waiting_arc() const noexcept;
   [[nodiscard]] bool behind_outer_arc() const noexcept;
 
@@ -117,11 +116,11 @@ class CutterCompensation final : public Sink {
   PlaneAxes axes_{.first = 0, .second = 1, .normal = 2};
   bool lathe_ = false;
   bool entered_ = false;
-  PlanePoint current_;  ///< the tool's centre at the end of the last move that waits
-  PlanePoint start_;    ///< where the first move that waits begins
+  PlanePoint current_;  ///< the tool centre at the end of the last waiting move
+  PlanePoint start_;    ///< where the first waiting move begins
   std::vector<Waiting> waiting_;
   bool overflow_ = false;
-  bool stopped_ = false;  ///< what waited has gone out at a stop of the program
+  bool stopped_ = false;  ///< the waiting moves went out at a program stop
   Axes machine_{};
 };
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/nc/interpret/state/cutter_compensation.hpp>
 
-// The moves and events that wait for the next move, and how they go out.
+// The moves and events waiting for the next move, and how they go out.
 namespace steadyrest::nc::interpret {
 
 CutterCompensation::Fault CutterCompensation::wait(const Move& move, PlanePoint direction,
                                                    double angle) {
-  // Bounded memory: a program may have any number of blocks without a move in the plane.
+  // Bounds the memory: a program may have any number of blocks without a move in the plane.
   if (waiting_.size() >= kMostWaiting || overflow_) {
     return Fault::too_many_waiting;
   }
-  // The first move in the plane after a stop is what the stop's corner was about; from there
-  // corners are free again.
+  // The corner at a stop lies before the first move in the plane after it; later corners are free
+  // again.
   const bool turns_corner =
       move.kind == MoveKind::arc || direction.first != 0.0 || direction.second != 0.0;
   stopped_ = stopped_ && !turns_corner;
@@ -55,7 +55,7 @@ void CutterCompensation::release() {
   waiting_.clear();
 }
 
-// The tool's own point of a lathe tool lies beside its edge's centre.
+// A lathe tool's point lies off the centre of its nose.
 void CutterCompensation::send(const Move& move) {
   Move out = move;
   if (active() && out.kind != MoveKind::dwell) {
@@ -65,7 +65,7 @@ void CutterCompensation::send(const Move& move) {
                                                                         : 0.0;
     };
     // Orientation of a lathe tool's nose as in LinuxCNC's tool table: 1 to 4 are the corners, 5 to
-    // 8 the sides of the nose's circle that the tool's own point touches; 0 and 9 are its centre.
+    // 8 the sides of the nose circle where the tool point lies; 0 and 9 are its centre.
     if (lathe_) {
       const double shift_x = tool_.radius_mm * kShift(tool_.orientation, 1, 2, 6, 3, 4, 8);
       const double shift_z = tool_.radius_mm * kShift(tool_.orientation, 2, 3, 7, 1, 4, 5);
@@ -75,12 +75,12 @@ void CutterCompensation::send(const Move& move) {
       out.centre_mm[2] += out.kind == MoveKind::arc ? shift_z : 0.0;
     }
   }
-  // Starts are those of the contour: what goes out starts where the last move ended.
+  // Starts come from the contour: a move going out starts where the last one ended.
   if (out.kind == MoveKind::dwell) {
     out.end = machine_;
   }
   out.start = machine_;
-  // An arc's centre lies at the height of its start, which the move before may have changed.
+  // An arc's centre lies at the height of its start, which the previous move may have changed.
   if (out.kind == MoveKind::arc) {
     out.centre_mm[axes_.normal] = machine_[axes_.normal];
   }

@@ -5,8 +5,8 @@
 
 namespace steadyrest::nc::interpret {
 
-/// X and Y turned by an angle about Z, counter-clockwise seen from +Z; the others as they are.
-/// Exact for 0.
+/// X and Y turned by an angle about Z, counter-clockwise seen from +Z; the others unchanged. Exact
+/// for 0.
 [[nodiscard]] Axes turned(const Axes& axes, double angle_deg) noexcept;
 
 }  // namespace steadyrest::nc::interpret

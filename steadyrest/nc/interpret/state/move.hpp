@@ -6,15 +6,15 @@
 #include <span>
 #include <string_view>
 
-/// What a program makes a machine do, free of dialect: the boundary between the interpreter and
-/// everything above it.
+/// What a program makes a machine do, independent of dialect: the boundary between the interpreter
+/// and everything above it.
 namespace steadyrest::nc::interpret {
 
 enum class MoveKind : std::uint8_t { rapid, linear, arc, spline, probe, thread, dwell };
 
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_revolution };
 
-/// How the control goes through the end point of a move.
+/// How the control passes the end point of a move.
 enum class PathMode : std::uint8_t {
   exact_path,  ///< G61: on the path, stops only where it must
   exact_stop,  ///< G61.1, G9, G60: stops at every end point
@@ -43,8 +43,7 @@ struct Move {
   unsigned machine_axes = 0;  ///< bit i: the program gave the end of axis i in machine coordinates
                               ///< (G53, SUPA)
   double feed_mm_s = 0.0;  ///< path feed; degrees/s where only rotary axes move. For inverse_time:
-                           ///< moves/s; for per_revolution: mm/rev; 0 for
-                           /// rapids and dwells
+                           ///< moves/s; for per_revolution: mm/rev; 0 for rapids and dwells
   FeedMode feed_mode = FeedMode::per_minute;
   // arcs
   std::array<double, 3> centre_mm{};  ///< work coordinates, at the height of the start point
@@ -55,10 +54,10 @@ struct Move {
   // the clamped uniform knots; valid during the call only
   std::span<const SplinePoint> spline;
   int spline_order = 0;
-  // modal state that time and simulation need
+  // modal state needed for timing and simulation
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;    ///< G64 P; 0 = none given
-  double spindle_rev_s = 0.0;        ///< signed: > 0 clockwise (M3); 0 while G96 rules it
+  double spindle_rev_s = 0.0;        ///< signed: > 0 clockwise (M3); 0 under G96
   double surface_speed_mm_s = 0.0;   ///< G96: cutting speed, signed as above; 0 = G97
   double spindle_limit_rev_s = 0.0;  ///< G96: the spindle's upper limit; 0 = none given
   bool override_locked = false;      ///< thread, tap, M49: the feed override has no effect
@@ -81,7 +80,7 @@ struct Event {
   EventKind kind = EventKind::spindle;
   std::uint32_t line = 0;
   double value = 0.0;
-  // Designated initialisers may leave it out.
+  // Lets designated initialisers leave it out.
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::string_view tool_name{};  ///< tool_change by name (T="DRILL"); valid during the call only
 };

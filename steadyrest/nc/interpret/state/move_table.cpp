@@ -30,18 +30,18 @@ double arc_length(const Move& move) noexcept {
   constexpr double kSame_rad = 1e-12;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
   double sweep = std::fmod(sign * (angle(move.end) - angle(move.start)), kTurn);
-  // An end on the start, or a rounding before it, is a whole turn, as on the controls.
+  // An end at the start, or before it by a rounding error, is a whole turn, as on the controls.
   if (sweep < kSame_rad) {
     sweep += kTurn;
   }
   sweep += (std::abs(move.turns) - 1) * kTurn;
-  // The start's radius serves for the whole arc: both ends agree within the arc tolerance.
+  // The start radius is used for the whole arc: both ends agree within the arc tolerance.
   const double radius = std::hypot(move.start[first] - move.centre_mm[first],
                                    move.start[second] - move.centre_mm[second]);
   return std::hypot(radius * sweep, move.end[normal] - move.start[normal]);
 }
 
-// F/60·60 is not always F again; what lies within rounding of nine decimals is meant to be those.
+// F/60·60 is not always F again; values within rounding of nine decimals are snapped to them.
 double tidy(double value) noexcept {
   const double rounded = std::round(value * 1e9) / 1e9;
   return std::abs(value - rounded) <= 1e-14 * std::abs(value) ? rounded : value;
@@ -62,8 +62,8 @@ double path_length(const Move& move) noexcept {
   if (move.kind == MoveKind::arc) {
     return arc_length(move);
   }
-  // What the feed refers to, as LinuxCNC counts it: X Y Z; without them U V W; without them A B C
-  // in degrees.
+  // What the feed refers to, as in LinuxCNC: X Y Z; without them U V W; without them A B C in
+  // degrees.
   for (const std::size_t first : {std::size_t{0}, std::size_t{6}, std::size_t{3}}) {
     if (const double length = norm(move, first); length > 0.0) {
       return length;
@@ -72,7 +72,7 @@ double path_length(const Move& move) noexcept {
   return 0.0;
 }
 
-// The column is mm/min whatever feed mode the program uses; G93 is 1/min times the length.
+// The column is mm/min in any feed mode; G93 is 1/min times the length.
 double feed_mm_min(const Move& move) noexcept {
   switch (move.feed_mode) {
     case FeedMode::per_minute:
@@ -91,7 +91,7 @@ MoveTable::MoveTable(kernel::file::OutputFile& out) : out_(out) {
   buffer_ = kHead;
 }
 
-// The shortest text that reads back as the same double: no digit invented, none lost.
+// The shortest text that reads back as the same double: no digit added, none lost.
 void MoveTable::number(double value) {
   buffer_ += ',';
   std::array<char, 32> text{};

@@ -24,7 +24,7 @@ double length(PlanePoint vector) noexcept {
   return std::hypot(vector.first, vector.second);
 }
 
-// A vector of no length has no direction; any unit vector serves, and nothing is divided by zero.
+// A zero vector has no direction: any unit vector will do, and nothing is divided by zero.
 PlanePoint unit(PlanePoint vector) noexcept {
   const double size = length(vector);
   return size == 0.0 ? PlanePoint{.first = 1.0, .second = 0.0}
@@ -44,8 +44,7 @@ double dot(PlanePoint a, PlanePoint b) noexcept {
   return a.first * b.first + a.second * b.second;
 }
 
-// Positive where the path turns to the tool's side: a concave corner, whichever side the tool is
-// on.
+// Positive where the path turns towards the tool: a concave corner on either side.
 double turn_between(PlanePoint before, PlanePoint after, int side) noexcept {
   const double to_left = std::atan2(dot(left_of(before), after), dot(before, after));
   return side < 0 ? to_left : -to_left;
@@ -55,19 +54,19 @@ Corner kind_of(double turn, bool about_arc) noexcept {
   if (std::abs(turn) <= kTangent_rad) {
     return Corner::tangent;
   }
-  // So close to a reversal the sign of the turn is rounding. LinuxCNC decides by what came before:
-  // lines go round the corner, an arc with the tool outside is cut short.
+  // This close to a reversal the sign of the turn is rounding. LinuxCNC decides by the previous
+  // move: lines go round the corner, an arc with the tool outside is cut short.
   const bool reverses = std::abs(turn) > kPi - kTangent_rad;
   return reverses     ? (about_arc ? Corner::concave : Corner::convex)
          : turn > 0.0 ? Corner::concave
                       : Corner::convex;
 }
 
-// With the line's direction u, the normal n to the tool's side and the centre c at the height h
-// over the contour's line, the offset line has the height r: its foot under c is c + (r − h)·n, the
-// crossings lie √(R² − (r − h)²) before and behind it. The contour turns to the tool's side; with
-// the tool inside the arc a line that leaves begins where it enters the circle, with the tool
-// outside where it comes out.
+// With the line's direction u, the normal n on the tool's side and the centre c at height h above
+// the contour's line, the offset line has height r: its foot under c is c + (r − h)·n, and the
+// crossings lie √(R² − (r − h)²) before and after it. The contour turns towards the tool; with the
+// tool inside the arc, a leaving line begins where it enters the circle, with the tool outside,
+// where it exits.
 std::optional<PlanePoint> crossing(const OffsetCircle& circle, PlanePoint normal,
                                    PlanePoint direction, double centre_height, double tool_radius,
                                    bool leaving) noexcept {
@@ -86,12 +85,12 @@ std::optional<PlanePoint> crossing(const OffsetCircle& before, const OffsetCircl
   if (before.radius == 0.0 || distance == 0.0) {
     return std::nullopt;
   }
-  // Law of cosines in the triangle of the two centres and the crossing. The crossing lies to either
-  // side of the line between the centres; which side follows from the tool's.
+  // Law of cosines in the triangle of the two centres and the crossing. The crossing lies on one
+  // side of the line between the centres; the tool's side decides which.
   const double cosine =
       (before.radius * before.radius + distance * distance - after.radius * after.radius) /
       (2.0 * before.radius * distance);
-  // Also true of a quotient that is not a number: circles that do not meet.
+  // Also catches NaN: circles that do not meet.
   if (!(std::abs(cosine) <= 1.0)) {
     return std::nullopt;
   }

@@ -18,8 +18,8 @@ bool Refusals::word(std::uint32_t line, const Word& word, std::string_view reaso
 
 bool Refusals::letter(const Step& step, char letter, std::string_view reason,
                       std::string_view text) {
-  // A decoder may have put a word under another letter (CR= becomes R): then the block's last word
-  // is shown rather than none.
+  // A decoder may have put a word under another letter (CR= becomes R): then show the block's last
+  // word rather than none.
   for (const Word& one : step.block->words()) {
     if (one.letter == letter) {
       return word(step.line, one, reason, text);

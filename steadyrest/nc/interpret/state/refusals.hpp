@@ -10,7 +10,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Keeps why a block is refused. Whatever states a reason returns false, so that the caller can
+/// Keeps why a block is refused. Functions that take a reason return false, so that the caller can
 /// return it.
 class Refusals {
  public:
@@ -18,16 +18,16 @@ class Refusals {
 
   bool word(std::uint32_t line, const read::Word& word, std::string_view reason,
             std::string_view text);
-  /// For the word of a letter. Where a decoder put another word in the letter's place, the block's
-  /// last one is shown.
+  /// Shows the word of a letter. Where a decoder put another word in the letter's place, shows the
+  /// block's last one.
   bool letter(const Step& step, char letter, std::string_view reason, std::string_view text);
-  /// For a G word by its code, or an M word by its number; the block's first word where it is
+  /// Shows a G word by its code, or an M word by its number; the block's first word where it is
   /// absent.
   bool g_word(const Step& step, int code, std::string_view reason, std::string_view text);
   bool m_word(const Step& step, int number, std::string_view reason, std::string_view text);
-  /// For the block as a whole: its first word is shown.
+  /// For the block as a whole: shows its first word.
   bool block(const Step& step, std::string_view reason, std::string_view text);
-  /// For a call: its name is shown.
+  /// For a call: shows its name.
   bool call(std::uint32_t line, const read::Flow& call, std::string_view reason,
             std::string_view text);
 

@@ -19,7 +19,7 @@ int spline_spans(std::span<const SplinePoint> points, int order) noexcept {
 
 // De Boor's algorithm on the knots 0 … 0 1 2 … n … n, so the curve begins and ends on its first and
 // last control points. In homogeneous coordinates (x·w, y·w, w) a rational curve is an ordinary
-// one; the division comes at the end.
+// one; the division comes last.
 SplinePoint spline_at(std::span<const SplinePoint> points, int order, double u) noexcept {
   const int spans = spline_spans(points, order);
   const auto knot = [&](int i) { return std::clamp(i - order + 1, 0, spans); };

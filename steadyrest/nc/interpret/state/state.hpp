@@ -27,15 +27,15 @@ struct PlaneAxes {
 }
 
 /// What a canned cycle keeps from block to block, in program units as written: a change of G20/G21
-/// inside a row of cycles changes their meaning, as on LinuxCNC.
+/// within a row of cycles changes the meaning, as on LinuxCNC.
 struct CycleMemory {
   double bottom = 0.0;          ///< Z word
   double retract = 0.0;         ///< R word
   double peck = 0.0;            ///< Q word
   double dwell_s = 0.0;         ///< P word
   std::array<double, 3> ijk{};  ///< I, J, K words of G87: shifts in the plane, upper depth
-  double initial = 0.0;         ///< where the normal axis stood when the row of cycles began
-  bool begins_anew = false;     ///< a spline stood between: the row begins where it ended
+  double initial = 0.0;         ///< the normal axis when the row of cycles began
+  bool begins_anew = false;     ///< a spline intervened: the row begins where it ended
 
   friend bool operator==(const CycleMemory&, const CycleMemory&) = default;
 };
@@ -43,21 +43,21 @@ struct CycleMemory {
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
 struct State {
   Axes position{};     ///< active work coordinates
-  Axes offset{};       ///< sum of those below (G92's turned); machine = turned position + offset
+  Axes offset{};       ///< sum of those below (G92's rotated); machine = rotated position + offset
   Axes frame_shift{};  ///< sinumerik TRANS, in the settable frame
   double frame_rotation_deg = 0.0;  ///< sinumerik ROT, about Z
-  Axes frame_fine{};  ///< sinumerik $P_IFRAME[X,FI], beyond what is stored; gone at the next G54 …
+  Axes frame_fine{};  ///< sinumerik $P_IFRAME[X,FI], on top of the stored; gone at the next G54 …
   std::uint32_t frame_pending =
       0;                      ///< axes that have not been programmed since their shift changed
   bool frame_turned = false;  ///< X and Y have not been programmed since the rotation changed
   double rotation_in_force_deg = 0.0;  ///< of the work coordinates against the machine, about Z
   std::array<Axes, kWorkOffsets> work_offset{};
-  Axes work_in_force{};  ///< of the active one: what #5221 … say later acts when it is chosen anew
+  Axes work_in_force{};  ///< of the active one: later changes of #5221 … act when it is reselected
   std::size_t active_offset = 0;
   bool work_offset_on = true;  ///< false after G500
   Axes external{};             ///< fanuc: added to every work offset (G10 L2 P0)
   Axes g92{};                  ///< in force (G92, G52)
-  Axes g92_stored{};           ///< what G92.3 brings back
+  Axes g92_stored{};           ///< what G92.3 restores
   bool g92_on = false;         ///< G92 or G52 in force (#5210)
   bool g92_used = false;       ///< G92 has set an origin in this program
   bool g52_used = false;       ///< G52 has set a shift in this program
@@ -75,7 +75,7 @@ struct State {
 
   FeedMode feed_mode = FeedMode::per_minute;
   double feed_mm_s = 0.0;   ///< per_minute; per_revolution: mm/rev; inverse_time: 1/s
-  double feed_deg_s = 0.0;  ///< the same F for a move of rotary axes alone
+  double feed_deg_s = 0.0;  ///< the same F if only rotary axes move
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;
   bool override_off = false;  ///< M49, M50 P0
@@ -89,7 +89,7 @@ struct State {
   double coolant = 0.0;              ///< 0 off, 1 mist, 2 flood, 3 both
   std::int32_t selected_tool = 0;
   std::int32_t tool_in_spindle = 0;
-  Tool tool;  ///< the one in the spindle, where a tool table knows it
+  Tool tool;  ///< the one in the spindle, if a tool table has it
 
   std::array<double, kWorkOffsets> rotation_deg{};  ///< of the work offsets (G10 L2 R)
   int cutter_side = 0;                              ///< G41 −1, G42 +1

@@ -12,7 +12,7 @@
 
 namespace steadyrest::nc::interpret {
 
-/// Modal groups of G words: one word of each at most in a block.
+/// Modal groups of G words: at most one word of each in a block.
 enum class GGroup : std::uint8_t {
   non_modal,      ///< G4 G10 G28 G30 G52 G53 G92…
   motion,         ///< G0–G3 G33 G73 G74 G80–G89
@@ -39,33 +39,32 @@ enum class MGroup : std::uint8_t {
   coolant,
   override_switch,
   io,      ///< M62–M68: outputs and inputs
-  modes,   ///< M70–M73: modal state kept and brought back
+  modes,   ///< M70–M73: modal state saved and restored
   program  ///< M98 M99: subprograms by number
 };
 inline constexpr std::size_t kMGroups = 8;
 
 inline constexpr std::int16_t kNoCode = -1;
 
-/// A block in the one vocabulary that the interpreter executes, whatever dialect it came from.
+/// A block in the one vocabulary that the interpreter executes, whatever its dialect.
 ///
-/// Codes are those of LinuxCNC (words.hpp); words are addressed by letter. The
-/// dialects' decoders translate into it: words that mean something else there get their place here
-/// (CR= is R, TURN= is P − 1, SUPA is G53 …).
+/// Codes are LinuxCNC's (words.hpp); words are addressed by letter. The dialects' decoders
+/// translate into it and map their own words (CR= is R, TURN= is P − 1, SUPA is G53 …).
 struct Step {
   std::uint32_t line = 0;
-  std::uint32_t mask = 0;  ///< bit n: the word with letter 'A' + n is there
+  std::uint32_t mask = 0;  ///< bit n: the word with letter 'A' + n is present
   std::array<double, 26> value;
   std::array<std::int16_t, kGGroups> g;
   std::array<std::int16_t, kMGroups> m;
-  std::uint32_t absolute = 0;     ///< words that are absolute whatever G90/G91 say
-  std::uint32_t incremental = 0;  ///< words that are incremental whatever G90/G91 say
-  bool others = false;            ///< a word that is none of motion, F and axis words
-  int moves_by = -1;  ///< by which motion the block moves, chosen by the checks; −1 none
-  std::int16_t motion_mode = kNoCode;  ///< fanuc G0 or G1 beside G28: mode alone, it moves nothing
+  std::uint32_t absolute = 0;          ///< words that are absolute whatever G90/G91 say
+  std::uint32_t incremental = 0;       ///< words that are incremental whatever G90/G91 say
+  bool others = false;                 ///< a word other than motion, F and axis words
+  int moves_by = -1;                   ///< the block's motion, chosen by the checks; −1 none
+  std::int16_t motion_mode = kNoCode;  ///< fanuc G0 or G1 with G28: sets only the mode
   bool polar = false;                  ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
   double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
-  bool machine_frame = false;   ///< G53 that rules this block (also sinumerik SUPA)
+  bool machine_frame = false;   ///< G53 in this block (also sinumerik SUPA)
   bool exact_stop = false;      ///< G9: exact stop at the end of this block
   bool zero_offset = false;     ///< sinumerik G500
   bool work_feed = true;        ///< F follows G20/G21 (not with sinumerik G70/G71)
@@ -98,7 +97,7 @@ struct Step {
     tool_name = {};
     block = &source;
   }
-  /// 0 for what is no letter: words whose address is a name, and @ ^.
+  /// 0 for anything but a letter: words whose address is a name, and @ ^.
   static constexpr std::uint32_t bit(char letter) noexcept {
     const bool is = letter >= 'A' && letter <= 'Z';
     return is ? std::uint32_t{1} << static_cast<unsigned>(letter - 'A') : 0U;
@@ -145,7 +144,7 @@ inline constexpr auto kAxisOfLetter = [] {
   return table;
 }();
 
-/// A canned cycle, G81–G89 and the drilling and tapping ones that stand apart.
+/// A canned cycle: G81–G89, and the drilling and tapping cycles outside that range.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {
   return code == g::kBreakChips || code == g::kTapLeft ||
          (code > g::kCycleEnd && code <= g::kBoreDwell);

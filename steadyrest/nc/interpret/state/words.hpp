@@ -12,8 +12,8 @@ namespace g {
 
 using Code = std::int16_t;
 
-/// The code of a G word's number; −1 where it is none. Tenths with a tolerance, as 59.1·10 is not
-/// exactly 591 in binary; RS274/NGC allows 0.0001.
+/// The code of a G word's number; −1 where it is not one. Tenths with a tolerance, since 59.1·10 is
+/// not exactly 591 in binary; RS274/NGC allows 0.0001.
 [[nodiscard]] inline int code_of(double number) noexcept {
   const double tenfold = number * 10.0;
   const double code = std::round(tenfold);
@@ -74,7 +74,7 @@ inline constexpr Code kInch = 200;
 inline constexpr Code kMillimetre = 210;
 inline constexpr Code kCutterOff = 400;
 inline constexpr Code kCutterLeft = 410;
-inline constexpr Code kCutterLeftBy = 411;  ///< G41.1: the diameter stands in D
+inline constexpr Code kCutterLeftBy = 411;  ///< G41.1: D is the diameter
 inline constexpr Code kCutterRight = 420;
 inline constexpr Code kCutterRightBy = 421;
 inline constexpr Code kToolLength = 430;

@@ -32,7 +32,7 @@ TEST(Fanuc, AddsTheExternalOffsetToEveryWorkOffset) {
       "G10 L2 P2 Z50.\nZ0\nM30\n",
       config);
   const auto machine = [&](std::size_t i) { return moves.at(i).end[2] + moves.at(i).offset[2]; };
-  // −0.01 is external and so adds to both systems; then it is taken off again; P2 sets G55 alone.
+  // −0.01 is external and adds to both systems; then it is removed; P2 sets only G55.
   EXPECT_DOUBLE_EQ(machine(0), 0.0);
   EXPECT_DOUBLE_EQ(machine(1), -0.01);
   EXPECT_DOUBLE_EQ(machine(2), 99.99);
@@ -48,7 +48,7 @@ TEST(Fanuc, TakesP0ForG52OnAHaasAndRefusesIt) {
 }
 
 TEST(Sinumerik, SaysTheSameAsLinuxcncInOtherWords) {
-  // The same lines in LinuxCNC's words, whose moves are compared with rs274 elsewhere.
+  // The same lines in LinuxCNC's words; other tests compare those moves with rs274.
   const auto theirs = moves_of(
       "N10 G17 G71 G90 G94 G0 X=10 Y20 Z5 ; start\nG1 Z-1 F200\nG2 X20 CR=5 F=300\n"
       "G3 I=AC(15) J0 X20 TURN=2 Z-3\nG4 F1.5\nG0 X=IC(5) Y=AC(0)\nG91 X1 Y=AC(7)\nM30\n",
@@ -112,7 +112,7 @@ TEST(Fanuc, TakesAxisWordsForG28BesideG0) {
   const auto moves = moves_of("G0 X1 Y2 Z3\nG0 G91 G28 Z0\nG90 X5\nM30\n", in(Dialect::fanuc));
   ASSERT_EQ(moves.size(), 4U);
   EXPECT_EQ(moves[2].end[2], 0.0);
-  // G28 Z0 in G91 goes by way of Z3 to the reference point in Z alone.
+  // G28 Z0 in G91 goes via Z3 to the reference point, in Z only.
   EXPECT_EQ(moves[2].end[0], 1.0);
   EXPECT_EQ(moves[3].kind, MoveKind::rapid);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Subprograms, conditions and loops. What comes out was asked of rs274 (LinuxCNC 2.9).
+// Subprograms, conditions and loops. The expected values come from rs274 (LinuxCNC 2.9).
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -89,7 +89,7 @@ TEST(Flow, WhatIsLookedForDoesNotStandBehindTheClosingPercent) {
 }
 
 TEST(Flow, ACallHasItsOwnThirtyParametersAndLocalNames) {
-  // In the call: #30 is cleared, #1 is 5. After it: #29 of the caller is as it was, #30 is 7 again;
+  // In the call: #30 is cleared, #1 is 5. After it: #29 of the caller is unchanged, #30 is 7 again;
   // #31 is common to both; the name is the caller's.
   EXPECT_THAT(x_of("#30=7 #<a>=1\no1 sub\n#<a>=5\nG0 X#30\nX#1\n#29=1\no1 endsub\n#31=2\n"
                    "o1 call [5] [6]\nX#29\nX#30\nX#31\nX#<a>\nM2\n"),

@@ -24,7 +24,7 @@ std::vector<double> fanuc_x_of(const std::string& text, const Config& config = f
   return ends_along(0, text, config);
 }
 
-/// What `#1=…` gives, to three decimals.
+/// The value of `#1=…`, to three decimals.
 double macro_value_of(const std::string& expression) {
   return fanuc_x_of("#1=" + expression + "\nG0X#1\nM30\n").at(0);
 }
@@ -64,7 +64,7 @@ TEST(Macro, HasItsOwnRangesOfArcFunctions) {
 
 // Haas mill operator's manual 96-8000, "ROUND": in an address it rounds to the address's precision.
 TEST(Macro, RoundsAddressesToTheirIncrementAsTheHaasManualPrints) {
-  // 1.00333 + 1.00333 = 2.00666 is rounded once; rounded singly it is 1.0033 + 1.0033.
+  // 1.00333 + 1.00333 = 2.00666 is rounded once; rounded separately it is 1.0033 + 1.0033.
   EXPECT_DOUBLE_EQ(fanuc_x_of("G20\n#1=1.00333\nG0X[#1+#1]\nM30\n").at(0), 2.0067 * 25.4);
   EXPECT_DOUBLE_EQ(fanuc_x_of("G20\n#1=1.00333\nG0X[ROUND[#1]+ROUND[#1]]\nM30\n").at(0),
                    2.0066 * 25.4);

@@ -13,7 +13,7 @@ namespace steadyrest::nc::interpret {
 /// rs274 prints four decimals.
 inline constexpr double kHalfDigit = 0.00005 + 1e-9;
 
-/// Keeps everything that a program gives.
+/// Keeps everything a program sends.
 struct Kept final : public Sink {
   std::vector<Move> moves;
   std::vector<Event> events;
@@ -21,7 +21,7 @@ struct Kept final : public Sink {
   void on_event(const Event& event) override { events.push_back(event); }
 };
 
-/// Moves of a text that must be accepted.
+/// The moves of a text that must be accepted.
 inline std::vector<Move> moves_of(std::string_view text, const Config& config = {}) {
   Kept kept;
   const auto report = run_text(text, config, kept);

@@ -61,8 +61,7 @@ Expected expected_of(const fs::path& file) {
 }
 
 TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) {
-  // The files are the truth: each names its fault, its line and a piece of the text that must be
-  // said.
+  // The files are the truth: each names its fault, its line and a part of the required text.
   const auto files = corpus();
   ASSERT_GE(files.size(), 100U);
   for (const fs::path& file : files) {
@@ -80,7 +79,7 @@ TEST(RefusedPrograms, AreRefusedAtTheLineAndForTheFaultThatTheirFirstLineNames) 
   }
 }
 
-// Of several G words the one at fault, as it is written.
+// Of several G words, the faulty one as written.
 TEST(RefusedPrograms, ShowTheWordAtFault) {
   const std::pair<const char*, const char*> cases[] = {{"G17 F9 G2 X1\n", "G2"},
                                                        {"G90.1 F9 G2 X1 I1\n", "G2"},
@@ -131,7 +130,7 @@ TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
 }
 
 TEST(RefusedPrograms, RandomBytesNeverHangCrashOrMoveFar) {
-  // No oracle but the bounds: it ends, it does not crash, it says something.
+  // No oracle but bounds: it ends, does not crash, and says something.
   std::mt19937 random(20240607);
   for (int i = 0; i < (kernel::testing::kSanitized ? 100 : 500); ++i) {
     std::string text(static_cast<std::size_t>(random() % 2000), ' ');

@@ -6,7 +6,7 @@
 
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-/// Programs of a SINUMERIK.
+/// SINUMERIK programs.
 namespace steadyrest::nc::interpret::test {
 
 inline Config sinumerik() {

@@ -29,7 +29,7 @@ TEST(SinumerikCycles, DrillAsTheManualOrdersIt) {
 TEST(SinumerikCycles, FollowEachMoveWhileMcallIsOn) {
   EXPECT_THAT(
       along(2, "G0 X0 Y0 Z50 F100\nMCALL CYCLE81(10,0,2,-5)\nX1\nF50\nY1\nMCALL\nX5\nM30\n"),
-      // MCALL drills after X1 and after Y1, but not after F50; X5 comes behind its end.
+      // MCALL drills after X1 and Y1 but not after F50; X5 comes after its end.
       ElementsAre(50, 50, 2, -5, 10, 10, 2, -5, 10, 10));
 }
 
@@ -62,7 +62,7 @@ TEST(SinumerikCycles, TapWithTheSpindlesPitch) {
       moves_of("G0 G90 X30 Y35 Z40\nCYCLE84(40,36,2,,30,,3,5,,90,200,500)\nM30\n", sinumerik());
   ASSERT_EQ(moves.size(), 5U);
   EXPECT_EQ(moves[2].kind, MoveKind::thread);
-  // 36 − 30 = 6 and 36 + 2 = 38; the sign of the speed turns on the way out.
+  // 36 − 30 = 6 and 36 + 2 = 38; the speed's sign reverses on the way out.
   EXPECT_EQ(moves[2].end[2], 6.0);
   EXPECT_DOUBLE_EQ(moves[2].feed_mm_s, 0.8);
   EXPECT_DOUBLE_EQ(moves[2].spindle_rev_s, 200.0 / 60.0);

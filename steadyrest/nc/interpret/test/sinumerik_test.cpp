@@ -98,8 +98,8 @@ std::pair<double, double> machine(const Move& move) {
   return {at[0], at[1]};
 }
 
-// "Fundamentals", TRANS and ROT: TRANS counts from the settable offset, ATRANS along the turned
-// axes.
+// "Fundamentals", TRANS and ROT: TRANS starts from the settable offset, ATRANS goes along the
+// rotated axes.
 TEST(SinumerikFrames, ShiftAndTurnOnTopOfTheSettableOffset) {
   Config config = sinumerik();
   config.work_offset[0] = {100.0, 50.0, 20.0};
@@ -121,7 +121,7 @@ TEST(SinumerikFrames, ShiftAndTurnOnTopOfTheSettableOffset) {
 
 TEST(SinumerikFrames, LeaveTheMachineWhereItIs) {
   const auto moves = moves_of("G0 X10 Y5\nTRANS X3\nROT Z30\nG0 Z1\nSUPA X7\nM30\n", sinumerik());
-  // A frame changes where the axes are in work coordinates; in the machine's they must not move.
+  // A frame changes the axes' work coordinates; in machine coordinates they must not move.
   EXPECT_NEAR(machine(moves.at(1)).first, 10.0, 1e-9);
   EXPECT_NEAR(machine(moves.at(1)).second, 5.0, 1e-9);
   EXPECT_NEAR(machine(moves.at(2)).first, 7.0, 1e-9);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kMostTime = 0.5;  ///< of the cut, without effect: worth a warning
 
-/// One segment: at u/F the override begins to act.
+/// One segment: the override begins to act at u/F.
 struct Part {
   double ratio = 0.0;
   double seconds = 0.0;
@@ -24,7 +24,7 @@ struct Part {
 
 // The override acts on a segment once F·ratio is below the speed u that the segment reaches without
 // it: below ratio = u/F. Axes, control and the stops between short moves may keep u far below F;
-// then turning the switch changes nothing, and the contour room's requests change nothing either.
+// then neither the switch nor the contour room's requests have any effect.
 std::optional<Warning> idle_override(const PlannedPath& path,
                                      const kernel::machine::OverrideTable& table) {
   // The switch's next step below 100 %.
@@ -43,7 +43,7 @@ std::optional<Warning> idle_override(const PlannedPath& path,
       continue;
     }
     // Peak between the junction limits at the segment's own acceleration: v_p² = (v_in² + v_out²)/2
-    // + a·ℓ. Neighbours may bind more, so this is the most that u can be: the warning errs towards
+    // + a·ℓ. Neighbours may bind more, so this is an upper bound of u: the warning errs towards
     // silence.
     const double by_acceleration = std::sqrt(
         0.5 * (entry_mm_s * entry_mm_s + plan.exit_speed_limit_mm_s * plan.exit_speed_limit_mm_s) +

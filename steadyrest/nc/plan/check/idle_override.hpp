@@ -9,12 +9,13 @@
 
 namespace steadyrest::nc::plan {
 
-/// The warning where the feed override's next step below 100 % changes nothing for most of the cut,
-/// since the programmed feed F is far above what the axes do.
+/// Warns when the feed override's next step below 100 % changes nothing for most of the cut,
+/// because the programmed feed F is far above what the axes reach.
 ///
-/// No segment of length ℓ is passed faster than u, u² = min(v_limit², ½·(v_in² + v_out²) + a·ℓ),
-/// with the speeds that its junctions permit. Where u ≤ r·F the step r has no effect, whatever the
-/// neighbours are. It is weighed by the time ℓ/u, feed moves that the override may change alone.
+/// A segment of length ℓ runs at most at u, u² = min(v_limit², ½·(v_in² + v_out²) + a·ℓ), with the
+/// speeds that its junctions permit. Where u ≤ r·F the step r has no effect, whatever the
+/// neighbours. Segments are weighted by their time ℓ/u; only feed moves that the override may
+/// change count.
 [[nodiscard]] std::optional<Warning> idle_override(const PlannedPath& path,
                                                    const kernel::machine::OverrideTable& table);
 

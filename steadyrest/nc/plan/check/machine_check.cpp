@@ -35,8 +35,8 @@ bool feeds(const Move& move) {
 
 constexpr double kChord_mm = 1e-3;
 
-/// Where the axis goes; of a line only its end, since where the first one begins nobody knows. Of a
-/// spline the curve counts, not its control points.
+/// Where the axis goes. Of a line only the end counts, since the start of the first one is unknown;
+/// of a spline the curve, not its control points.
 Reach goes_to(const Move& move, std::size_t axis) {
   if (move.kind == MoveKind::arc) {
     return reach_of(move, axis);
@@ -60,7 +60,7 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
       known_(known),
       pieces_(machine),
       always_mm_s_(machine.control.max_feed_mm_s) {
-  // always_mm_s_: what every linear axis and the control can do. At such a feed no direction
+  // always_mm_s_: the feed that every linear axis and the control can do. At this feed no direction
   // overloads any of them, since |t_i| ≤ 1.
   for (const kernel::machine::Axis& axis : machine.axes) {
     const std::size_t at =
@@ -80,7 +80,7 @@ bool MachineCheck::placed(const Move& move, std::size_t axis) const noexcept {
   // Tool lengths act in Z, on a lathe in X too.
   const bool by_tool = axis == 2 || (axis == 0 && lathe_);
   const bool length = known_.tools || !tool_came_ || !by_tool;
-  if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool's length
+  if ((move.machine_axes >> axis & 1U) != 0) {  // SUPA keeps the tool length
     return length || !interpret::rules_of(machine_.control.dialect).tool_in_machine_frame;
   }
   return known_.offsets && length;
@@ -104,7 +104,7 @@ void MachineCheck::on_move(const Move& move) {
 void MachineCheck::check_travel(const Move& move, std::size_t axis) {
   const kernel::machine::Axis& limits = *axis_[axis];
   const Reach reach = goes_to(move, axis);
-  // An axis that does not move is not judged: the move that took it there was.
+  // An axis that does not move is not checked: the move that took it there was.
   const double start_mm = interpret::machine_of(move, move.start)[axis];
   if (reach.low_mm == start_mm && reach.high_mm == start_mm) {
     return;
@@ -123,14 +123,14 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
     }
     return;
   }
-  // A rapid within the travel may go to a fixed position (G28), which says nothing of the part.
+  // A rapid within the travel may go to a fixed position (G28), which says nothing about the part.
   if (move.kind == MoveKind::rapid && !over) {
     return;
   }
   Extent& extent = extent_[axis];
   extent.low_mm = std::min(extent.low_mm, reach.low_mm);
   extent.high_mm = std::max(extent.high_mm, reach.high_mm);
-  // A range wider than the travel fits under no work offset: this can be said without knowing any.
+  // A range wider than the travel fits under no work offset, so the offset need not be known.
   if (extent.line == 0 &&
       extent.high_mm - extent.low_mm > limits.max_mm - limits.min_mm + kRounding_mm) {
     extent.line = move.line;
@@ -154,8 +154,8 @@ void MachineCheck::check_feed(const Move& move) {
   const SegmentPlan& plan = piece_.plan;
   const double feed_mm_s =
       plan.feed_mm_s * (plan.per_revolution ? std::abs(move.spindle_rev_s) : 1.0);
-  // Axis speeds only. An arc's centripetal limit is left to the planner: it slows the arc on every
-  // control, and no F in the program is wrong because of it.
+  // Axis speeds only. An arc's centripetal limit is left to the planner: every control slows down
+  // for it, so it does not make F wrong.
   const double axes_mm_s = move.kind == MoveKind::arc
                                ? pieces_.limits().plane(piece_.segment.axis).speed_mm_s
                                : pieces_.limits().line(piece_.end_direction).speed_mm_s;
@@ -201,8 +201,8 @@ void MachineCheck::on_event(const Event& event) {
   }
 }
 
-// Loops and subprograms repeat their lines: one warning for each line, kind and axis. count() goes
-// on beyond the kMost that are kept, up to a second bound, so memory stays small.
+// Loops and subprograms repeat their lines: one warning for each line, kind and axis. count()
+// continues past the kMost that are kept, up to a second bound, so memory stays small.
 void MachineCheck::warn(std::uint32_t line, What what, std::size_t axis, std::string text) {
   if (seen_.size() < kMostSeen && seen_.emplace(line, what, axis).second &&
       warnings_.size() < kMost) {

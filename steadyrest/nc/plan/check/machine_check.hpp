@@ -16,7 +16,7 @@
 
 namespace steadyrest::nc::plan {
 
-/// What is legal in a program and still will not do on its machine.
+/// Something legal in a program that its machine cannot do.
 struct Warning {
   std::uint32_t line = 0;
   std::string text;
@@ -30,13 +30,13 @@ struct Known {
 
 /// Holds a program against its machine, move by move:
 /// - travel: each end and each bulge of an arc within [min, max] of a linear axis (machine
-///   coordinates). Where the work offset is not known, and for Z (on a lathe also X) where a tool
-///   of unknown length has come, only ends in machine coordinates (G53, SUPA) are, and what the
-///   rest covers counts against the travel's length: all feed moves, and rapids that end outside of
+///   coordinates). Where the work offset is unknown, and for Z (on a lathe also X) once a tool of
+///   unknown length is loaded, only ends in machine coordinates (G53, SUPA) are checked; the range
+///   of the rest is compared with the travel's length: all feed moves, and rapids that end outside
 ///   the travel. A rapid within it may go to a reference point (G28);
 /// - feed: F against the axes' speeds along the move and the control's largest feed, at each new F;
-/// - spindle: S outside of its range; a cut (line, arc, spline) while it stands.
-/// A line is named once for each of these and for each axis.
+/// - spindle: S outside its range; a cut (line, arc, spline) while it is stopped.
+/// Each line is reported once per check and axis.
 class MachineCheck final : public interpret::Sink {
  public:
   /// `machine` must outlive it.
@@ -45,9 +45,9 @@ class MachineCheck final : public interpret::Sink {
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
 
-  /// By rising line; at most kMost.
+  /// In order of lines; at most kMost.
   [[nodiscard]] std::vector<Warning> warnings() const;
-  /// Also those beyond kMost.
+  /// Including those beyond kMost.
   [[nodiscard]] std::size_t count() const noexcept { return seen_.size(); }
 
   static constexpr std::size_t kMost = 1000;
@@ -55,7 +55,7 @@ class MachineCheck final : public interpret::Sink {
  private:
   enum class What : std::uint8_t { travel, extent, feed, spindle, standing };
 
-  /// What the program covers of an axis whose place in the travel is not known.
+  /// The range that the program uses of an axis whose place in the travel is unknown.
   struct Extent {
     double low_mm = std::numeric_limits<double>::infinity();
     double high_mm = -std::numeric_limits<double>::infinity();
@@ -73,7 +73,7 @@ class MachineCheck final : public interpret::Sink {
   Known known_;
   PieceMaker pieces_;
   Piece piece_;
-  double always_mm_s_ = 0.0;  ///< what every axis and the control can do, whatever the direction
+  double always_mm_s_ = 0.0;  ///< what every axis and the control can do in any direction
   bool lathe_ = false;
   bool tool_came_ = false;
   bool stands_warned_ = false;

@@ -14,23 +14,23 @@ using interpret::MoveKind;
 
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
-/// Where an arc swings, by angles behind its start.
+/// Where an arc swings, by angles from its start.
 struct Swing {
   double swept_rad = 0.0;
   double slack_rad = 0.0;
   double beyond_mm = 0.0;
 
   [[nodiscard]] bool passes(double behind_rad) const noexcept { return behind_rad <= swept_rad; }
-  /// What a point may be beyond the ends near a direction that is not passed.
+  /// How far a point may lie beyond the ends near a direction that the arc does not pass.
   [[nodiscard]] double beside_mm(double behind_rad) const noexcept {
     const bool is_near = behind_rad <= swept_rad + slack_rad || behind_rad >= kFullTurn - slack_rad;
     return is_near ? beyond_mm : 0.0;
   }
 };
 
-/// A spiral or helix turns back a little before or behind the direction: s·(r′·cos φ − r·sin φ) +
-/// h′ = 0, so within asin((s·r′ + h′)/(s·r)) of it. What s·r and h change in all is what that adds
-/// to the end of an arc that does not pass the direction itself.
+/// A spiral or helix turns back a little before or after the direction: s·(r′·cos φ − r·sin φ) + h′
+/// = 0, so within asin((s·r′ + h′)/(s·r)) of it. For an arc that does not pass the direction
+/// itself, this adds at most the total change of s·r and h to its end.
 Swing swing_of(double swept_rad, double changes_mm, double least_mm) noexcept {
   const double sine = changes_mm / (swept_rad * std::max(1e-9, least_mm));
   return {.swept_rad = swept_rad,
@@ -38,11 +38,11 @@ Swing swing_of(double swept_rad, double changes_mm, double least_mm) noexcept {
           .beyond_mm = changes_mm};
 }
 
-/// What is added to the ends of an arc: where it passes the axis' direction from its centre. The
-/// work coordinates may be turned out of the arc's plane.
-/// With s1, s2 = what the machine's axis sees of the plane's two directions, a point at angle θ on
-/// radius r is at centre + r·(s1·cos θ + s2·sin θ). The extremes are ±r·√(s1² + s2²), at θ =
-/// atan2(s2, s1) and opposite. They count where the arc passes these angles.
+/// Extends the ends of an arc to where it passes the axis' direction from its centre. The work
+/// coordinates may be turned out of the arc's plane.
+/// With s1, s2 = the components of the plane's two directions along the machine's axis, a point at
+/// angle θ on radius r is at centre + r·(s1·cos θ + s2·sin θ). The extremes are ±r·√(s1² + s2²), at
+/// θ = atan2(s2, s1) and opposite. They count where the arc passes these angles.
 void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
   if (axis >= move.normal.size()) {
     return;
@@ -63,7 +63,7 @@ void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
     return machine_of(move, at)[axis] - centre_mm;
   };
   const double share = std::hypot(along(first), along(second));
-  // The arc's plane is perpendicular to the axis: the ends say all.
+  // The arc's plane is perpendicular to the axis: the ends suffice.
   if (share < 1e-9) {
     return;
   }
@@ -82,8 +82,8 @@ void bulge(const Move& move, std::size_t axis, Reach& reach) noexcept {
   if (std::abs(move.turns) > 1 || swept < 1e-9) {
     swept = kFullTurn;
   }
-  // A bound, not the exact extreme: the larger radius of a spiral, and the whole rise of a helix,
-  // which reaches this axis only where a rotation turns the plane's normal towards it.
+  // A bound, not the exact extreme: the larger radius of a spiral and the whole rise of a helix,
+  // which affects this axis only where a rotation turns the plane's normal towards it.
   const double radius_mm = from_centre_mm(move.start);
   const double radius_end_mm = from_centre_mm(move.end);
   const double bulge_mm = share * std::max(radius_mm, radius_end_mm);

@@ -7,7 +7,7 @@
 
 namespace steadyrest::nc::plan {
 
-/// How far an axis goes in one move, machine coordinates, bulges of arcs counted.
+/// How far an axis goes in one move, in machine coordinates, including the bulges of arcs.
 struct Reach {
   double low_mm = 0.0;
   double high_mm = 0.0;

@@ -6,8 +6,8 @@
 
 namespace steadyrest::nc::plan {
 
-// Axes beyond X Y Z keep step with u, the share of the segment that has been covered. On a spiral u
-// is not proportional to the length, so parameter_at() must find it.
+// Axes other than X Y Z follow u, the share of the segment covered. On a spiral u is not
+// proportional to the length, so parameter_at() must find it.
 PathPoint axes_at(const kernel::signal::PathSegment& segment, double distance_mm) noexcept {
   PathPoint out;
   const double length = segment.length_mm;
@@ -29,8 +29,8 @@ PathPoint axes_at(const kernel::signal::PathSegment& segment, double distance_mm
     out.position[i + 3] = segment.other_start[i] + u * delta;
     out.direction[i + 3] = delta * per_mm;
   }
-  // Exactly the programmed end: start + 1·(end − start) may miss it by a rounding, and the next
-  // segment starts from the programmed point.
+  // Exactly the programmed end: start + 1·(end − start) may miss it by a rounding error, and the
+  // next segment starts from the programmed point.
   if (distance_mm >= length) {
     std::copy(segment.end_mm.begin(), segment.end_mm.end(), out.position.begin());
     std::copy(segment.other_end.begin(), segment.other_end.end(), out.position.begin() + 3);

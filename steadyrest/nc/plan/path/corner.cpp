@@ -19,7 +19,7 @@ using math::geometry::norm;
 
 namespace {
 
-// A smaller turn is left to the junction law: no axis jumps by more than 1e-4 of the speed there.
+// Smaller turns are left to the junction law: no axis jumps by more than 1e-4 of the speed there.
 constexpr double kSmoothTurn_rad = 1e-4;
 constexpr double kInPlane = 1e-6;
 constexpr double kStraight_mm = 1e6;  ///< a wider rounding is a straight line to every machine
@@ -65,7 +65,7 @@ struct Curve {
 std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const Point& normal,
                               const Point& direction) {
   Curve out;
-  // The plane of the corner contains both tangents by construction; a line needs no more than that.
+  // The plane of the corner contains both tangents by construction; a line needs nothing else.
   out.tangent = tangent;
   if (s.geometry == Geometry::line) {
     return std::abs(dot(direction, normal)) < kInPlane ? std::optional(out) : std::nullopt;
@@ -85,7 +85,7 @@ std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const P
   return out;
 }
 
-/// Where the offsets by r meet, nearest to the corner; one piece at least is a circle.
+/// Where the offsets by r meet, nearest to the corner; at least one piece is a circle.
 std::optional<Flat> meet(const Curve& a, const Curve& b, double r) {
   const double rb = b.radius - b.turn * r;
   if (a.circle && b.circle) {
@@ -158,7 +158,7 @@ std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const Corne
     return std::nullopt;
   }
   const FlatArc out{*centre, touch(a, *centre), touch(b, *centre)};
-  // The rounding must touch the piece before ahead of the corner and the piece after behind it.
+  // The rounding must touch the first piece before the corner and the second piece after it.
   const bool fits = out.before.distance < 0.0 &&
                     -out.before.distance <= request.room_before_mm * (1.0 + kRounding) &&
                     out.after.distance > 0.0 &&
@@ -166,15 +166,14 @@ std::optional<FlatArc> fit(const Curve& a, const Curve& b, double r, const Corne
   return fits ? std::optional(out) : std::nullopt;
 }
 
-/// The tangent of half the turn, and 1/cos of it less one, without a difference of near numbers.
+/// tan and 1/cos − 1 of half the turn, without cancellation.
 struct Half {
   double tangent = 0.0;
   double secant_less_1 = 0.0;
 };
 Half half_of(const Bend& bend) {
   // With c = cos(φ/2): 1/c − 1 = (1 − c²)/((1 + c)·c), and 1 − c² = sin²φ/(2·(1 + cos φ)).
-  // tan(φ/2) = sin φ/(1 + cos φ); 1/cos(φ/2) − 1 from it without a difference of near numbers,
-  // since small turns are the rule.
+  // tan(φ/2) = sin φ/(1 + cos φ); 1/cos(φ/2) − 1 without cancellation, since most turns are small.
   const double wide = 1.0 + bend.cosine;
   const double cosine = std::sqrt(0.5 * wide);
   const double sine_squared = bend.sine * bend.sine / (2.0 * wide);
@@ -191,8 +190,8 @@ double line_radius(const Half& half, const CornerRequest& request) {
 
 double largest_radius(const Curve& a, const Curve& b, const Half& half,
                       const CornerRequest& request) {
-  // What the tangents would permit is near the answer where the arcs are wide. Arcs that bend away
-  // from the corner permit more, up to any radius: their common tangent touches both.
+  // The radius that fits the tangents is near the answer where the arcs are wide. Arcs that bend
+  // away from the corner permit larger ones without limit: their common tangent touches both.
   double low = 0.0;
   double high = std::min(4.0 * line_radius(half, request), request.most_radius_mm);
   while (fit(a, b, high, request)) {
@@ -202,7 +201,7 @@ double largest_radius(const Curve& a, const Curve& b, const Half& half,
     low = high;
     high = std::min(2.0 * high, request.most_radius_mm);
   }
-  // 50 halvings take the interval below the last digit of a double. What fits is monotonic in r
+  // 50 halvings shrink the interval below the last digit of a double. The fit is monotonic in r
   // (corner.hpp), so bisection finds the largest.
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
@@ -238,7 +237,7 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
   const Half half = half_of(bend);
   CornerArc result;
   result.axis = bend.axis;
-  // Lines, by far the most common corner, need neither the plane frame nor the search.
+  // Corners between lines, the usual case, need neither the plane frame nor the search.
   if (before.geometry == Geometry::line && after.geometry == Geometry::line) {
     result.radius_mm = line_radius(half, request);
     if (!(result.radius_mm > 0.0)) {

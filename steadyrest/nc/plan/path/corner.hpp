@@ -9,17 +9,17 @@
 ///
 /// Law, in the plane of the corner, turning left, corner at the origin: the centre of a rounding
 /// circle of radius r lies at distance r to the left of both pieces, so it is where their offsets
-/// meet: a line's offset is a parallel line, that of a circle of radius R is a circle of radius R −
-/// o·r with the same centre, o = +1 where the path runs counter-clockwise and −1 where it runs
-/// clockwise. Of two meeting points the one nearer to the corner counts. The distance between
-/// corner and rounding is |C| − r; both it and the lengths that the rounding takes from the pieces
-/// grow with r, so the largest permitted r is found by bisection. Between two lines, with the turn
-/// φ, they are r·(1/cos(φ/2) − 1) and r·tan(φ/2): the largest r is the smallest quotient.
+/// meet: a line's offset is a parallel line, a circle's of radius R a circle of radius R − o·r
+/// about the same centre, o = +1 where the path runs counter-clockwise and −1 where it runs
+/// clockwise. If there are two meeting points, the one nearer to the corner counts. The distance
+/// between corner and rounding is |C| − r; both it and the lengths that the rounding takes from the
+/// pieces grow with r, so the largest permitted r is found by bisection. Between two lines that
+/// turn by φ they are r·(1/cos(φ/2) − 1) and r·tan(φ/2): the largest r is the smaller quotient.
 ///
 /// Pieces: lines and plane arcs of constant radius that lie in one plane; others are left sharp.
 namespace steadyrest::nc::plan {
 
-/// How the path turns from one unit vector into another.
+/// How the path turns from one unit vector to another.
 struct Bend {
   kernel::signal::Point axis{};  ///< unit normal of the corner's plane
   double sine = 0.0;             ///< of the turning angle
@@ -34,7 +34,7 @@ struct CornerRequest {
   double tolerance_mm = 0.0;    ///< largest distance between corner and rounding
   double room_before_mm = 0.0;  ///< largest length taken from the piece before
   double room_after_mm = 0.0;   ///< and from the piece after
-  double most_radius_mm = 0.0;  ///< no larger radius is of use
+  double most_radius_mm = 0.0;  ///< a larger radius gains nothing
 };
 
 struct CornerArc {
@@ -48,8 +48,8 @@ struct CornerArc {
   double taken_after_mm = 0.0;
 };
 
-/// The largest rounding of the corner between `before` and `after`, whose directions there are unit
-/// vectors `in` and `out`, which bend so; nothing when the pieces do not lie in one plane.
+/// The largest rounding of the corner between `before` and `after`, whose directions there are the
+/// unit vectors `in` and `out` with this bend; nothing when the pieces do not lie in one plane.
 [[nodiscard]] std::optional<CornerArc> round_corner(const kernel::signal::PathSegment& before,
                                                     const kernel::signal::PathSegment& after,
                                                     const kernel::signal::Point& in,

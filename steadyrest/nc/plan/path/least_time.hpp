@@ -9,12 +9,11 @@
 
 namespace steadyrest::nc::plan {
 
-/// Adds up what a program takes at least: Σ length/feed and dwells, at 100 % and without ramps, so
-/// that one of months is refused before anybody runs through it period by period. Rapids count as
-/// 0.
+/// Adds up the least time of a program: Σ length/feed and dwells, at 100 % and without ramps. A
+/// program of months is refused before it is run through period by period. Rapids count as 0.
 class LeastTime {
  public:
-  /// Why the program ends here: it passes kLongestProgram_s, by this piece alone or with all
+  /// The refusal when the program exceeds kLongestProgram_s with this piece, alone or with all
   /// before.
   [[nodiscard]] std::optional<kernel::outcome::Refusal> add(const Piece& piece,
                                                             const interpret::Move& move);

@@ -12,8 +12,8 @@ using kernel::signal::kMaxAxes;
 using kernel::signal::PathSegment;
 using kernel::signal::Point;
 
-// The fields of rotary axes hold rad/s and rad/s², and a direction has rad per mm of path there, so
-// the quotients below come out in mm/s and mm/s² for them too.
+// Rotary axes have rad/s and rad/s² in these fields, and directions have rad per mm of path, so the
+// quotients below come out in mm/s and mm/s² for them too.
 PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
                        const kernel::machine::Control& control)
     : path_acceleration_mm_s2_(control.max_path_acceleration_mm_s2),
@@ -48,7 +48,7 @@ PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
 }
 
 // v·|t_i| ≤ V_i and a·|t_i| ≤ A_i for every axis that takes part; the tightest quotient counts.
-// Rounding leaves shares of 1e-16 on axes that do not move: they must not take part.
+// Rounding leaves shares of 1e-16 on axes that do not move: they must not count.
 SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
   SpeedLimits out{kUnlimited, path_acceleration_mm_s2_};
   for (std::size_t i = 0; i < axes_; ++i) {
@@ -62,8 +62,8 @@ SpeedLimits PathLimits::line(const AxisValues& direction) const noexcept {
 }
 
 // Over all unit vectors t perpendicular to n the largest |t_i| is √(1 − n_i²). The bound therefore
-// holds on every sector of a circle, and is too strict for a short arc that never points along the
-// slow axis. It depends on the plane alone, which makes it cheap for corners.
+// holds on every sector of a circle but is too strict for a short arc that never points along the
+// slow axis. It depends only on the plane, which makes it cheap for corners.
 PlaneLimits PathLimits::plane(const Point& normal) const noexcept {
   PlaneLimits out{path_acceleration_mm_s2_, kUnlimited, kUnlimited};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -81,8 +81,8 @@ PlaneLimits PathLimits::plane(const Point& normal) const noexcept {
 
 SpeedLimits PathLimits::circle(double radius_mm, const PlaneLimits& plane) const noexcept {
   const double radius = std::max(1e-9, radius_mm);
-  // The plane's acceleration is one vector: κ_n of it may go across the path, v²/R ≤ κ_n·a; what
-  // Pythagoras leaves is for changing the speed along the path.
+  // The plane's acceleration is one vector: κ_n of it may act across the path, v²/R ≤ κ_n·a; by
+  // Pythagoras the rest may change the speed along the path.
   const double total = plane.acceleration_mm_s2;
   double v = std::min(std::sqrt(centripetal_share_ * total * radius), plane.speed_mm_s);
   if (std::isfinite(plane.jerk_mm_s3)) {  // a circle's own jerk is v³/R²
@@ -92,10 +92,9 @@ SpeedLimits PathLimits::circle(double radius_mm, const PlaneLimits& plane) const
   return {v, std::sqrt(std::max(0.0, total * total - normal * normal))};
 }
 
-// Helices, spirals and arcs with further axes share the speed between the plane and what moves
-// along with it. Radius and slope vary on a spiral, so every share is taken where it is largest:
-// the part in the plane at the wide end, the part along at the tight end, where a radian is the
-// shortest path.
+// Helices, spirals and arcs with further axes share the speed between the plane and the other axes.
+// Radius and slope vary on a spiral, so each share is taken where it is largest: the plane's at the
+// wide end, the other axes' at the tight end, where a radian is the shortest path.
 SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   const double dr = s.radius_end_mm - s.radius_mm;
   const double tight = std::max(1e-9, std::min(s.radius_mm, s.radius_end_mm));
@@ -128,7 +127,7 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
     if (around + along > 1e-12) {
       straight.speed_mm_s = std::min(straight.speed_mm_s, speed_[i] / (around + along));
     }
-    // Without a part along the axis a_plane bounds its acceleration already.
+    // Without a part along the axis, a_plane already bounds its acceleration.
     if (along > 1e-12) {
       straight.acceleration_mm_s2 =
           std::min(straight.acceleration_mm_s2, acceleration_[i] / (around + along));
@@ -149,8 +148,8 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   return out;
 }
 
-// At a corner axis i changes its velocity by v·|Δt_i| within one period. That is an acceleration of
-// v·|Δt_i|/T on top of the ramp's, so the ramps before and after it get the rest.
+// At a corner axis i changes its velocity by v·|Δt_i| within one period. This acceleration of
+// v·|Δt_i|/T adds to the ramp's, so the ramps before and after get only the rest.
 double PathLimits::junction_use(const AxisValues& before, const AxisValues& after,
                                 double speed_mm_s) const noexcept {
   if (junction_share_ >= 1.0) {
@@ -164,13 +163,13 @@ double PathLimits::junction_use(const AxisValues& before, const AxisValues& afte
   return std::min(use, junction_share_);
 }
 
-// Three laws, see the header. Axes that do not change direction have no say.
+// Three laws, see the header. Axes that do not change direction do not count.
 // jump: one period T changes an axis' velocity by A_i·T at most.
 // deviation: a circle tangential to both legs at distance δ from the corner has R = δ·sin β/(1 −
-// sin β), and v² = a·R. It is a law of lengths in space, so rotary axes do not take part.
+// sin β), and v² = a·R. It is a law of lengths in space, so rotary axes do not count.
 // facets: a curve of radius R in steps of ℓ turns by ℓ/R at each, so A/|Δt|·ℓ = A·R, the curve's
-// own centripetal limit. Without it fine facets would run faster than the curve they replace, as
-// each jump becomes small.
+// own centripetal limit. Without it fine facets would run faster than the curve they replace, since
+// each jump is small.
 double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& after,
                                  double length_before_mm, double length_after_mm) const noexcept {
   double jump = kUnlimited;

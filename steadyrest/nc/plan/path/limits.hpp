@@ -15,16 +15,16 @@
 ///   line      v ≤ min V_i/|t_i|,  a ≤ min A_i/|t_i|
 ///   arc       g_i = √(1 − n_i²) is the largest share of axis i in the plane with normal n;
 ///             a_plane = min A_i/g_i;  v ≤ √(κ_n·a_plane·R_eff), R_eff = R/cos²(helix angle) of the
-///             tightest radius;  the tangential part keeps what is left: a_t = √(a_plane² −
+///             tightest radius;  the tangential part gets the rest: a_t = √(a_plane² −
 ///             (v²/R_eff)²)
 ///   junction  jump: v·|Δt_i| ≤ κ_j·A_i·T in one interpolator period T, κ_j = junction_share;
 ///             deviation: v² ≤ a·δ·sin β/(1 − sin β), β = half the angle between the legs, the
 ///             speed at which an arc that stays within δ of the corner would be possible; facets:
 ///             v² ≤ min A_i/|Δt_i|·ℓ, ℓ = mean length of the two segments, the centripetal limit of
-///             the curve that the corners stand for. v_junction = min(facets, max(jump,
+///             the curve that the corners approximate. v_junction = min(facets, max(jump,
 ///             deviation)).
-/// With δ = 0 no axis ever jumps by more than one period of its acceleration. The deviation law's
-/// source: the junction deviation of the Grbl firmware (Jeon 2011); κ_n = √3/2 is the share that
+/// With δ = 0 no axis ever jumps by more than one period of its acceleration. Sources: the junction
+/// deviation of the Grbl firmware (Jeon 2011) for the deviation law; κ_n = √3/2 is the share that
 /// LinuxCNC gives to the centripetal part (documented in its trajectory planner).
 namespace steadyrest::nc::plan {
 
@@ -33,14 +33,14 @@ struct SpeedLimits {
   double acceleration_mm_s2 = 0.0;
 };
 
-/// What the axes permit together in a plane: A_i, V_i, J_i by g_i.
+/// What the axes permit together in a plane: A_i, V_i, J_i divided by g_i.
 struct PlaneLimits {
   double acceleration_mm_s2 = 0.0;  ///< a_plane
   double speed_mm_s = 0.0;
   double jerk_mm_s3 = 0.0;
 };
 
-/// The limits of a machine in the order of its axes; an axis that it does not have is unlimited.
+/// The limits of a machine in the order of its axes; axes it does not have are unlimited.
 class PathLimits {
  public:
   PathLimits(std::span<const kernel::machine::Axis> axes, const kernel::machine::Control& control);
@@ -50,7 +50,7 @@ class PathLimits {
   [[nodiscard]] SpeedLimits arc(const kernel::signal::PathSegment& segment) const noexcept;
   /// In the plane with unit normal `normal`.
   [[nodiscard]] PlaneLimits plane(const kernel::signal::Point& normal) const noexcept;
-  /// A plane circle, as corners are: what arc() gives for it.
+  /// What arc() gives for a plane circle, such as a corner's.
   [[nodiscard]] SpeedLimits circle(double radius_mm, const PlaneLimits& plane) const noexcept;
   /// Speed at which the directions `before` → `after` may follow one another on the exact path.
   [[nodiscard]] double junction_mm_s(const kernel::signal::AxisValues& before,
@@ -58,7 +58,7 @@ class PathLimits {
                                      double length_before_mm,
                                      double length_after_mm) const noexcept;
   /// Share of the acceleration that the jump at `speed_mm_s` takes, at most junction_share; 0 when
-  /// that is 1: then the jump has its period to itself.
+  /// junction_share is 1: the jump then has a period of its own.
   [[nodiscard]] double junction_use(const kernel::signal::AxisValues& before,
                                     const kernel::signal::AxisValues& after,
                                     double speed_mm_s) const noexcept;

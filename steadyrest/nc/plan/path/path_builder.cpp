@@ -31,11 +31,11 @@ using math::geometry::subtract;
 
 namespace {
 
-// A move is made in a free place, waits there for merging (waiting_), then for its corner (held_),
-// and goes out when the corner is decided. Three places are enough.
+// A move is built in a free place, waits there for merging (waiting_), then for its corner (held_),
+// and goes out once the corner is decided. Three places are enough.
 
 constexpr double kUsable = 1.0 - 1e-6;
-/// A spline is planned as chords that miss it by no more.
+/// A spline is planned as chords within this distance.
 constexpr double kSplineTolerance_mm = 5e-4;
 constexpr std::size_t kMostMerged = 512;
 
@@ -82,7 +82,7 @@ void PathStream::release(double exit_speed_limit_mm_s) {
   held_ = kNone;
 }
 
-/// Takes `next` into the line that waits when every point between stays within the merge tolerance.
+/// Merges `next` into the waiting line when every point between stays within the merge tolerance.
 bool PathStream::merge(const Piece& next) {
   Piece& line = places_[waiting_];
   const double tolerance = line.merge_tolerance_mm;
@@ -124,7 +124,7 @@ bool PathStream::merge(const Piece& next) {
   return true;
 }
 
-/// What waited for merging goes on to its corner.
+/// Passes the waiting piece on to its corner.
 void PathStream::accept() {
   if (waiting_ == kNone) {
     return;
@@ -154,7 +154,7 @@ bool PathStream::round_corner(Piece& next) {
   const double kappa = pieces_.limits().centripetal_share();
   const double a_normal = kappa * plane.acceleration_mm_s2;
   const double a_tangential = std::sqrt(1.0 - kappa * kappa) * plane.acceleration_mm_s2;
-  // A sliver of every piece stays, so that two corner arcs never meet without knowing one another.
+  // A sliver of every piece remains, so that two corner arcs never touch.
   CornerRequest request;
   request.tolerance_mm = held.tolerance_mm;
   request.room_before_mm = kUsable * std::min(share * held.nominal_mm, held.segment.length_mm);
@@ -175,7 +175,7 @@ bool PathStream::round_corner(Piece& next) {
   return true;
 }
 
-/// The arc's piece: what it does not have of its own is that of the slower neighbour.
+/// The arc's piece: whatever the arc does not define comes from the slower neighbour.
 void PathStream::set_corner(const CornerArc& corner, const Piece& held, const Piece& next) {
   const Piece& like = held.plan.feed_mm_s <= next.plan.feed_mm_s ? held : next;
   Piece& arc = corner_;
@@ -220,7 +220,7 @@ void PathStream::put_in_corner(const CornerArc& corner, double goal_mm_s, Piece&
   emit(arc);
 }
 
-/// Takes path length from either end of a piece; the caller moves the end.
+/// Shortens a piece at either end; the caller moves the end point.
 void PathStream::shorten(Piece& piece, double taken_mm) {
   PathSegment& s = piece.segment;
   if (s.geometry == Geometry::arc) {
@@ -230,7 +230,7 @@ void PathStream::shorten(Piece& piece, double taken_mm) {
   piece.plan.length_mm = s.length_mm;
 }
 
-/// Decides how the path goes from the held piece into `next`, and hands the held one over.
+/// Decides how the path goes from the held piece into `next` and hands over the held piece.
 void PathStream::join(Piece& next) {
   if (held_ == kNone) {
     return;
@@ -260,7 +260,7 @@ void PathStream::join(Piece& next) {
   release(std::min(junction, most));
 }
 
-/// Leaves a share of the acceleration to a piece; the smaller of two shares counts.
+/// Limits a piece to a share of the acceleration; the smaller of two shares counts.
 void PathStream::slow_ramps(Piece& out, double share) const {
   if (share < out.ramp_share) {
     out.plan.acceleration_mm_s2 *= share / out.ramp_share;
@@ -268,7 +268,7 @@ void PathStream::slow_ramps(Piece& out, double share) const {
   }
 }
 
-/// The path ends or waits here.
+/// The path ends or stops here.
 void PathStream::rest() {
   accept();
   if (held_ != kNone && places_[held_].mode == PathMode::continuous) {
@@ -349,7 +349,7 @@ void PathStream::on_move(const Move& move) {
   }
   accept();
   waiting_ = next_;
-  // The places are 0, 1, 2 and add up to 3: what is left over is the free one.
+  // The places are 0, 1, 2 and add up to 3: the remainder is the free one.
   next_ = held_ == kNone ? (waiting_ + 1) % kNone : kNone - held_ - waiting_;
 }
 

@@ -33,22 +33,22 @@ class PathReceiver {
 ///
 /// Corner arcs (continuous mode with a tolerance; corner.hpp): radius R with
 ///   R·(1/cos(φ/2) − 1) ≤ tolerance,  R·tan(φ/2) ≤ blend_share·ℓ of either line,
-///   and no larger than the speed goal v needs: R ≤ max(v²/(κ_n·a), v²/(φ·a_t)), so that the arc is
-///   taken at v and is long enough to change the speed within it;  φ = turning angle, a = a_plane,
-///   a_t = √(1 − κ_n²)·a.
+///   and no larger than the speed goal v needs: R ≤ max(v²/(κ_n·a), v²/(φ·a_t)), so that the arc
+///   can be taken at v and is long enough to change the speed within it;  φ = turning angle,
+///   a = a_plane, a_t = √(1 − κ_n²)·a.
 /// The speed through it is √(κ_n·a_plane·R); the corner stays sharp where the exact path is faster.
-/// Lines of continuous mode with a tolerance are merged while all points between lie within
-/// merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY plane that
-/// is nearer to its chord than that, r·(1 − cos(sweep/2)), is two lines over its middle. Every
-/// event stops the path. Splines are refused, and so is a program that takes longer than
-/// kLongestProgram_s (LeastTime).
+/// In continuous mode with a tolerance, lines are merged while all points between lie within
+/// merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY plane
+/// nearer to its chord than that, r·(1 − cos(sweep/2)), becomes two lines through its middle. Every
+/// event stops the path. Splines are refused, and so are programs longer than kLongestProgram_s
+/// (LeastTime).
 class PathStream final : public interpret::Sink {
  public:
   PathStream(const kernel::machine::Machine& machine, PathReceiver& receiver);
 
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
-  /// Hands over what is still held back; call once after the last move.
+  /// Hands over the pieces still held back; call once after the last move.
   void finish();
   /// Set when a move cannot be planned; later moves are ignored.
   [[nodiscard]] const std::optional<kernel::outcome::Refusal>& refusal() const noexcept {
@@ -74,10 +74,10 @@ class PathStream final : public interpret::Sink {
   const kernel::machine::Machine& machine_;
   PathReceiver& receiver_;
   PieceMaker pieces_;
-  // Pieces stay where they are made: each has a place until it is emitted.
+  // Pieces stay where they are built: each has a place until it is emitted.
   static constexpr std::size_t kNone = 3;
   std::array<Piece, kNone> places_;
-  std::size_t next_ = 0;                       ///< for the move in hand
+  std::size_t next_ = 0;                       ///< for the current move
   std::size_t waiting_ = kNone;                ///< may still grow by merging
   std::size_t held_ = kNone;                   ///< its end waits for what follows
   Piece corner_;                               ///< the arc between two of them

@@ -53,7 +53,7 @@ Motion motion_of(const Move& move) {
 /// degrees.
 double line_length(const PathSegment& s, const std::array<bool, kMaxAxes>& rotary) {
   const double main = norm(subtract(s.end_mm, s.start_mm));
-  if (!(main <= kShortest_mm)) {  // not a number included: it is refused above
+  if (!(main <= kShortest_mm)) {  // including NaN, which is refused above
     return main;
   }
   double linear = 0.0;
@@ -82,9 +82,8 @@ AxisValues line_direction(const PathSegment& s) {
 
 }  // namespace
 
-// The sense of rotation goes into the axis: whoever reads a segment knows counter-clockwise arcs
-// alone, with a positive sweep. The normal turns with the work offset's rotation, as the centre
-// does.
+// The axis carries the sense of rotation: segments have only counter-clockwise arcs, with a
+// positive sweep. The normal turns with the work offset's rotation, as the centre does.
 void set_arc(PathSegment& s, const Move& move) {
   s.geometry = Geometry::arc;
   const double sign = move.turns < 0 ? -1.0 : 1.0;
@@ -105,7 +104,7 @@ void set_arc(PathSegment& s, const Move& move) {
   to = add_scaled(to, s.axis, -s.rise_mm);
   s.radius_mm = norm(from);
   s.radius_end_mm = norm(to);
-  // Digits of the program: an arc that nearly closes is a circle, not a spiral.
+  // The program's digits are rounded: nearly equal radii mean a circle, not a spiral.
   if (std::abs(s.radius_end_mm - s.radius_mm) < kSameRadius_mm) {
     s.radius_end_mm = s.radius_mm;
   }
@@ -113,15 +112,15 @@ void set_arc(PathSegment& s, const Move& move) {
   // first turn. |turns| counts turns begun: each beyond the first adds a full one.
   const auto frame = math::geometry::arc_frame(s);
   double angle = std::atan2(dot(to, frame.e2), dot(to, frame.e1));
-  if (angle <= 1e-9) {  // the end stands at the start or before it: up to one more turn
+  if (angle <= 1e-9) {  // the end is at or before the start: up to one more turn
     angle += 2.0 * std::numbers::pi;
   }
   s.sweep_rad = angle + 2.0 * std::numbers::pi * (std::max(1, std::abs(move.turns)) - 1);
   s.length_mm = math::geometry::arc_length_mm(s);
 }
 
-// The machine file lists axes in any order after X, Y, Z; the first letter of the name says which
-// of the program's axes one is. A B C turn: rad inside, degrees in the program.
+// The machine file lists axes in any order after X, Y, Z; the first letter of a name tells the
+// program's axis. A B C are rotary: rad inside, degrees in the program.
 PieceMaker::PieceMaker(const Machine& machine)
     : machine_(machine), limits_(machine.axes, machine.control) {
   axis_of_ = {0, 1, 2, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis, kNoAxis};
@@ -156,7 +155,7 @@ AxisValues PieceMaker::machine_position(const Move& move, const Axes& work) cons
   return out;
 }
 
-/// Spindle speed of a move. G96 holds the cutting speed at the mean radius |X| of the move.
+/// Spindle speed of a move. G96 keeps the cutting speed at the mean radius |X| of the move.
 double PieceMaker::spindle_of(const PathSegment& s, const Move& move) const {
   if (move.surface_speed_mm_s == 0.0) {
     return move.spindle_rev_s;
@@ -174,8 +173,8 @@ double PieceMaker::spindle_of(const PathSegment& s, const Move& move) const {
 }
 
 // G93 gives moves per second, so feed times length is mm/s. A feed per revolution stays mm/rev in
-// the plan, since the interpolator multiplies it by the actual spindle speed; the segment's own
-// feed is its value at the commanded speed.
+// the plan, where the interpolator multiplies it by the actual spindle speed; the segment's own
+// feed is the value at the commanded speed.
 void PieceMaker::set_speed(Piece& out, const Move& move) const {
   SegmentPlan& p = out.plan;
   p.rapid = move.kind == MoveKind::rapid;
@@ -206,9 +205,8 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   SegmentPlan& p = out.plan;
   const auto& control = machine_.control;
   double speed = std::min(limits.speed_mm_s, p.rapid ? control.rapid_mm_s : control.max_feed_mm_s);
-  // A control cannot work off blocks faster than one per min_block_cycles periods (LinuxCNC:
-  // slightly more than one). The length before rounding counts: the block is what the control
-  // executes.
+  // A control executes at most one block per min_block_cycles periods (LinuxCNC: slightly more than
+  // one). The length before rounding counts: that is the control's block.
   if (control.min_block_cycles > 0.0) {
     speed = std::min(speed,
                      out.nominal_mm / (control.min_block_cycles * control.interpolator_period_s));
@@ -217,8 +215,7 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   p.speed_limit_mm_s = speed;
   p.acceleration_mm_s2 = limits.acceleration_mm_s2;
   p.length_mm = s.length_mm;
-  // A rapid has no F; it goes as fast as axes and control permit, and the rapid override scales
-  // that.
+  // A rapid has no F: it runs as fast as axes and control permit, scaled by the rapid override.
   if (p.rapid) {
     s.feed_mm_s = speed;
     p.feed_mm_s = speed;
@@ -264,7 +261,7 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
     return refuse("a feed per revolution without a running spindle", "start the spindle first");
   }
   limit(out);
-  // A machine file may leave limits out. With no bound at all the move would take no time.
+  // A machine file may omit limits. Without any bound the move would take no time.
   if (!std::isfinite(out.plan.speed_limit_mm_s) && !std::isfinite(out.plan.feed_mm_s)) {
     return refuse("a rapid move of axes without a speed limit", "give max_speed of the axes");
   }

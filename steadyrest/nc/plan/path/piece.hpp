@@ -12,16 +12,16 @@
 
 namespace steadyrest::nc::plan {
 
-inline constexpr double kShortest_mm = 1e-9;  ///< what is no longer is no move
+inline constexpr double kShortest_mm = 1e-9;  ///< nothing shorter is a move
 
-/// One move as a segment of the path, before anything is known of its neighbours.
+/// One move as a segment of the path, before its neighbours are known.
 struct Piece {
   kernel::signal::PathSegment segment;
   SegmentPlan plan;
   interpret::PathMode mode = interpret::PathMode::continuous;
   double tolerance_mm = 0.0;
   double merge_tolerance_mm = 0.0;
-  double ramp_share = 1.0;  ///< applied to the acceleration already
+  double ramp_share = 1.0;  ///< already applied to the acceleration
   double nominal_mm = 0.0;  ///< length before its corners were rounded
   kernel::signal::AxisValues start_direction{};
   kernel::signal::AxisValues end_direction{};
@@ -45,9 +45,9 @@ class PieceMaker {
   /// finite, a feed move without a feed, a feed per revolution without a spindle, axes without
   /// limits.
   [[nodiscard]] kernel::outcome::Result<bool> make(const interpret::Move& move, Piece& out) const;
-  /// Sets the limits anew after the segment was changed, and a line's direction.
+  /// Updates the limits and a line's direction after a change of the segment.
   void limit(Piece& out) const;
-  /// The same with limits that are known.
+  /// The same with given limits.
   void limit(Piece& out, const SpeedLimits& limits) const;
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 

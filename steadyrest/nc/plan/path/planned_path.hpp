@@ -8,7 +8,7 @@
 
 #include <steadyrest/kernel/signal/path.hpp>
 
-/// The planned path of a program: geometry for everyone, and what the interpolator needs beside it.
+/// The planned path of a program: geometry for everyone, and what else the interpolator needs.
 namespace steadyrest::nc::plan {
 
 /// A program that takes longer has a feed or a dwell in the wrong unit.
@@ -17,11 +17,11 @@ inline constexpr double kLongestProgram_s = 30.0 * 24.0 * 3600.0;
 /// What the speed plan needs of one segment, in one cache line; parallel to the PathSegments.
 struct SegmentPlan {
   double length_mm = 0.0;
-  double acceleration_mm_s2 = 0.0;  ///< tangential, what the axes leave after the centripetal share
+  double acceleration_mm_s2 = 0.0;  ///< tangential, what remains after the centripetal share
   double feed_mm_s = 0.0;           ///< at 100 %; per_revolution: mm/rev
   double speed_limit_mm_s = std::numeric_limits<double>::infinity();
   double exit_speed_limit_mm_s = 0.0;
-  double spindle_rev_s = 0.0;   ///< commanded from here on by G96; 0 = as the last event said
+  double spindle_rev_s = 0.0;   ///< commanded from here on by G96; 0 = by the last event
   bool rapid = false;           ///< the rapid override applies
   bool locked = false;          ///< no override applies
   bool per_revolution = false;  ///< feed follows the actual spindle speed
@@ -33,7 +33,7 @@ enum class PathEventKind : std::uint8_t {
   spindle,       ///< value = rev/s, signed
   spindle_wait,  ///< until the spindle has reached its speed
   coolant,
-  stop,  ///< M0, M1: goes on at once, the operator is not simulated
+  stop,  ///< M0, M1: continues at once, the operator is not simulated
   end
 };
 
@@ -52,8 +52,8 @@ struct PlannedPath {
   std::vector<PathEvent> events;
 };
 
-/// What an interpolator reads: all of a program, or a window that moves along it. Element i stands
-/// at i & mask, so a ring of a power of two serves as well as a whole array.
+/// What an interpolator reads: a whole program, or a window that moves along it. Element i is at
+/// index i & mask, so a ring of a power of two works as well as a whole array.
 struct PathWindow {
   const kernel::signal::PathSegment* segments = nullptr;
   const SegmentPlan* plans = nullptr;

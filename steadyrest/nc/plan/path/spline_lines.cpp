@@ -20,9 +20,9 @@ double distance_mm(const SplinePoint& p, const SplinePoint& a, const SplinePoint
   return length > 0.0 ? std::abs(dx * py - dy * px) / length : std::hypot(px, py);
 }
 
-// Halves each knot span and gives out the chords, each when the next is known: the last one can
-// then end on the programmed point itself. Splines lie in the XY plane; the other axes stay where
-// the move begins until that last point.
+// Halves each knot span and emits each chord once the next is known, so that the last one can end
+// exactly on the programmed point. Splines lie in the XY plane; the other axes keep their start
+// values until that last point.
 class Halving {
  public:
   Halving(const Move& move, double tolerance_mm, const std::function<void(const Move&)>& line)
@@ -43,8 +43,8 @@ class Halving {
   [[nodiscard]] SplinePoint at(double u) const {
     return interpret::spline_at(move_.spline, move_.spline_order, u);
   }
-  // The test looks at the middle of the span alone. An inflexion there puts the middle on the chord
-  // however far the curve swings on either side: hence the least number of halvings.
+  // The test looks only at the middle of the span. An inflexion there puts the middle on the chord
+  // however far the curve swings on either side, hence the least number of halvings.
   // NOLINTNEXTLINE(misc-no-recursion): bounded by kMostHalvings
   void halve(double u0, const SplinePoint& p0, double u1, const SplinePoint& p1, int depth) {
     const double middle = 0.5 * (u0 + u1);

@@ -11,8 +11,8 @@ inline constexpr int kLeastHalvings = 2;
 inline constexpr int kMostHalvings = 12;
 
 /// A spline as straight moves along its chords, in order. Each knot span is halved until the middle
-/// of the curve lies within `tolerance_mm` of its chord, `kLeastHalvings` times at least (an
-/// inflexion in the middle hides the first) and `kMostHalvings` times at most.
+/// of the curve lies within `tolerance_mm` of its chord, at least `kLeastHalvings` times (an
+/// inflexion in the middle hides the first deviation) and at most `kMostHalvings` times.
 void spline_lines(const interpret::Move& move, double tolerance_mm,
                   const std::function<void(const interpret::Move&)>& line);
 

@@ -11,9 +11,9 @@ std::string_view name(Load load) noexcept {
   return load == Load::standing ? "standing" : load == Load::running ? "running" : "cutting";
 }
 
-// Within 5 % of the transition's first speed counts as the same: under G96 the speed changes with
-// every block, and each change would begin a transition. Compared with the first and not with the
-// last speed, a slow drift begins one after all. Beyond kMost the last transition takes everything.
+// Speeds within 5 % of the transition's first speed count as the same: under G96 the speed changes
+// with every block, and each change would begin a transition. Comparing with the first speed, not
+// the last, lets a slow drift begin a new one. Beyond kMost the last transition takes everything.
 bool Cyclogram::goes_on(const Setpoint& setpoint, std::int64_t tool) const noexcept {
   constexpr double kSame = 0.05;
   if (transitions_.empty()) {
@@ -37,7 +37,7 @@ void Cyclogram::add(const Setpoint& setpoint, std::int64_t tool, double time_s, 
   Transition& now = transitions_.back();
   now.seconds += period_s;
   now.path_mm += setpoint.path_speed_mm_s * period_s;
-  // Rapids, dwells and probing take no chips: they are time of the transition, but not of the cut.
+  // Rapids, dwells and probing cut nothing: they count towards the transition, not the cut.
   const bool cuts = setpoint.motion == Motion::feed || setpoint.motion == Motion::thread ||
                     setpoint.motion == Motion::tap;
   if (cuts) {

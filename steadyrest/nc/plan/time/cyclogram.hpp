@@ -10,22 +10,22 @@
 
 namespace steadyrest::nc::plan {
 
-/// What a machine does for a while with one tool and one spindle speed.
+/// What a machine does with one tool and one spindle speed.
 enum class Load : std::uint8_t {
-  standing,  ///< the spindle stands
-  running,   ///< it turns, nothing is fed
-  cutting    ///< it turns and feed moves are made
+  standing,  ///< the spindle is stopped
+  running,   ///< it turns, no feed moves
+  cutting    ///< it turns, with feed moves
 };
 [[nodiscard]] std::string_view name(Load load) noexcept;
 
-/// A technological transition: from a change of tool, of the commanded spindle speed or of the
-/// coolant to the next.
+/// A technological transition: from one change of tool, commanded spindle speed or coolant to the
+/// next.
 struct Transition {
   std::int64_t tool = 0;
   double speed_rev_s = 0.0;  ///< commanded at its beginning, signed
   double start_s = 0.0;
   double seconds = 0.0;
-  double cut_s = 0.0;      ///< of it in feed moves
+  double cut_s = 0.0;      ///< of these, in feed moves
   double cut_mm = 0.0;     ///< their length
   double path_mm = 0.0;    ///< length of all moves, rapids included
   bool coolant = false;    ///< it flows
@@ -46,8 +46,8 @@ struct Transition {
 
 /// The cyclogram of a program (Marusich's first block): transitions in order, without gaps.
 ///
-/// A speed that moves (G96) begins a new transition when it is 5 % away from the one that began it.
-/// Beyond `kMost` transitions the last one takes what follows, so that memory is bounded.
+/// A varying speed (G96) begins a new transition once it is 5 % off the transition's first speed.
+/// After `kMost` transitions the last one takes everything, so memory is bounded.
 class Cyclogram {
  public:
   static constexpr std::size_t kMost = 100'000;

@@ -18,9 +18,10 @@ using kernel::signal::Motion;
 
 namespace {
 
-// One update: overrides in (take); at standstill the events that are due; in motion one period of
-// the lead (run), then the average behind it (average) and its place on the path (locate). The lead
-// may be segments ahead of the setpoint; the limits of those between bind through lag_.
+// One update takes in the overrides (take). At standstill it works off the events that are due; in
+// motion it advances the lead by one period (run), then the average behind it (average) and finds
+// its place on the path (locate). The lead may be segments ahead of the setpoint; the limits in
+// between bind through lag_.
 
 constexpr double kSpindleTolerance_ratio = 0.05;  ///< "at speed": within 5 % of the command
 constexpr std::size_t kLagCapacity = 1024;
@@ -42,8 +43,8 @@ Result<Interpolator> Interpolator::make(const Machine& machine, const PathWindow
   if (machine.control.look_ahead_blocks == 0) {
     return refuse(machine.file, "control.look_ahead_blocks must be at least 1", "give 1 or more");
   }
-  // Rounded up: a longer averaging time only lowers the jerk. The 1e-9 keeps a quotient that is
-  // whole but for rounding from costing a period.
+  // Rounded up: a longer averaging time only lowers the jerk. The 1e-9 keeps rounding of a whole
+  // quotient from costing a period.
   const PathLimits limits(machine.axes, machine.control);
   const double taps = std::max(1.0, std::ceil(limits.jerk_time_s() / period - 1e-9));
   if (!(taps <= 10000.0)) {
@@ -113,7 +114,7 @@ double Interpolator::lag_cap_mm_s() const noexcept {
                                 : lag_[lag_head_ % kLagCapacity].cap_mm_s;
 }
 
-/// Keeps the limits of what the lead has passed and the setpoint has not: ascending indices, rising
+/// Keeps the limits that the lead has passed and the setpoint has not: ascending indices, rising
 /// caps.
 void Interpolator::push_lag(std::size_t index) noexcept {
   const SegmentPlan& p = window_.plan(index);
@@ -124,7 +125,7 @@ void Interpolator::push_lag(std::size_t index) noexcept {
     --lag_tail_;
   }
   if (lag_tail_ - lag_head_ ==
-      kLagCapacity) {  // full: the last one stands for both, on the safe side
+      kLagCapacity) {  // full: the last entry covers both, on the safe side
     lag_[(lag_tail_ - 1) % kLagCapacity].index = index;
     return;
   }
@@ -137,10 +138,10 @@ double Interpolator::next_speed() noexcept {
   const SegmentPlan& p = window_.plan(lead_.segment);
   const double step = p.acceleration_mm_s2 * period_s_;
   double want = std::min(target_mm_s(p, overrides_), lag_cap_mm_s());
-  // Here only acceleration counts; where the path ends sooner, `hard` below brakes harder.
+  // Only acceleration counts here; where the path ends sooner, `hard` below brakes harder.
   want = std::clamp(want, v - step, v + step);
   if (taps_ > 1) {
-    // Between rising and falling lie N periods of constant speed, or the average sees 2A in one
+    // N periods of constant speed separate rising from falling, or the average sees 2A in one
     // window.
     if ((want > v && since_fall_ < taps_) || (want < v && since_rise_ < taps_)) {
       want = v;
@@ -151,8 +152,8 @@ double Interpolator::next_speed() noexcept {
     }
   }
   const LookAhead::Bound hard = look_ahead_.bound(window_, lead_, want, 0.0);
-  // Never brakes harder than the segments allow, even where an override fell too late for the exit
-  // planned.
+  // Never brakes harder than the segments allow, even if an override drops too late for the planned
+  // exit speed.
   const double next = std::max({hard.speed_mm_s, v - hard.braking_mm_s2 * period_s_, 0.0});
   since_rise_ = next > v ? 0 : since_rise_ + 1;
   since_fall_ = next < v ? 0 : since_fall_ + 1;
@@ -188,8 +189,8 @@ void Interpolator::run() noexcept {
   }
 }
 
-/// The moving average. The sums are computed afresh once a turn of the ring, so that rounding does
-/// not build up.
+/// The moving average. The sums are recomputed once per turn of the ring, so that rounding does not
+/// build up.
 void Interpolator::average() noexcept {
   const double s = window_.segment(lead_.segment).position_mm + lead_.distance_mm;
   if (taps_ == 1) {
@@ -231,15 +232,15 @@ void Interpolator::locate() noexcept {
   distance_mm_ = path_position_mm_ - window_.segment(index_).position_mm;
 }
 
-/// The averaged position has arrived where the lead stopped.
+/// The averaged position has reached the lead's stop.
 void Interpolator::settle() noexcept {
   index_ = lead_.segment;
   distance_mm_ = window_.plan(lead_.segment).length_mm;
   path_position_mm_ = window_.segment(lead_.segment).position_mm + distance_mm_;
   speed_mm_s_ = 0.0;
   lag_head_ = lag_tail_;
-  // As if the machine had stood here for N periods: the next start is not averaged with the last
-  // stop.
+  // As if the machine had been at rest here for N periods: the next start is not averaged with the
+  // last stop.
   std::fill(position_ring_.begin(), position_ring_.end(), path_position_mm_);
   std::fill(speed_ring_.begin(), speed_ring_.end(), 0.0);
   position_sum_ = path_position_mm_ * static_cast<double>(taps_);
@@ -249,7 +250,7 @@ void Interpolator::settle() noexcept {
   phase_ = Phase::standstill;
 }
 
-/// Works on one event; true when it is over.
+/// Advances one event; true when it is over.
 bool Interpolator::event_passed(const PathEvent& event) noexcept {
   const auto timed = [this](double seconds) {
     // To the nearest period.
@@ -269,8 +270,8 @@ bool Interpolator::event_passed(const PathEvent& event) noexcept {
       return true;
     case PathEventKind::spindle_wait: {
       const double ratio = std::isfinite(overrides_.spindle_ratio) ? overrides_.spindle_ratio : 1.0;
-      // What the drive can reach: an override above the spindle's largest speed would wait for
-      // ever.
+      // Limited to what the drive reaches: an override above the spindle's largest speed would wait
+      // forever.
       const double wanted = std::copysign(
           std::min(std::abs(spindle_rev_s_) * ratio, max_spindle_rev_s_), spindle_rev_s_);
       return spindle_rev_s_ == 0.0 || std::abs(overrides_.spindle_actual_rev_s - wanted) <=

@@ -14,25 +14,23 @@
 
 /// The control's interpolator: one setpoint for each interpolator period from the planned path.
 ///
-/// Law. The path parameter s runs ahead as s_r with an acceleration-limited speed; the setpoint
-/// stands at the moving average s(t) = 1/N Σ s_r(t − jT) over the jerk time N·T = max A_i/J_i, so
-/// the geometry is exact and |d³s/dt³| ≤ A/(N·T) ≤ J. Without a jerk limit N = 1: the trapezoid.
+/// Law. The path parameter s runs ahead as s_r with an acceleration-limited speed; the setpoint is
+/// the moving average s(t) = 1/N Σ s_r(t − jT) over the jerk time N·T = max A_i/J_i, so the
+/// geometry is exact and |d³s/dt³| ≤ A/(N·T) ≤ J. Without a jerk limit N = 1: the trapezoid.
 ///   look-ahead  w_k = largest v² at the end of segment k: backwards over the window,
 ///               w_{k−1} = min(c²_{k−1}, w_k + 2·a_k·(ℓ_k − h_k)), 0 at the window's end; done
 ///               again when an override changes. c = min(junction limit, targets of both segments).
 ///   smearing    a limit c at s_k binds s_r over c·N·T/2 before s_k (h) and until the averaged s
-///   has passed s_k:
-///               then the averaged speed meets c at s_k and nowhere passes it.
-///   reversal    between rising and falling of v_r lie at least N periods of constant speed,
-///   otherwise the average
-///               would see 2A in one window. The result on a line is the textbook S-curve: t = L/V
-///               + V/A + A/J.
-///   one cycle   largest v' ≤ v + aT with v'² ≤ w + 2a·(d − (v + v')·T/2), d = what is left to the
-///   limit.
+///               has passed s_k: the averaged speed then meets c at s_k and exceeds it nowhere.
+///   reversal    at least N periods of constant speed separate rising from falling v_r; otherwise
+///               the average would see 2A in one window. The result on a line is the textbook
+///               S-curve: t = L/V + V/A + A/J.
+///   one cycle   largest v' ≤ v + aT with v'² ≤ w + 2a·(d − (v + v')·T/2), d = distance left to
+///               the limit.
 /// Override: target = feed · ratio, clipped to the segment's limit; 0 holds; locked segments ignore
 /// it.
 ///
-/// Memory is taken in make(); update() never allocates, its work is bounded by the look-ahead.
+/// make() allocates all memory; update() never allocates, and the look-ahead bounds its work.
 namespace steadyrest::nc::plan {
 
 class Interpolator {
@@ -45,11 +43,11 @@ class Interpolator {
   /// The setpoint at the end of the next interpolator period.
   Setpoint update(const Overrides& overrides) noexcept;
 
-  /// For a window that moves along a long program: more of it is known now.
+  /// Tells the interpolator that more of a long program is in the window now.
   void extend(std::size_t end, std::size_t event_end, bool complete) noexcept;
-  /// The window does not reach as far as the look-ahead although the program goes on.
+  /// The program goes on, but the window is shorter than the look-ahead.
   [[nodiscard]] bool wants_more() const noexcept;
-  /// The last update had nothing to do: the rest of the program is not known yet.
+  /// The last update had nothing to do: the rest of the program is not in the window yet.
   [[nodiscard]] bool starved() const noexcept { return starved_; }
   /// Segments and events below these are not read again.
   [[nodiscard]] std::size_t first_segment_in_use() const noexcept { return index_; }

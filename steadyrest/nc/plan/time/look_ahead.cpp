@@ -35,18 +35,18 @@ LookAhead::LookAhead(std::size_t blocks, double period_s, double jerk_time_s)
       mask_(limits_.size() - 1) {}
 
 bool LookAhead::outdated(double spindle_rev_s) const noexcept {
-  // 0.5 % and not every count of the spindle encoder: planning costs a pass over the window.
+  // 0.5 %, not every count of the spindle encoder: planning costs a pass over the window.
   const double drift = std::abs(spindle_rev_s - planned_spindle_rev_s_);
   return follows_spindle_ && drift > kSpindleReplan_ratio * std::abs(planned_spindle_rev_s_);
 }
 
-/// The limit at the end of segment i from that of i + 1. True when it did not change.
+/// Computes the limit at the end of segment i from that of i + 1. True when it is unchanged.
 bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
                               const Overrides& overrides) noexcept {
   const SegmentPlan& here = path.plan(i);
   const SegmentPlan& next = path.plan(i + 1);
   // One segment back from the end of i + 1 to the end of i: the flat part shrinks by the length of
-  // i + 1, and behind it v² may be higher by 2·a for each mm of braking.
+  // i + 1, and before it v² may be higher by 2·a for each mm of braking.
   Limit limit = limits_[(i + 1) & mask_];
   const double gain = 2.0 * next.acceleration_mm_s2;
   limit.hold_mm -= next.length_mm;
@@ -55,12 +55,12 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
     limit.hold_mm = 0.0;
   }
   limit.cap_reach_mm -= next.length_mm;
-  if (limit.cap_reach_mm < 0.0) {  // behind its reach the cap is one more limit to brake for
+  if (limit.cap_reach_mm < 0.0) {  // beyond its reach the cap is one more limit to brake for
     limit.square = std::min(limit.square, limit.cap_square - gain * limit.cap_reach_mm);
     limit.cap_reach_mm = 0.0;
     limit.cap_square = kNone;
   }
-  // The targets of both neighbours bind here: the slower one must be reached at the joint itself.
+  // The targets of both neighbours bind here: the slower must be reached at the joint itself.
   const double c = std::min(
       {here.exit_speed_limit_mm_s, target_mm_s(here, overrides), target_mm_s(next, overrides)});
   const double reach = 0.5 * c * jerk_time_s_;
@@ -68,9 +68,8 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
     limit.square = c * c;
     limit.hold_mm = reach;
   } else if (jerk_time_s_ > 0.0 && c * c <= limit.cap_square) {
-    // The braking curve is below c at the joint, but within the reach before it it may be above.
-    // There the average would carry a speed above c through the joint, so c is kept as a second
-    // limit.
+    // The braking curve is below c at the joint but may be above it within the reach before. The
+    // average would then carry a speed above c through the joint, so c is kept as a second limit.
     limit.cap_square = c * c;
     limit.cap_reach_mm = reach;
   }
@@ -83,8 +82,8 @@ bool LookAhead::plan_junction(const PathWindow& path, std::size_t i,
   return same;
 }
 
-// Beyond the window nothing is known, so its end counts as a stop. Hence a short look-ahead slows
-// down rows of tiny blocks, as it does on real controls.
+// Nothing is known beyond the window, so its end counts as a stop. A short look-ahead therefore
+// slows down rows of tiny blocks, as on real controls.
 void LookAhead::plan_all(const PathWindow& path, std::size_t from,
                          const Overrides& overrides) noexcept {
   planned_spindle_rev_s_ = overrides.spindle_actual_rev_s;
@@ -99,7 +98,7 @@ void LookAhead::plan_all(const PathWindow& path, std::size_t from,
   }
 }
 
-/// The window slides: only what the new end changes is planned again.
+/// The window slides: replans only what the new end changes.
 void LookAhead::plan_more(const PathWindow& path, std::size_t from,
                           const Overrides& overrides) noexcept {
   const std::size_t end = std::min(from + blocks_, path.end);
@@ -112,8 +111,8 @@ void LookAhead::plan_more(const PathWindow& path, std::size_t from,
   limits_[last & mask_] = Limit{};
   for (std::size_t i = last; i-- > from;) {
     follows_spindle_ = follows_spindle_ || path.plan(i + 1).per_revolution;
-    // Each limit depends on its successor alone: one that has kept its value keeps all before it.
-    // Those behind old_last are new and have no old value to compare with.
+    // Each limit depends only on its successor: an unchanged one leaves all before it unchanged.
+    // Those after old_last are new and have no old value to compare with.
     if (plan_junction(path, i, overrides) && i < old_last) {
       break;
     }
@@ -147,7 +146,7 @@ LookAhead::Bound LookAhead::bound(const PathWindow& path, const Lead& lead, doub
     if (limit.cap_square < kNone) {
       fit(limit.cap_square, left - limit.cap_reach_mm);
     }
-    // The cycle ends within segment k: what lies behind it has its say in w_k already.
+    // The cycle ends within segment k: w_k already covers everything beyond it.
     if (v * half + std::max(best, v - braking * period_s_) * q <= left) {
       break;
     }

@@ -10,9 +10,9 @@
 
 namespace steadyrest::nc::plan {
 
-inline constexpr double kEndTolerance_mm = 1e-10;  ///< nearer than that is at a segment's end
+inline constexpr double kEndTolerance_mm = 1e-10;  ///< anything nearer is at a segment's end
 
-/// Speed that a segment asks for under the overrides, at most its limit.
+/// Speed that a segment asks for under the overrides, capped at its limit.
 [[nodiscard]] double target_mm_s(const SegmentPlan& p, const Overrides& overrides) noexcept;
 
 /// The acceleration-limited point that runs ahead of the setpoint.
@@ -22,8 +22,8 @@ struct Lead {
   double speed_mm_s = 0.0;
 };
 
-/// What binds the lead over the next `blocks` segments, and the speed that they permit now. The law
-/// stands in interpolator.hpp. Memory is taken when it is made.
+/// What binds the lead over the next `blocks` segments, and the speed that they permit now. See
+/// interpolator.hpp for the law. The constructor allocates all memory.
 class LookAhead {
  public:
   struct Bound {
@@ -35,12 +35,12 @@ class LookAhead {
 
   /// Plans from segment `from` on, backwards over the window.
   void plan_all(const PathWindow& path, std::size_t from, const Overrides& overrides) noexcept;
-  /// The window slides: only what the new end changes is planned again.
+  /// The window slides: replans only what the new end changes.
   void plan_more(const PathWindow& path, std::size_t from, const Overrides& overrides) noexcept;
   /// The spindle has left the speed that feeds per revolution were planned with.
   [[nodiscard]] bool outdated(double spindle_rev_s) const noexcept;
-  /// Largest speed after this cycle, at most `want`, from which all limits ahead can be kept when
-  /// the speed stays for `plateau_s` before it falls.
+  /// Largest speed after this cycle, at most `want`, that keeps all limits ahead when the speed is
+  /// held for `plateau_s` before it falls.
   [[nodiscard]] Bound bound(const PathWindow& path, const Lead& lead, double want_mm_s,
                             double plateau_s) const noexcept;
 

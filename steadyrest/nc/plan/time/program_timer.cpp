@@ -20,7 +20,7 @@ using kernel::signal::PathSegment;
 
 namespace {
 // The planned path passes through rings that hold what the interpolator may still read, so memory
-// does not grow with the program. When a ring is full, the interpolator runs until it is not.
+// does not grow with the program. A full ring makes the interpolator run until there is room.
 
 constexpr std::size_t kSpare = 1024;  ///< segments between the averaged position and the lead
 constexpr std::size_t kEvents = 256;
@@ -55,7 +55,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   }
 
   void on_segment(const PathSegment& segment, const SegmentPlan& plan) override {
-    // The ring is full: the interpolator runs on until it has let go of the oldest segment.
+    // The ring is full: the interpolator runs until it releases the oldest segment.
     while (end_ - interpolator_->first_segment_in_use() >= segments_.size() - 1 && !stuck()) {
       step();
     }
@@ -84,7 +84,7 @@ class ProgramTimer::Runner final : public PathReceiver {
     time.cyclogram = cyclogram_.transitions();
   }
 
-  // A feed far too low would keep the loops above busy for ever.
+  // A feed far too low would keep the loops above busy forever.
   [[nodiscard]] bool stuck() const { return time.total_s > kMost_s; }
   [[nodiscard]] std::uint32_t line_in_hand() const { return line_; }
 
@@ -108,7 +108,7 @@ class ProgramTimer::Runner final : public PathReceiver {
     const double reach = machine_.spindle.acceleration_rev_s2 * period;
     const double wanted_rev_s = s.spindle_rev_s * overrides.spindle_ratio;
     spindle_rev_s_ += std::clamp(wanted_rev_s - spindle_rev_s_, -reach, reach);
-    for (std::size_t i = event; i < event_end_; ++i) {  // the change in hand, and those just passed
+    for (std::size_t i = event; i < event_end_; ++i) {  // the current change, and those just passed
       const PathEvent& e = events_[i & (events_.size() - 1)];
       const bool passed = i < interpolator_->first_event_in_use();
       const bool in_hand =
@@ -116,14 +116,13 @@ class ProgramTimer::Runner final : public PathReceiver {
       if (!passed && !in_hand) {
         break;
       }
-      // Its tool counts from the first period of the change: the change's own time is the new
-      // tool's.
+      // The new tool counts from the first period of its change.
       if (e.kind == PathEventKind::tool_change && i >= tools_seen_) {
         time.tools.push_back({static_cast<std::int64_t>(e.value), 0.0});
         tools_seen_ = i + 1;
       }
     }
-    // A starved period waits for the reader, not for the machine: it is no machine time.
+    // A starved period waits for the reader, not for the machine: it is not machine time.
     if (!interpolator_->starved()) {
       account(s, period);
     }
@@ -136,14 +135,14 @@ class ProgramTimer::Runner final : public PathReceiver {
         arrival(s.line, time.total_s);
       }
     }
-    // The cyclogram feeds the thermal forecast: the spindle as it really turns. The feed override
-    // is in the path speed already.
+    // The cyclogram feeds the thermal forecast: the spindle as it really turns. The path speed
+    // already includes the feed override.
     Setpoint in_force = s;
     in_force.spindle_rev_s *= overrides.spindle_ratio;
     cyclogram_.add(in_force, time.tools.back().number, time.total_s, period);
     time.total_s += period;
     time.tools.back().seconds += period;
-    // Who asks for arrivals has no use for the seconds by line, a table as long as the program.
+    // Callers that want arrivals do not need the seconds by line, a table as long as the program.
     if (!arrival) {
       if (s.line >= time.line_s.size()) {
         time.line_s.resize(s.line + 1U, 0.0);

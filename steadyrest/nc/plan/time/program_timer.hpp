@@ -19,7 +19,7 @@ namespace steadyrest::nc::plan {
 struct ProgramTime {
   struct Tool {
     std::int64_t number = 0;  ///< 0 before the first tool change
-    double seconds = 0.0;     ///< its change included
+    double seconds = 0.0;     ///< including its change
   };
   double total_s = 0.0;
   double cut_s = 0.0;  ///< feed, thread, tap and probe moves
@@ -37,9 +37,9 @@ struct ProgramTime {
 
 /// Times a program by running it through the planner and the interpolator, period by period.
 ///
-/// A moving window over the path is held: memory does not grow with the path, only `line_s` (8
-/// bytes for each line), `tools` and `cyclogram` do. The spindle reaches its speed with
-/// machine.spindle.acceleration. Resolution: one interpolator period for each stop.
+/// Holds a moving window over the path: memory does not grow with the path; only `line_s` (8 bytes
+/// per line), `tools` and `cyclogram` grow. The spindle ramps at machine.spindle.acceleration.
+/// Resolution: one interpolator period for each stop.
 class ProgramTimer final : public interpret::Sink {
  public:
   /// Refuses a machine that the interpolator refuses. `machine` must outlive the timer.
@@ -50,12 +50,12 @@ class ProgramTimer final : public interpret::Sink {
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
   /// The result; call once after the last move. Refuses what the planner refuses, and a program
-  /// that would take longer than `kMost_s`: at the programmed feeds before it is run, with the line
-  /// (PathStream); at these overrides with the line where the limit was passed.
+  /// longer than `kMost_s`: at the programmed feeds before it is run, naming the line (PathStream);
+  /// at these overrides naming the line where the limit was passed.
   [[nodiscard]] kernel::outcome::Result<ProgramTime> take();
 
-  /// Called with a move's line when the machine gets to it, and the time since the program's
-  /// start; `line_s` stays empty then, so that memory does not grow with the lines.
+  /// Called with a move's line when the machine reaches it, and the time since the program's start;
+  /// `line_s` then stays empty, so memory does not grow with the lines.
   using Arrival = std::function<void(std::uint32_t line, double time_s)>;
   void set_arrival(Arrival arrival);
 

@@ -23,7 +23,7 @@ using kernel::signal::PathSegment;
 
 namespace {
 
-/// S is rebased before rounding could reach the square of a slow junction's speed.
+/// S is rebased before its rounding reaches the square of a slow junction's speed.
 constexpr double kMostSum = 1e9;
 constexpr double kWholePeriod = 1e-6;
 
@@ -31,7 +31,7 @@ struct Stretch {
   double length_mm = 0.0;
   double acceleration_mm_s2 = 0.0;
   double target_mm_s = 0.0;  ///< feed per revolution: at the commanded speed
-  double feed_mm = 0.0;      ///< per revolution; 0 = not so
+  double feed_mm = 0.0;      ///< per revolution; 0 = not per revolution
   double speed_limit_mm_s = 0.0;
   double spindle_rev_s = 0.0;  ///< commanded by G96 from here on; 0 = no change
   double exit_limit_mm_s = 0.0;
@@ -42,7 +42,7 @@ struct Stretch {
 
 }  // namespace
 
-/// The window of segments, the sliding minimum over it, and the time up to the segment in hand.
+/// The window of segments, the sliding minimum over it, and the time up to the current segment.
 class SegmentTimer::Runner final : public PathReceiver {
  public:
   explicit Runner(const Machine& machine)
@@ -54,8 +54,8 @@ class SegmentTimer::Runner final : public PathReceiver {
         window_(std::bit_ceil(blocks_ + 2)),
         lowest_(window_.size()) {}
 
-  // A junction limit needs the target behind it, so a segment is closed by its successor, and timed
-  // once the look-ahead is full or an event stops the path.
+  // A junction limit needs the target after it, so the successor closes a segment; it is timed once
+  // the look-ahead is full or an event stops the path.
   void on_segment(const PathSegment& segment, const SegmentPlan& plan) override {
     if (plan.spindle_rev_s != 0.0) {
       planned_spindle_rev_s_ = plan.spindle_rev_s;
@@ -100,7 +100,7 @@ class SegmentTimer::Runner final : public PathReceiver {
         planned_spindle_rev_s_ = event.value;
         break;
       case PathEventKind::spindle_wait:
-        // wait() rounds to the nearest period. The interpolator looks once a period whether the
+        // wait() rounds to the nearest period. The interpolator checks once a period whether the
         // speed is reached, which rounds up: half a period more.
         wait(event, spindle_.seconds_to_speed() + 0.5 * period_s_);
         break;
@@ -131,7 +131,7 @@ class SegmentTimer::Runner final : public PathReceiver {
   Stretch& at(std::size_t i) noexcept { return window_[i & (window_.size() - 1)]; }
   std::size_t& lowest(std::size_t i) noexcept { return lowest_[i & (lowest_.size() - 1)]; }
 
-  /// The last segment's junction limit is known now: into the sliding minimum with it.
+  /// Puts the last segment's junction limit, now known, into the sliding minimum.
   void close(double next_target_mm_s) noexcept {
     Stretch& last = at(end_ - 1);
     const double c =
@@ -140,7 +140,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     // c² + S, comparable over the whole window because S grows by 2aℓ per segment: S_i is taken off
     // at the end.
     const double value = c * c + last.sum;
-    // Sliding minimum: a later and lower value makes earlier ones meaningless, so each enters and
+    // Sliding minimum: a later, lower value makes earlier ones meaningless, so each enters and
     // leaves once.
     while (lowest_end_ != lowest_begin_ && value_of(lowest(lowest_end_ - 1)) >= value) {
       --lowest_end_;
@@ -153,7 +153,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     return s.exit_limit_mm_s * s.exit_limit_mm_s + s.sum;
   }
 
-  /// The segment at the window's beginning is passed.
+  /// Passes the first segment of the window.
   void pass() {
     while (lowest_begin_ != lowest_end_ && lowest(lowest_begin_) < begin_) {
       ++lowest_begin_;
@@ -170,7 +170,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     }
   }
 
-  // Only differences of S count. Near 1e9 mm²/s² the digits left for c² would begin to matter.
+  // Only differences of S count. Near 1e9 mm²/s² too few digits would be left for c².
   void count_anew() noexcept {
     const double taken = begin_ > 0 ? at(begin_ - 1).sum : 0.0;
     for (std::size_t i = begin_; i < end_; ++i) {
@@ -199,7 +199,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     const double out_square = std::min(exit_square, in_square + a2);
     // Where accelerating from v_in meets braking to v_out, or the target.
     const double peak_square = std::min(target * target, 0.5 * (in_square + out_square + a2));
-    // Without a change no root: its rounding would make a ramp of a constant speed.
+    // No root without a change: its rounding would turn a constant speed into a ramp.
     const double out = out_square == in_square ? in : std::sqrt(out_square);
     const double peak = std::max({std::sqrt(peak_square), in, out});
     double seconds = length / peak;
@@ -224,7 +224,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     commanded_rev_s_ = speed_rev_s;
   }
 
-  /// What has been done since `from_s`, over `length_mm` of path.
+  /// Accounts for the time since `from_s`, over `length_mm` of path.
   void account(kernel::signal::Motion motion, std::uint32_t line, double from_s, double length_mm) {
     const double seconds = time_s_ - from_s;
     if (seconds > 0.0) {
@@ -237,8 +237,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     }
   }
 
-  /// While the spindle changes its speed a feed per revolution goes along with it; the target
-  /// behind.
+  /// While the spindle ramps, a feed per revolution follows it; returns the target afterwards.
   double follow_spindle(const Stretch& s, double& length_mm) {
     // Period by period: the spindle's ramp and the limits of the axes have no common closed form.
     while (spindle_.ramps() && length_mm > 0.0 && time_s_ < ProgramTimer::kMost_s) {
@@ -282,7 +281,7 @@ class SegmentTimer::Runner final : public PathReceiver {
     account(kernel::signal::Motion::dwell, event.line, from_s, 0.0);
   }
 
-  /// What is known of the path ends in a stop.
+  /// The known path ends in a stop.
   void drain() {
     if (end_ > begin_) {
       at(end_ - 1).exit_limit_mm_s = 0.0;
@@ -304,12 +303,12 @@ class SegmentTimer::Runner final : public PathReceiver {
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   double sum_ = 0.0;
-  std::vector<std::size_t> lowest_;  ///< segments whose value none behind them undercuts
+  std::vector<std::size_t> lowest_;  ///< segments whose value no later one undercuts
   std::size_t lowest_begin_ = 0;
   std::size_t lowest_end_ = 0;
 
   Cyclogram cyclogram_;
-  Setpoint done_;  ///< for the cyclogram; what else it has stays as it is
+  Setpoint done_;  ///< for the cyclogram; its other fields stay unchanged
   std::int64_t tool_ = 0;
   double commanded_rev_s_ = 0.0;
   bool coolant_ = false;
@@ -320,7 +319,7 @@ class SegmentTimer::Runner final : public PathReceiver {
 };
 
 Result<SegmentTimer> SegmentTimer::make(const Machine& machine) {
-  // Only for its refusals: what it would not run is not timed either.
+  // Only for its refusals: what it refuses is not timed either.
   if (auto possible = Interpolator::make(machine, PathWindow{}); !possible) {
     return std::unexpected(possible.error());
   }

@@ -13,8 +13,8 @@
 
 namespace steadyrest::nc::plan {
 
-/// Times a program segment by segment, in closed form: what ProgramTimer finds period by period, at
-/// 100 % override, for those who only ask when the machine gets where.
+/// Times a program segment by segment in closed form, as ProgramTimer does period by period, at 100
+/// % override, for callers that only need arrival times.
 ///
 /// Law, that of interpolator.hpp with N = 1. S_k = Σ 2·a_m·ℓ_m up to the end of segment k, c_k its
 /// junction limit, e the last segment within the look-ahead of i (c_e = 0):
@@ -25,8 +25,8 @@ namespace steadyrest::nc::plan {
 /// not depend on the look-ahead); a stop, a dwell, a tool change and a wait for the spindle end
 /// with a period of the interpolator, as there.
 ///
-/// Accuracy: within 0.65 period for each move of the interpolator's time, 0.1 % and less on real
-/// programs (README.md). A machine with a jerk limit (N > 1) is timed by ProgramTimer itself.
+/// Accuracy: within 0.65 period per move of the interpolator's time, 0.1 % or less on real programs
+/// (README.md). A machine with a jerk limit (N > 1) is timed by ProgramTimer itself.
 class SegmentTimer final : public interpret::Sink {
  public:
   /// Refuses a machine that the interpolator refuses. `machine` must outlive the timer.
@@ -37,13 +37,13 @@ class SegmentTimer final : public interpret::Sink {
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
 
-  /// Called with a move's line when the machine gets to it, and the time since the program's start.
+  /// Called with a move's line when the machine reaches it, and the time since the program's start.
   using Arrival = std::function<void(std::uint32_t line, double time_s)>;
   void set_arrival(Arrival arrival);
 
   /// Seconds of the whole program; call once after the last move. Refuses as ProgramTimer does.
   [[nodiscard]] kernel::outcome::Result<double> take();
-  /// The same, and what the machine does transition by transition.
+  /// The same, with the transitions.
   struct Timed {
     double total_s = 0.0;
     std::vector<Transition> cyclogram;

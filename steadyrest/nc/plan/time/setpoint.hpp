@@ -19,8 +19,8 @@ struct Setpoint {
   double path_speed_mm_s = 0.0;
   double programmed_feed_mm_s = 0.0;
   bool feed_per_revolution = false;
-  bool speed_modulation = false;  ///< the program wants the spindle's speed modulated
-  bool coolant = false;           ///< mist, flood or both flow
+  bool speed_modulation = false;  ///< the program asks for spindle speed modulation
+  bool coolant = false;           ///< mist, flood or both on
   double spindle_rev_s = 0.0;     ///< commanded, signed, before the spindle override
   bool finished = false;
 };
@@ -30,7 +30,7 @@ struct Overrides {
   double feed_ratio = 1.0;
   double rapid_ratio = 1.0;
   double spindle_actual_rev_s = 0.0;  ///< for waiting on speed and for feed per revolution
-  double spindle_ratio = 1.0;         ///< in force at the spindle: what a wait for speed waits for
+  double spindle_ratio = 1.0;         ///< in force at the spindle; a wait for speed counts it
 };
 
 }  // namespace steadyrest::nc::plan

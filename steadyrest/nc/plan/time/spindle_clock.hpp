@@ -9,7 +9,7 @@
 
 namespace steadyrest::nc::plan {
 
-/// The spindle between two commands: it changes its speed with its largest acceleration.
+/// The spindle between two commands: it ramps at its largest acceleration.
 class SpindleClock {
  public:
   explicit SpindleClock(const kernel::machine::Spindle& spindle)
@@ -25,8 +25,8 @@ class SpindleClock {
   [[nodiscard]] double speed_rev_s() const noexcept { return speed_rev_s_; }
   [[nodiscard]] bool ramps() const noexcept { return speed_rev_s_ != wanted_rev_s_; }
 
-  /// Until it is within 5 % of the commanded speed, the machine's largest speed at most; infinite
-  /// where it never is.
+  /// Time until it is within 5 % of the commanded speed, capped at the machine's largest; infinite
+  /// if it never gets there.
   [[nodiscard]] double seconds_to_speed() const noexcept {
     const double at = std::copysign(std::min(std::abs(wanted_rev_s_), most_rev_s_), wanted_rev_s_);
     const double band = kAtSpeed_ratio * std::abs(at);

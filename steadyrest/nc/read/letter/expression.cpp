@@ -66,7 +66,7 @@ bool Expression::operand(double& out) {
   if (read && negative) {
     out = -out;
   }
-  // The control looks at whole values only: 4 MOD 0 inside of a comparison is let through.
+  // The control checks only the final value: 4 MOD 0 inside a comparison passes.
   return read && finite(out);
 }
 
@@ -85,7 +85,7 @@ bool Expression::spaced_number(double& out) {
     out = number.value;
     return true;
   }
-  // The number without its blanks; no line of this dialect is longer than 253 characters.
+  // The number without its blanks; a line of this dialect has at most 253 characters.
   std::array<char, 256> packed{};
   std::size_t length = 0;
   for (; at_ != end_ && length < packed.size(); ++at_) {
@@ -97,12 +97,12 @@ bool Expression::spaced_number(double& out) {
   }
   const Number whole = read_number({packed.data(), length});
   out = whole.value;
-  // Two points, or none of it a number.
+  // Refuses two points, or no number at all.
   return (whole.length != 0 && whole.length == length) ||
          fail("bad_number", "not a number; write digits and one point");
 }
 
-// [ and whatever is inside, down to the weakest operator, up to its ].
+// [ … ] with any expression inside, down to the weakest operator.
 bool Expression::bracket(double& out) {
   // A bound on the recursion: a line of 250 brackets would otherwise be 250 calls deep.
   if (++depth_ > kDeepest) {
@@ -122,12 +122,12 @@ bool Expression::bracket(double& out) {
   return true;
 }
 
-/// What a comparison or a logical operator says.
+/// The truth value of a comparison or a logical operator.
 bool Expression::holds(Operator op, double a, double b) noexcept {
-  const double apart = std::abs(a - b);  // NaN behind 4 MOD 0: neither EQ nor NE
+  const double apart = std::abs(a - b);  // NaN after 4 MOD 0: neither EQ nor NE
   switch (op) {
-    // Numbers nearer than 0.0001 count as equal, which makes loops over decimal steps end where
-    // they look as if they did. The order comparisons have no such tolerance.
+    // Numbers nearer than 0.0001 count as equal, so that loops over decimal steps end where they
+    // seem to. The order comparisons have no such tolerance.
     case Operator::eq:
       return apart < kEqual;
     case Operator::ne:
@@ -149,13 +149,13 @@ bool Expression::holds(Operator op, double a, double b) noexcept {
   }
 }
 
-// Whole values are checked for infinities in operand() and by the caller, so 4 MOD 0 may occur
-// inside of a comparison, as in rs274.
+// operand() and the caller check the final value for infinities, so 4 MOD 0 may occur inside a
+// comparison, as in rs274.
 bool Expression::apply(Operator op, double& left, double right) {
   switch (op) {
     case Operator::power:
       // std::pow would return NaN.
-      // Real powers of negative numbers exist for whole exponents alone.
+      // A negative number has real powers only for whole exponents.
       if (left < 0.0 && right != std::floor(right)) {
         return fail("not_finite", "a negative number to a power that is not whole");
       }
@@ -165,7 +165,7 @@ bool Expression::apply(Operator op, double& left, double right) {
       left *= right;
       break;
     case Operator::over:
-      // rs274 refuses it too; an infinity would go into a coordinate.
+      // rs274 refuses it too: an infinity would end up in a coordinate.
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
       }

@@ -14,23 +14,23 @@ namespace steadyrest::nc::read {
 /// a number, `#5`, `#<name>`, `##5`, `#[…]`, `[…]`, a function `SIN[…]`, `ATAN[y]/[x]`,
 /// `EXISTS[#<name>]`, each with signs before it.
 ///
-/// Law as LinuxCNC 2.9's interpreter shows it (rs274, by experiment): all operators are
+/// Law of LinuxCNC 2.9's interpreter, found by experiment with rs274: all operators are
 /// left-associative; from strong to weak `**`; `* / MOD`; `+ -`; `EQ NE GT GE LT LE`;
-/// `AND OR XOR`; a sign binds to its value before all of them. EQ and NE hold two numbers for
-/// equal that differ by less than 0.0001. Angles are degrees. MOD has the sign of a positive
-/// number. A result that is not finite is refused. Blanks have no meaning, between the digits of a
-/// number neither. Nesting is bounded by `kDeepest`. Never allocates.
+/// `AND OR XOR`; a sign binds to its value before all of them. EQ and NE treat numbers as equal
+/// when they differ by less than 0.0001. Angles are degrees. MOD is never negative. A result that
+/// is not finite is refused. Blanks have no meaning, not even between the digits of a number.
+/// Nesting is bounded by `kDeepest`. Never allocates.
 class Expression : public Climber<Expression> {
  public:
   static constexpr int kDeepest = 64;
 
-  /// `values` answers for parameters; both outlive the object.
+  /// `values` supplies the parameters; both outlive the object.
   Expression(std::string_view line, std::size_t at, const Values& values) noexcept
       : Climber(line, at, values) {}
 
   /// Reads one real value. False when it is refused: see reason() and text().
   bool read(double& out);
-  /// Reads what stands between # and = : the number of a parameter, or its name when `<` follows.
+  /// Reads what is between # and = : the number of a parameter, or its name when `<` follows.
   bool parameter_number(int& index);
 
  private:

@@ -27,7 +27,7 @@ bool Expression::function(double& out) {
     ++at_;
   }
   const std::string_view text{name.data(), length};
-  // Letters without a bracket are no function, so the value is what is missing.
+  // Letters without a bracket are not a function: report a missing value.
   if (peek() != '[') {
     at_ = first;
     return fail("missing_value", "a value is missing: a number, a parameter or [ ] belongs here");
@@ -43,7 +43,7 @@ bool Expression::named_function(std::string_view name, double& out) {
   if (!bracket(x)) {
     return false;
   }
-  // Outside of these domains C++ gives not a number; the refusal names the function instead.
+  // Outside these domains C++ returns NaN; the refusal names the function instead.
   const auto domain = [&](bool inside, std::string_view text) {
     return inside || fail("out_of_domain", text);
   };
@@ -59,7 +59,7 @@ bool Expression::named_function(std::string_view name, double& out) {
   } else if (name == "EXP") {
     out = std::exp(x);
   } else if (name == "FIX") {
-    // LinuxCNC's FIX and FUP round down and up, also below zero; FANUC's go by magnitude
+    // LinuxCNC's FIX and FUP round down and up, also below zero; FANUC's work on the magnitude
     // (macro_expression.cpp).
     out = std::floor(x);
   } else if (name == "FUP") {
@@ -95,7 +95,7 @@ bool Expression::arc_tangent(double& out) {
   if (!bracket(y)) {
     return false;
   }
-  // ATAN needs both, to tell the quadrants apart; there is no form with one value.
+  // ATAN needs both values to tell the quadrants apart; there is no form with one.
   if (peek() != '/') {
     return fail("bad_function", "ATAN takes two values: ATAN[y]/[x]");
   }
@@ -125,14 +125,14 @@ bool Expression::exists(double& out) {
     if (!parameter_name(name)) {
       return false;
     }
-    // Asking is noted by values_ all the same: the answer depends on what the control holds.
+    // values_ notes the lookup all the same: the answer depends on what the control holds.
     out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;
   } else {
     int index = 0;
     if (!parameter_number(index)) {
       return false;
     }
-    // A position is there while cutter radius compensation is on, but cannot be read.
+    // A position exists while cutter radius compensation is on, but cannot be read.
     const Lookup lookup = values_.number(index, ignored);
     out = lookup == Lookup::found || lookup == Lookup::not_while_compensating ? 1.0 : 0.0;
   }

@@ -13,7 +13,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// A number goes on behind blanks: `1 . 5` is 1.5 in these dialects.
+// A number continues after blanks: `1 . 5` is 1.5 in these dialects.
 constexpr bool continues_number(char c) noexcept {
   return is_digit(c) || c == '.';
 }
@@ -29,9 +29,9 @@ constexpr std::string_view kControlText = "a control character; the file is not 
 
 }  // namespace
 
-// Words one after another; assignments act when the whole line has been read. What nearly every
-// line consists of is read in plain_word.cpp; O-words, macros and expressions have files of their
-// own.
+// Words one after another; assignments act when the whole line has been read. plain_word.cpp reads
+// the plain words that make up nearly every line; O-words, macros and expressions have their own
+// files.
 bool LetterLine::read() {
   skip_blanks();
   if (at_ != end_ && *at_ == '/' && !delete_mark()) {
@@ -105,8 +105,7 @@ bool LetterLine::round_comment() {
                 "a comment that is not closed on its line; write ) at its end");
 }
 
-// `;` opens a comment or ends the block, and nothing may follow it.
-// `;` opens a comment (linuxcnc) or ends the block (fanuc); nothing may follow the latter.
+// `;` opens a comment (linuxcnc) or ends the block (fanuc), after which nothing may follow.
 bool LetterLine::rest_of_line() {
   const char* const mark = at_++;
   if (rules_.semicolon_ends) {
@@ -183,7 +182,7 @@ bool LetterLine::value(const char* word_begin, Word& word) {
   return look == end_ || !continues_number(*look) || spaced_number(word_begin, word);
 }
 
-/// `Z- 1`, `Z. 5`, `Z-. 5`: blanks behind a sign or a point that begins a number.
+/// `Z- 1`, `Z. 5`, `Z-. 5`: blanks after a sign or a point that begins a number.
 bool LetterLine::digits_stand_apart() const noexcept {
   const bool sign = at_ != end_ && (*at_ == '-' || *at_ == '+');
   const char* digits = sign ? behind_blanks(at_ + 1, end_) : at_;
@@ -213,7 +212,7 @@ bool LetterLine::spaced_number(const char* word_begin, Word& word) {
   return true;
 }
 
-// A value that is no plain number: `X#5`, `X[…]`, `X-#5`, `XSIN[…]`.
+// A value that is not a plain number: `X#5`, `X[…]`, `X-#5`, `XSIN[…]`.
 bool LetterLine::expression(const char* word_begin, Word& word) {
   const bool signs = at_ != end_ && (*at_ == '-' || *at_ == '+');
   const char* look = at_;

@@ -10,12 +10,12 @@
 
 namespace steadyrest::nc::read {
 
-/// Where the dialects of LetterLine differ.
+/// How the dialects of LetterLine differ.
 struct LetterRules {
   bool macros = false;            ///< custom macros and O numbers; else expressions and O-words
   bool colon_is_o = false;        ///< `:100` is O100
   bool polar = false;             ///< `@` and `^` are letters
-  bool numbered_delete = false;   ///< a digit behind `/` belongs to it
+  bool numbered_delete = false;   ///< a digit after `/` belongs to it
   bool semicolon_ends = false;    ///< `;` ends the block; else it opens a comment
   bool plain_words_fast = false;  ///< plain_words() may read them
 };
@@ -25,10 +25,9 @@ inline constexpr LetterRules kFanucLetters{
 
 /// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
 ///
-/// Blanks have no meaning outside of comments. Where the reader has values (`Reader::set_values`),
-/// expressions, parameters and
-/// assignments are read, of `linuxcnc` O-words too; else they are refused by name. In `fanuc` an
-/// assignment is a macro statement, which stands in a block of its own.
+/// Blanks have no meaning outside comments. Where the reader has values (`Reader::set_values`), it
+/// reads expressions, parameters and assignments, and the O-words of `linuxcnc`; otherwise it
+/// refuses them by name. In `fanuc` an assignment is a macro statement, which needs its own block.
 class LetterLine : private LineCursor {
  public:
   LetterLine(const LetterRules& rules, Reading& reading, std::string_view line,

@@ -17,7 +17,7 @@ using kernel::units::kDegree;
 // FANUC stores decimal numbers; 1e-9 takes up what a double leaves of 0.1·10.
 constexpr double kWhole = 1e-9;  // how far a number may be from the whole one that is meant
 
-// Two letters are enough (manual, "Custom macro"): no two functions begin alike.
+// Two letters are enough (manual, "Custom macro"): no two functions share them.
 constexpr std::array<std::string_view, 17> kFunctions = {
     "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "ROUND",
     "FIX", "FUP", "LN",  "EXP",  "POW",  "BIN",  "BCD",  "ADP"};
@@ -34,11 +34,11 @@ std::string_view function_named(std::string_view name) noexcept {
 
 }  // namespace
 
-// Why a variable has no value, or takes none, in FANUC's terms.
+// Why a variable cannot be read or set, in FANUC's terms.
 LookupText macro_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
-    // Vacant differs from 0: G0 X#1 with a vacant #1 does not move X at all. So a vacant variable
-    // is refused wherever it is read.
+    // Vacant is not 0: G0 X#1 with a vacant #1 does not move X at all. So reading a vacant variable
+    // is always refused.
     case Lookup::no_such_name:
       return {.reason = "vacant_variable",
               .text =
@@ -136,7 +136,7 @@ bool MacroExpression::apply(Operator op, double& left, double right) {
       return bits(op, left, right);
     case Operator::over:
     case Operator::modulo:
-      // Controls stop with an alarm here.
+      // Controls raise an alarm here.
       if (right == 0.0) {
         return fail("division_by_zero", "a division by zero");
       }
@@ -156,7 +156,7 @@ bool MacroExpression::apply(Operator op, double& left, double right) {
 }
 
 bool MacroExpression::bits(Operator op, double& left, double right) {
-  // Bits of 32-bit numbers: a fraction, a negative or a larger number has none.
+  // Bits of a 32-bit number: fractions, negative and larger numbers are refused.
   constexpr double kMost = 2147483647.0;
   const auto whole = [](double x) {
     return x >= 0.0 && x <= kMost && std::abs(x - std::round(x)) <= kWhole;
@@ -170,7 +170,7 @@ bool MacroExpression::bits(Operator op, double& left, double right) {
   return true;
 }
 
-// A name and its bracket. BIN, BCD, ADP and POW are known, and refused rather than guessed.
+// A name and its bracket. BIN, BCD, ADP and POW are known but refused rather than guessed.
 bool MacroExpression::function(double& out) {
   std::array<char, 8> letters{};
   std::size_t length = 0;
@@ -192,7 +192,7 @@ bool MacroExpression::function(double& out) {
   if (name == "BIN" || name == "BCD" || name == "ADP" || name == "POW") {
     return fail("function_not_interpreted", "BIN, BCD, ADP and POW are not interpreted");
   }
-  // ATAN alone may have one value or two, in two spellings, so its bracket is not closed here.
+  // Only ATAN takes one value or two, in two spellings, so its bracket is not closed here.
   double x = 0.0;
   if (name == "ATAN") {
     ++at_;
@@ -204,7 +204,7 @@ bool MacroExpression::function(double& out) {
   return bracket(x) && evaluate(name, x, out);
 }
 
-// Angles in degrees. Ranges of the arc functions are those of FANUC, not of C++.
+// Angles in degrees. The arc functions have FANUC's ranges, not those of C++.
 bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
   const auto domain = [&](bool inside, std::string_view text) {
     return inside || fail("out_of_domain", text);
@@ -235,7 +235,7 @@ bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
       return fail("function_not_interpreted",
                   "ROUND in this word: its rounding increment is unknown");
     }
-    // Inside a word ROUND rounds to the least increment of its address, not to a whole number.
+    // Within a word ROUND rounds to the least increment of its address, not to a whole number.
     out = std::round(x / increment_) * increment_;
   } else if (name == "FIX") {
     // By magnitude, unlike LinuxCNC's: FIX[-1.2] is −1, FUP[-1.2] is −2.
@@ -268,12 +268,12 @@ bool MacroExpression::arc_tangent(double y, double& out) {
   }
   ++at_;
   --depth_;
-  // Behind the bracket a / may be a division: `ATAN[1]/5`. Only `/[` makes a pair.
+  // After the bracket a / may be a division: `ATAN[1]/5`. Only `/[` makes a pair.
   const char* const behind = at_;
   if (!pair && peek() == '/') {
     ++at_;
     pair = peek() == '[';
-    if (!pair) {  // a division, which is not ours
+    if (!pair) {  // a division: not read here
       at_ = behind;
     } else if (!bracket(x)) {
       return false;
@@ -284,7 +284,7 @@ bool MacroExpression::arc_tangent(double y, double& out) {
     return fail("out_of_domain", "ATAN of two zeros");
   }
   out = (pair ? std::atan2(y, x) : std::atan(y)) / kDegree;
-  // Likewise 0° to 360°; ATAN of one value keeps −90° to 90°.
+  // Again 0° to 360°; ATAN of one value keeps −90° to 90°.
   out += pair && out < 0.0 ? 360.0 : 0.0;
   return true;
 }
@@ -292,14 +292,14 @@ bool MacroExpression::arc_tangent(double y, double& out) {
 // A plain number, or any expression in brackets.
 bool MacroExpression::variable_number(int& index) {
   double number = 0.0;
-  // `##5` is not FANUC's way; #[#5] is.
+  // FANUC does not know `##5`; #[#5] is its form.
   const char c = peek();
   if (c == '[') {
     if (!bracket(number)) {
       return false;
     }
   } else if (is_digit(c)) {
-    // The bound keeps a row of digits from becoming an infinity.
+    // The bound keeps a long row of digits from becoming an infinity.
     for (char digit = peek(); is_digit(digit) && number < 1e9; digit = peek()) {
       number = number * 10.0 + (digit - '0');
       ++at_;
@@ -318,8 +318,8 @@ bool MacroExpression::variable_number(int& index) {
   return true;
 }
 
-// The value is read as the block is read; vacant variables and those of the running control are
-// refused by name.
+// The value is looked up while the block is read; vacant variables and those of the running control
+// are refused by name.
 bool MacroExpression::variable(double& out) {
   ++at_;
   int index = 0;

@@ -16,9 +16,9 @@ namespace steadyrest::nc::read {
 /// `* / MOD AND`, then `+ - OR XOR`, left to right; brackets nest five deep, those of functions
 /// included. A function may be shortened to its first two letters. AND OR XOR work bit by bit on
 /// whole numbers; FIX goes towards zero, FUP away from it; ROUND goes to the nearest whole number,
-/// inside of an address to the address's least increment. ASIN gives 270° … 90°, ATAN[y]/[x]
-/// 0° … 360°, ATAN[a] −90° … 90°: parameter 6004#0 = 0. A variable that is vacant is refused, for
-/// what it does depends on the word; so are BIN, BCD, ADP and PRM. Never allocates.
+/// or within an address to its least increment. ASIN gives 270° … 90°, ATAN[y]/[x]
+/// 0° … 360°, ATAN[a] −90° … 90°: parameter 6004#0 = 0. A vacant variable is refused, because its
+/// effect depends on the word; so are BIN, BCD, ADP and PRM. Never allocates.
 class MacroExpression : public Climber<MacroExpression> {
  public:
   static constexpr int kDeepest = 5;
@@ -32,7 +32,7 @@ class MacroExpression : public Climber<MacroExpression> {
   bool read(double& out) { return operand(out); }
   /// A whole expression: what may follow `=`.
   bool read_sum(double& out);
-  /// What stands between # and = : digits or [ ].
+  /// What is between # and = : digits or [ ].
   bool variable_number(int& index);
 
  private:

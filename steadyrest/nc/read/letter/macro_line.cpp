@@ -9,18 +9,18 @@
 #include <steadyrest/nc/read/letter/macro_expression.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
-// What custom macros add to a line of the dialect `fanuc`.
+// Custom macros in a line of the dialect `fanuc`.
 namespace steadyrest::nc::read {
 namespace {
 
 // Statements of custom macros that begin with a word instead of an address.
-// The first six steer the flow, the others write to files and printers.
+// The first six control the flow; the others write to files and printers.
 constexpr std::array<std::string_view, 11> kStatements = {
     "IF", "THEN", "GOTO", "WHILE", "DO", "END", "SETVN", "POPEN", "PCLOS", "DPRNT", "BPRNT"};
 
 }  // namespace
 
-// False when this begins a statement whose word has several letters.
+// False when a statement with a word of several letters begins here.
 bool LetterLine::macro_keyword() {
   // One letter is an address: `D1`, but `DO1` and `DPRNT[…]`.
   if (at_ + 1 == end_ || !is_letter(at_[1])) {
@@ -46,10 +46,11 @@ bool LetterLine::macro_keyword() {
              : refuse(letters, "macro_output", "the output of a custom macro is not interpreted");
 }
 
-// A value that is no plain number: `X#5`, `X[…]`, `X-#5`. It is rounded to what the address takes.
+// A value that is not a plain number: `X#5`, `X[…]`, `X-#5`. It is rounded to the address's
+// increment.
 bool LetterLine::macro_value(const char* word_begin, Word& word) {
-  // 0 for addresses whose increment depends on the control's settings: these are taken as
-  // calculated.
+  // 0 for addresses whose increment depends on the control's settings: their values are not
+  // rounded.
   const double increment = reading_.values->increment(word.letter);
   MacroExpression expression(line(), offset(), *reading_.values, increment);
   if (!behind(word_begin, expression, expression.read(word.value))) {
@@ -67,7 +68,7 @@ bool LetterLine::macro_value(const char* word_begin, Word& word) {
 // `#5 = …`; `#5 = #0` makes #5 vacant.
 bool LetterLine::macro_statement() {
   const char* const from = at_++;
-  // On the control an assignment is a separate block, executed as it is read, ahead of the
+  // On the control an assignment is a block of its own, executed as it is read, ahead of the
   // motion.
   if (assigned_ || !block_.words().empty() || block_.flow().kind != FlowKind::none) {
     at_ = end_;
@@ -87,7 +88,7 @@ bool LetterLine::macro_statement() {
   ++at_;
   skip_blanks();
   double value = 0.0;
-  // Only #0 itself, and nothing calculated with it, makes a variable vacant.
+  // Only #0 itself makes a variable vacant, never a calculation with it.
   const bool vacant = end_ - at_ >= 2 && at_[0] == '#' && at_[1] == '0' &&
                       (end_ - at_ == 2 || is_blank(at_[2]) || at_[2] == ';' || at_[2] == '(');
   if (vacant) {

@@ -12,7 +12,7 @@ namespace steadyrest::nc::read {
 namespace {
 
 /// How many values follow a keyword.
-/// `return` and `endsub` may give a value back; `sub` and `call` have up to 30.
+/// `return` and `endsub` may return a value; `sub` and `call` have up to 30.
 enum class Takes : unsigned char { nothing, one, perhaps_one, any };
 
 struct Keyword {
@@ -39,7 +39,7 @@ constexpr std::array kOWords = {
     Keyword{"continue", FlowKind::next_turn, Takes::nothing},
 };
 
-// By kind, since a label alone has no keyword that could be looked up.
+// By kind, since a lone label has no keyword to look up.
 constexpr Takes takes(FlowKind kind) noexcept {
   for (const Keyword& keyword : kOWords) {
     if (keyword.kind == kind) {
@@ -51,7 +51,7 @@ constexpr Takes takes(FlowKind kind) noexcept {
 
 }  // namespace
 
-// Finds an O-word without reading the rest: lines that are passed over may hold anything.
+// Finds an O-word without reading the rest: skipped lines may hold anything.
 std::size_t o_word_at(std::string_view line) noexcept {
   std::size_t at = 0;
   const auto skip = [&](auto unwanted) {
@@ -82,7 +82,7 @@ char OWord::peek() noexcept {
   return at_ < line_.size() ? lower(line_[at_]) : '\0';
 }
 
-// The Expression works on the same line, from where this word is.
+// The Expression works on the same line, from the position of this word.
 bool OWord::value(double& out) {
   Expression expression(line_, at_, values_);
   const bool read = expression.read(out);
@@ -91,7 +91,7 @@ bool OWord::value(double& out) {
 }
 
 // Without `evaluate` only label and keyword are read, so a value that does not exist yet cannot
-// stop a line that is passed over.
+// stop a skipped line.
 bool OWord::read(Flow& flow, bool evaluate) {
   flow.kind = FlowKind::none;
   flow.count = 0;
@@ -151,7 +151,7 @@ bool OWord::keyword(Flow& flow) {
     name[length++] = c;
     ++at_;
   }
-  // A number alone heads a program for M98, as on FANUC's controls.
+  // A number alone heads a program for M98, as on FANUC controls.
   if (length == 0) {
     flow.kind = FlowKind::label;
     return true;
@@ -167,7 +167,7 @@ bool OWord::keyword(Flow& flow) {
               "elseif else endif while endwhile do repeat endrepeat break continue");
 }
 
-// Values in [ ], one behind another, as many as the keyword takes.
+// Values in [ ], one after another, as many as the keyword takes.
 bool OWord::arguments(Flow& flow) {
   const Takes wanted = takes(flow.kind);
   if (wanted == Takes::nothing) {

@@ -17,11 +17,11 @@ namespace steadyrest::nc::read {
 /// A label without a keyword is the number of a program or subprogram (M98).
 class OWord {
  public:
-  /// `at` stands behind the letter O. `values` outlives the object.
+  /// `at` is the position after the letter O. `values` outlives the object.
   OWord(std::string_view line, std::size_t at, const Values& values) noexcept
       : line_(line), begin_(at), at_(at), values_(values) {}
 
-  /// Reads it into `flow`; without `evaluate` label and keyword alone. False when it is refused.
+  /// Reads it into `flow`; without `evaluate` only label and keyword. False when it is refused.
   bool read(Flow& flow, bool evaluate);
 
   [[nodiscard]] std::size_t length() const noexcept { return at_ - begin_; }
@@ -44,8 +44,8 @@ class OWord {
   std::string_view text_;
 };
 
-/// Whether the first word of a line is an O-word; a line number and `/` may stand before it. The
-/// place behind the letter, or 0.
+/// The position after the letter O when the line's first word is an O-word, else 0. A line number
+/// and `/` may precede it.
 [[nodiscard]] std::size_t o_word_at(std::string_view line) noexcept;
 
 }  // namespace steadyrest::nc::read

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kCharacters = 256;
 
-/// The upper case of the letters that begin a plain word: all but N and O. Else 0.
-/// N is the line number and O an O-word: both are more than a letter with a number.
+/// The capitals of the letters that begin a plain word: all but N and O; else 0. N is the line
+/// number and O an O-word: both are more than a letter with a number.
 constexpr std::array<char, kCharacters> plain_letters() {
   std::array<char, kCharacters> out{};
   for (char c = 'A'; c <= 'Z'; ++c) {
@@ -27,8 +27,8 @@ constexpr std::array<char, kCharacters> kPlainLetter = plain_letters();
 
 }  // namespace
 
-/// Letters and their numbers, which nearly all text is: word() without its questions. Ends before
-/// anything else, which one_item() and word() look at.
+/// Letters and their numbers, nearly all of any program: word() without its checks. Stops before
+/// anything else, which is left to one_item() and word().
 void LetterLine::plain_words() noexcept {
   if (!rules_.plain_words_fast || block_.flow().kind != FlowKind::none) {
     return;
@@ -54,12 +54,12 @@ void LetterLine::plain_words() noexcept {
     while (next != end_ && is_blank(*next)) {
       ++next;
     }
-    // `X1 2` is X12 in this dialect: the slow way joins it.
-    if (next != end_ && (is_digit(*next) || *next == '.')) {  // a number goes on behind blanks
+    // `X1 2` is X12 in this dialect: the slow path joins it.
+    if (next != end_ && (is_digit(*next) || *next == '.')) {  // a number continues after blanks
       break;
     }
     Word* const word = block_.add();
-    // More words than a block has room for: the slow way refuses with a text.
+    // More words than a block has room for: the slow path refuses with a text.
     if (word == nullptr) {
       break;
     }

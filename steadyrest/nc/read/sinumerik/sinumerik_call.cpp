@@ -16,7 +16,7 @@ constexpr std::string_view kOwnBlock = "a call or definition needs a separate bl
 
 }  // namespace
 
-// Beyond `;` only comment follows, so for statements the line ends there.
+// Only a comment follows `;`, so for statements the line ends there.
 char SinumerikLine::next() noexcept {
   skip_blanks();
   return at_ == end_ || *at_ == ';' ? '\0' : upper(*at_);
@@ -43,9 +43,9 @@ bool SinumerikLine::calculated(const char* word_begin, double& out) {
   return behind(word_begin, expression, expression.read(out));
 }
 
-/// What begins with this name, when it is a statement and no word; `done` then.
-/// A name that is no word of the language is a definition, a variable or a call. Which one is
-/// decided by what is defined so far, as on the control.
+/// Reads the statement that begins with this name and sets `done`, unless the name is a word. A
+/// name outside the language is a definition, a variable or a call; as on the control, the
+/// definitions so far decide which.
 bool SinumerikLine::statement(const char* word_begin, std::string_view name, bool& done) {
   if (reading_.typed_values == nullptr || known_name(name)) {
     return true;
@@ -84,7 +84,7 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
   return done = call(word_begin, name, cycle ? FlowKind::cycle : FlowKind::call);
 }
 
-// The types that have a number as their value.
+// The types whose value is a number.
 bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
   const std::string_view name = letters();
   if (equal(name, "REAL") || equal(name, "INT") || equal(name, "BOOL")) {
@@ -93,8 +93,7 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
                                 : ValueType::boolean;
     return true;
   }
-  // VAR parameters would write back into the caller; strings and frames have no number as their
-  // value.
+  // VAR parameters would write back into the caller; strings and frames are not numbers.
   return refuse(since(word_begin), "definition",
                 "a variable or parameter of an unsupported type; REAL, INT and BOOL are supported "
                 "(not VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
@@ -102,8 +101,7 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
 
 bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
   const std::string_view written = letters();
-  // The manual's rule: two letters or underscores at the head keep variables apart from addresses
-  // such as X1.
+  // The manual's rule: two leading letters or underscores tell variables from addresses such as X1.
   const bool starts = written.size() >= 2 && !is_digit(written[0]) && !is_digit(written[1]);
   if (!starts || written.size() > 31 || known_name(written) || refused_name(written) != nullptr ||
       !lower_name(written, name)) {
@@ -170,7 +168,7 @@ bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t 
 }
 
 // PROC NAME(REAL A, INT B=3)
-// What the caller left out has the default of PROC, or 0.
+// A value that the caller leaves out takes the default in PROC, or 0.
 bool SinumerikLine::head_of_subprogram(const char* word_begin) {
   if (letters().empty()) {
     return refuse(since(word_begin), "definition", "PROC without the subprogram's name");
@@ -193,7 +191,7 @@ bool SinumerikLine::head_of_subprogram(const char* word_begin) {
   }
   while (next() != '\0') {
     const std::string_view attribute = letters();
-    // Attributes change how the control shows or protects the subprogram; these two change nothing
+    // Attributes affect how the control shows or protects the subprogram; these two do nothing
     // else.
     if (!equal(attribute, "DISPLOF") && !equal(attribute, "DISPLON")) {
       at_ += attribute.empty() ? 1 : 0;
@@ -204,14 +202,14 @@ bool SinumerikLine::head_of_subprogram(const char* word_begin) {
   return true;
 }
 
-// EXTERN says only which parameters a subprogram has; PROC says it again.
+// EXTERN only declares a subprogram's parameters; PROC repeats them.
 bool SinumerikLine::declaration(const char* word_begin) {
   at_ = end_;
   return block_.words().empty() || refuse(since(word_begin), "definition", kOwnBlock);
 }
 
 bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
-  // Whether words act before or after an assignment beside them is not certain.
+  // Whether words act before or after an assignment in the same block is not certain.
   if (!block_.words().empty()) {
     return refuse(since(word_begin), "assignment_and_words",
                   "a variable assignment next to other words; write two blocks");
@@ -236,7 +234,7 @@ bool SinumerikLine::parameter_assignment(const char* word_begin) {
     ++at_;
   } else {
     const Number number = read_number(rest());
-    // A sign or a point is no part of a parameter's number.
+    // A parameter's number has no sign and no point.
     if (number.length == 0 || number.decimal_point || !is_digit(*at_)) {
       return refuse(since(word_begin), "missing_value", "an R-parameter without its number");
     }
@@ -269,7 +267,7 @@ bool SinumerikLine::variable_assignment(const char* word_begin, std::string_view
          assign(word_begin, reading_.values->set_name(name, value));
 }
 
-// NAME, NAME(1,,R2), L100; the repeats (P) follow as a word of their own.
+// NAME, NAME(1,,R2), L100; the repeats (P) follow as a separate word.
 bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind kind) {
   Flow& flow = block_.flow();
   if (!block_.words().empty() || assigned_) {
@@ -289,7 +287,7 @@ bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind
   return next() != '(' || call_values(word_begin);
 }
 
-// Values between commas, each an expression; strings go to cycles that are not interpreted.
+// Values between commas, each an expression; strings occur only in cycles that are not interpreted.
 bool SinumerikLine::call_values(const char* word_begin) {
   Flow& flow = block_.flow();
   ++at_;
@@ -307,7 +305,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
       at_ = end_;
       return refuse(since(word_begin), "subprogram_call", "a string as a call argument");
     }
-    // Between two commas nothing is a value left out; `given` has a bit for each that is there.
+    // Nothing between two commas is an omitted value; `given` has a bit for each value present.
     if (c != ',' && c != ')') {
       if (!calculated(word_begin, flow.values[flow.count])) {
         return false;
@@ -326,10 +324,10 @@ bool SinumerikLine::call_values(const char* word_begin) {
   }
 }
 
-// Behind a call: P3.
+// After a call: P3.
 bool SinumerikLine::repeats(const char* word_begin) {
   Flow& flow = block_.flow();
-  // P once, behind a call: everything else on the line would act in an uncertain order.
+  // P once, after a call: anything else on the line would act in an uncertain order.
   const bool p = flow.kind == FlowKind::call && upper(*at_) == 'P' && flow.repeats == 1.0;
   ++at_;
   double value = 0.0;
@@ -358,7 +356,7 @@ bool SinumerikLine::modal_call(const char* word_begin) {
     return refuse(since(word_begin), "modal_call", kOwnBlock);
   }
   const std::string_view name = letters();
-  // A modal subprogram would run behind every move; only drilling cycles are interpreted so.
+  // A modal subprogram would run after every move; only drilling cycles are supported.
   if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
     return refuse(since(word_begin), "modal_call",
                   "a modal call (MCALL) of a subprogram; only cycles are interpreted");

@@ -28,7 +28,7 @@ bool whole(double x) noexcept {
 }  // namespace
 
 // Priorities of "Job Planning". Unlike in C, comparisons bind last, even after AND and OR.
-// Longer signs come before those that they begin with: <> and <= before <.
+// Longer signs come before their own beginnings: <> and <= before <.
 constexpr std::array<Sign, 18> SinumerikExpression::kSigns = {{
     {"*", Operator::times, 8},
     {"/", Operator::over, 8},
@@ -56,7 +56,7 @@ bool lower_name(std::string_view written, Name& name) noexcept {
   return std::ranges::all_of(written, [&](char c) { return name.push(lower(c)); });
 }
 
-// Why a parameter or variable has no value, or takes none, in SINUMERIK's terms.
+// Why a parameter or variable cannot be read or set, in SINUMERIK's terms.
 LookupText sinumerik_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
     case Lookup::no_such_name:
@@ -64,7 +64,7 @@ LookupText sinumerik_lookup_text(Lookup lookup) noexcept {
               .text =
                   "a parameter or variable that was never set in this program; the value left in "
                   "the control is unknown"};
-    // The order of assignments within a block is not certain: one that is set may not be read
+    // The order of assignments within a block is not certain: a variable set there may not be read
     // there.
     case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
@@ -84,7 +84,7 @@ bool SinumerikExpression::looked_up(Lookup lookup) {
   return lookup == Lookup::found || fail(why.reason, why.text);
 }
 
-// Every bracket that was opened is closed here, so the depth is counted down in one place.
+// Every open bracket is closed here, so the depth is counted down in one place.
 bool SinumerikExpression::closing(char bracket) {
   if (peek() != bracket) {
     return fail("unclosed_expression", at_ == end_
@@ -146,7 +146,7 @@ bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
   if (divides && right == 0.0) {
     return fail("division_by_zero", "a division by zero");
   }
-  // What the control gives for negative numbers is not certain: refused.
+  // What the control returns for negative numbers is not certain: refused.
   if ((op == Operator::div || op == Operator::modulo) && (left < 0.0 || right < 0.0)) {
     return fail("out_of_domain", "DIV or MOD of a negative number");
   }
@@ -162,7 +162,7 @@ bool SinumerikExpression::arithmetic(Operator op, double& left, double right) {
   return finite(left);
 }
 
-// Bits of 32-bit whole numbers; others have none.
+// Bits of 32-bit whole numbers; other values are refused.
 bool SinumerikExpression::bits(Operator op, double& left, double right) {
   constexpr double kMost = 2147483647.0;
   if (!whole(left) || !whole(right) || left < 0.0 || right < 0.0 || left > kMost || right > kMost) {
@@ -228,7 +228,7 @@ bool SinumerikExpression::number(double& out) {
     if (power.length == 0 || power.decimal_point || std::abs(power.value) > 300.0) {
       return fail("bad_number", "not a number; EX takes a whole number from -300 to 300");
     }
-    // Mantissa times a power of ten would round twice.
+    // Mantissa times power of ten would round twice.
     std::array<char, 80> written{};  // as C++ writes it: correctly rounded
     const std::size_t digits = mantissa.length;
     if (digits + power.length + 1 > written.size()) {

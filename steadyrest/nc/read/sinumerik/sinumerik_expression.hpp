@@ -16,10 +16,10 @@ namespace steadyrest::nc::read {
 ///
 /// Law of the manual "Job planning", "Priority of the operations", from strong to weak: NOT B_NOT
 /// and signs; `* / DIV MOD`; `+ -`; B_AND; B_XOR; B_OR; AND; XOR; OR; `== <> < > <= >=`; equals
-/// from left to right. Comparisons hold numbers for equal that differ by 10⁻¹² of their size.
-/// Functions: SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL MAXVAL BOUND;
-/// angles are degrees, ATAN2(y, x) −180° … 180°. DIV and MOD of negative numbers are refused.
-/// Nesting is bounded by `kDeepest`. Never allocates.
+/// from left to right. Comparisons treat numbers as equal when they differ by at most 10⁻¹² of
+/// their size. Functions: SIN COS TAN ASIN ACOS ATAN2 SQRT ABS POT TRUNC ROUND LN EXP MINVAL MAXVAL
+/// BOUND; angles are degrees, ATAN2(y, x) −180° … 180°. DIV and MOD of negative numbers are
+/// refused. Nesting is bounded by `kDeepest`. Never allocates.
 class SinumerikExpression : public Climber<SinumerikExpression> {
  public:
   static constexpr int kDeepest = 64;

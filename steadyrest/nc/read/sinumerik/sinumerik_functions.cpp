@@ -17,7 +17,8 @@ using kernel::units::kDegree;
 }  // namespace
 
 // From the ( to its ); the bracket counts as one level, like any other.
-// Each function has a fixed number of values; a further one is no closing bracket.
+// Each function has a fixed number of values; one more is refused, since the closing bracket is
+// missing.
 bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t wanted) {
   ++at_;
   if (++depth_ > kDeepest) {
@@ -35,7 +36,7 @@ bool SinumerikExpression::arguments(std::array<double, 3>& values, std::size_t w
   return closing(')');
 }
 
-// Functions of "Job planning" by their name, number of values and domain.
+// Functions of "Job planning" by name, number of values and domain.
 bool SinumerikExpression::function(std::string_view name, double& out) {
   struct Known {
     std::string_view name;
@@ -74,7 +75,7 @@ bool SinumerikExpression::function(std::string_view name, double& out) {
   if (!arguments(values, found->values)) {
     return false;
   }
-  // The domain is that of the first value; ATAN2 and the others take anything.
+  // The domain applies to the first value; the others take anything.
   if (!(values[0] >= found->lowest && values[0] <= found->highest)) {
     return fail("out_of_domain", "a function of a number outside its domain");
   }

@@ -58,13 +58,13 @@ bool SinumerikLine::header() {
   const auto length = look - at_;
   if (length >= 2 && !is_digit(*at_) && look != end_ && *look == ':' &&
       !(look + 1 != end_ && look[1] == '=')) {
-    at_ = look + 1;  // a label: without jumps, which are refused, it does nothing
+    at_ = look + 1;  // a label does nothing: jumps are refused
     skip_blanks();
   }
   return true;
 }
 
-// Block numbers move nothing; only jumps, which are refused, would need them.
+// Block numbers have no effect; only jumps would need them, and those are refused.
 bool SinumerikLine::block_number() {
   if (at_ == end_ || (upper(*at_) != 'N' && *at_ != ':')) {
     return true;

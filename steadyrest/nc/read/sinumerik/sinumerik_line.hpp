@@ -11,10 +11,10 @@
 namespace steadyrest::nc::read {
 
 /// One line of a SINUMERIK program: letters with numbers (`X10`), assignments (`X=10`, `X=AC(10)`,
-/// `CR=5`, `T="DRILL"`), names that stand alone (`SUPA`), calls (`MSG("…")`), `;` comments.
+/// `CR=5`, `T="DRILL"`), names without a value (`SUPA`), calls (`MSG("…")`), `;` comments.
 ///
-/// Variables, definitions and calls are read where the reader has values for them.
-/// Names that are not in the reader's table are refused by the group that they belong to.
+/// Reads variables, definitions and calls where the reader has values for them. A name that is not
+/// in the reader's table is refused with the group it belongs to.
 class SinumerikLine : private LineCursor {
  public:
   using LineCursor::LineCursor;

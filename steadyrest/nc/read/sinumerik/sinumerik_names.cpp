@@ -8,13 +8,13 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// Words that the decoder knows; all other names are variables, calls or refused.
+// Words that the decoder knows; any other name is a variable, a call or refused.
 constexpr std::array<std::string_view, 19> kKnownNames = {
     "CR",   "TURN", "SUPA",    "ADIS",  "ADISPOS", "FNORM", "CFC",  "CFTCP", "CFIN",  "FFWOF",
     "SOFT", "RET",  "TRAFOOF", "TRANS", "ATRANS",  "ROT",   "AROT", "RPL",   "STOPRE"};
 
-// Words of the language that are not interpreted are refused by what they are, not as unknown
-// names: the user should not look for a subprogram of that name.
+// Words of the language that are not interpreted are refused for what they are, not as unknown
+// names, so that nobody looks for a subprogram of that name.
 constexpr std::array kRefusedNames = {
     RefusedName{"IF", "flow_control", "a condition (IF)"},
     RefusedName{"ELSE", "flow_control", "a condition (ELSE)"},
@@ -56,7 +56,7 @@ bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, upper);
 }
 
-// A search through twenty names: such words are a small part of a program.
+// A linear search of twenty names: such words are rare in a program.
 bool known_name(std::string_view name) noexcept {
   return std::ranges::any_of(kKnownNames,
                              [&](std::string_view known) { return equal(name, known); });

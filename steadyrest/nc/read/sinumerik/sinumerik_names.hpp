@@ -6,7 +6,7 @@
 /// The words of more than one letter in a SINUMERIK program, in any case.
 namespace steadyrest::nc::read {
 
-/// Whether they are the same but for the case of letters; `upper_name` has capitals.
+/// Whether they are equal regardless of case; `upper_name` is in capitals.
 [[nodiscard]] bool equal(std::string_view text, std::string_view upper_name) noexcept;
 
 /// Names that the interpreter knows. Everything else is refused.
@@ -17,7 +17,7 @@ struct RefusedName {
   std::string_view reason;
   std::string_view text;
 };
-/// Why the name is refused, where there is more to say than that it is not known; else null.
+/// Why the name is refused, where there is a better reason than "not known"; else null.
 [[nodiscard]] const RefusedName* refused_name(std::string_view name) noexcept;
 
 }  // namespace steadyrest::nc::read

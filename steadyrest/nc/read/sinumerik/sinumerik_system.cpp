@@ -5,12 +5,11 @@
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
-// The two system variables that a program may write: corrections of an axis. Everything else that
+// The two system variables that a program may write: corrections of an axis. Anything else that
 // begins with $ is refused by name.
 namespace steadyrest::nc::read {
 
-/// Takes `upper_text`, blanks before it allowed.
-/// Blanks may be between any two parts of these names.
+/// Takes `upper_text` and any blanks before it: blanks may separate the parts of these names.
 bool SinumerikLine::take(std::string_view upper_text) {
   skip_blanks();
   if (!equal(rest().substr(0, upper_text.size()), upper_text)) {
@@ -32,12 +31,11 @@ bool SinumerikLine::axis_letter(char& letter) {
 }
 
 bool SinumerikLine::system_variable(const char* word_begin) {
-  // On the control such an assignment may share a block, but in what order the rest acts is not
-  // certain.
+  // On the control such an assignment may share a block, but the order of execution is not certain.
   if (!block_.words().empty() || assigned_ || block_.flow().kind != FlowKind::none) {
     return refuse_character();
   }
-  // The temperature compensation of an axis: the machine moves beside its positions.
+  // The temperature compensation of an axis: the machine moves, its programmed positions do not.
   if (take("$SA_TEMP_COMP_ABS_VALUE")) {
     char axis = 0;
     double value = 0.0;
@@ -46,14 +44,14 @@ bool SinumerikLine::system_variable(const char* word_begin) {
       return refuse(since(word_begin), "parameter",
                     "write $SA_TEMP_COMP_ABS_VALUE[Z]=value, with the letter of an axis");
     }
-    // The value is read, and wrong ones are refused, but no position of the program changes.
+    // The value is read and checked, but no position of the program changes.
     return calculated(word_begin, value) && assign(word_begin, Lookup::found);
   }
   return take("$P_IFRAME") ? fine_offset(word_begin) : refuse_character();
 }
 
 // $P_IFRAME[Z,FI]=$P_UIFR[$P_UIFRNUM,Z,FI]-0.01: the fine offset of the active settable frame is
-// what is stored, and so much more. What is stored is not known here, so no other form is read.
+// the stored one plus this much. The stored one is not known here, so no other form is read.
 bool SinumerikLine::fine_offset(const char* word_begin) {
   Word word;
   char stored = 0;
@@ -62,7 +60,7 @@ bool SinumerikLine::fine_offset(const char* word_begin) {
                     take("=") && take("$P_UIFR") && take("[") && take("$P_UIFRNUM") && take(",") &&
                     axis_letter(stored) && take(",") && take("FI") && take("]") &&
                     stored == word.letter;
-  // Without a sign the stored offset alone is taken: the correction is off.
+  // Without a sign only the stored offset applies: the correction is off.
   const char sign = read ? next() : '\0';
   if (!read || (sign != '\0' && sign != '+' && sign != '-')) {
     at_ = end_;
@@ -70,14 +68,14 @@ bool SinumerikLine::fine_offset(const char* word_begin) {
                   "write a frame only as $P_IFRAME[Z,FI]=$P_UIFR[$P_UIFRNUM,Z,FI]+value");
   }
   at_ += sign == '+' ? 1 : 0;
-  // `-` stays in front of the value, so that the expression has it as its sign.
+  // `-` stays in front of the value: the expression reads it as its sign.
   if (sign != '\0' && !calculated(word_begin, word.value)) {
     return false;
   }
   word.qualifier = Qualifier::fine;
   word.has_value = true;
   const bool pushed = push(word_begin, word);
-  // Nothing else may share the block: an assignment is what it counts as.
+  // Counts as an assignment: nothing else may share the block.
   assigned_ = true;
   return pushed;
 }

@@ -11,7 +11,7 @@
 
 namespace steadyrest::nc::read {
 
-/// How a word's value is meant, where the dialect can say so for a single word.
+/// What a word's value means, where the dialect can say so for a single word.
 enum class Qualifier : std::uint8_t {
   none,
   absolute,     ///< sinumerik AC(…)
@@ -22,18 +22,17 @@ enum class Qualifier : std::uint8_t {
 
 /// One word of a block: an address and its value.
 ///
-/// The reader delivers finished numbers; where a dialect allows expressions, the reader is the
-/// place that evaluates them (as controls do: at reading time), so that a word's value never
-/// changes its type for those who interpret it.
+/// The reader delivers finished numbers: it evaluates expressions while reading, as controls do, so
+/// the interpreter only ever sees values of one type.
 struct Word {
   char letter = 0;  ///< upper case; 0 when the address is a name of several letters
   Qualifier qualifier = Qualifier::none;
   bool decimal_point = false;  ///< the value was written with a decimal point
   bool calculated = false;     ///< the value was an expression
-  bool has_value = false;      ///< sinumerik: SUPA, FNORM, … stand alone
+  bool has_value = false;      ///< sinumerik: SUPA, FNORM, … have none
   double value = 0.0;
   std::string_view name;  ///< sinumerik: the address as written, `CR`, `TURN`, `SUPA`
-  std::string_view text;  ///< the whole word as it stands in the line; of a string, its content
+  std::string_view text;  ///< the whole word as written in the line; of a string, its content
 };
 
 /// What a line says about the order of execution: an O-word with its keyword.
@@ -89,14 +88,14 @@ class Block {
     flow_.kind = FlowKind::none;
     shown_ = words_.data();
   }
-  /// Has the words of another line with the same text, as long as that has them.
+  /// Refers to the words of another line with the same text, which must outlive their use.
   void take_words(const Block& other) noexcept {
     count_ = other.count_;
     deleted_ = other.deleted_;
     shown_ = other.shown_;
   }
-  /// A new word to be filled: nothing is known of it but that it has no qualifier and was not
-  /// calculated. nullptr when the block is full.
+  /// A new word to fill in: only its qualifier (none) and `calculated` (false) are set. nullptr
+  /// when the block is full.
   [[nodiscard]] Word* add() noexcept {
     if (count_ == kMostWords) {
       return nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Classes of characters as NC texts have them: ASCII, whatever the locale is.
+/// Character classes of NC programs: ASCII, whatever the locale.
 namespace steadyrest::nc::read {
 
 constexpr bool is_blank(char c) noexcept {
@@ -13,7 +13,7 @@ constexpr bool is_digit(char c) noexcept {
 constexpr bool is_letter(char c) noexcept {
   return static_cast<unsigned char>((static_cast<unsigned char>(c) | 0x20U) - 'a') < 26;
 }
-/// What a name of the dialect `sinumerik` is made of.
+/// A character of a name in the dialect `sinumerik`.
 constexpr bool in_name(char c) noexcept {
   return is_letter(c) || is_digit(c) || c == '_';
 }

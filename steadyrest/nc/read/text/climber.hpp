@@ -10,7 +10,7 @@
 
 namespace steadyrest::nc::read {
 
-/// What an operator with two operands does; each dialect has some of them.
+/// What a binary operator does; each dialect has some of them.
 enum class Operator : unsigned char {
   power,
   times,
@@ -40,16 +40,16 @@ struct Sign {
   int rank = 0;
 };
 
-/// What the expressions of all dialects have in common: a place in a line, the reason of a refusal,
-/// and operators of several ranks, each rank from left to right (precedence climbing).
+/// What the expressions of all dialects share: a place in a line, the reason for a refusal, and
+/// operators of several ranks, each rank from left to right (precedence climbing).
 ///
-/// `Dialect` gives kSigns, a table of its operators; kBlanksWithin, whether blanks may stand within
-/// their names (else a name ends where the word ends); kClosing, the bracket that closes an
+/// `Dialect` provides kSigns, a table of its operators; kBlanksWithin, whether their names may
+/// contain blanks (else a name ends where the word ends); kClosing, the bracket that closes an
 /// expression; operand(out), which reads one operand; apply(op, left, right). Never allocates.
 template <class Dialect>
 class Climber {
  public:
-  /// Where it stopped, characters behind `at`.
+  /// Where it stopped, in characters after `at`.
   [[nodiscard]] std::size_t length() const noexcept {
     return static_cast<std::size_t>(at_ - begin_);
   }
@@ -78,7 +78,7 @@ class Climber {
     }
   }
 
-  /// Goes past the signs found here; whether they turn the value round.
+  /// Skips the signs here; true when they negate the value.
   [[nodiscard]] bool turned() noexcept {
     bool negative = false;
     for (char c = peek(); c == '+' || c == '-'; c = peek()) {
@@ -95,7 +95,7 @@ class Climber {
   bool finite(double value) noexcept {
     return std::isfinite(value) || fail("not_finite", "a calculation without a finite result");
   }
-  /// The next character that is not blank, a letter in capitals; NUL at the end.
+  /// The next character that is not blank, letters as capitals; NUL at the end.
   [[nodiscard]] char peek() noexcept {
     while (at_ != end_ && is_blank(*at_)) {
       ++at_;
@@ -113,14 +113,14 @@ class Climber {
 
  private:
   friend Dialect;
-  /// `values` answers for parameters; both outlive the object.
+  /// `values` supplies the parameters; both outlive the object.
   Climber(std::string_view line, std::size_t at, const Values& values) noexcept
       : begin_(line.data() + at),
         at_(line.data() + at),
         end_(line.data() + line.size()),
         values_(values) {}
 
-  /// Goes behind the operator that stands here; its place in the table, the table's size for none.
+  /// Skips the operator here and returns its index in the table, or the table's size for none.
   std::size_t sign_at() noexcept {
     const char c = peek();
     std::size_t at = c == Dialect::kClosing || c == '\0' ? Dialect::kSigns.size() : 0;

@@ -7,7 +7,7 @@ namespace steadyrest::nc::read {
 
 using kernel::machine::kDialectNames;
 
-// Names of the command line and of the machine file; their order is that of the enumeration.
+// Names used on the command line and in the machine file, in the enumeration's order.
 std::optional<Dialect> dialect_from_name(std::string_view name) noexcept {
   for (std::size_t i = 0; i < kDialectNames.size(); ++i) {
     if (kDialectNames[i] == name) {

@@ -10,7 +10,7 @@ namespace steadyrest::nc::read {
 
 using kernel::machine::Dialect;
 
-/// Nothing for a name that is none of kDialectNames.
+/// Nothing for a name that is not in kDialectNames.
 [[nodiscard]] std::optional<Dialect> dialect_from_name(std::string_view name) noexcept;
 [[nodiscard]] std::string_view name(Dialect dialect) noexcept;
 

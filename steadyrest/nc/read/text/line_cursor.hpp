@@ -11,8 +11,7 @@
 
 namespace steadyrest::nc::read {
 
-/// A place in a line that is being read into a block: what the lines of all dialects have in
-/// common.
+/// A place in a line that is being read into a block: what the lines of all dialects share.
 class LineCursor {
  public:
   LineCursor(Reading& reading, std::string_view line, std::uint32_t number, Block& block) noexcept
@@ -41,7 +40,7 @@ class LineCursor {
   [[nodiscard]] std::size_t offset() const noexcept {
     return static_cast<std::size_t>(at_ - begin_);
   }
-  /// Goes behind what an expression has looked at; refuses what it has refused.
+  /// Skips what an expression has read; passes on its refusal.
   template <class Expression>
   bool behind(const char* word_begin, const Expression& expression, bool read) {
     at_ += expression.length();

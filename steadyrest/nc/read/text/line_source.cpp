@@ -14,8 +14,8 @@
 namespace steadyrest::nc::read {
 namespace {
 
-// Room for the shortest and for the usual read. 256 KiB makes the cost of a system call vanish
-// among the lines it brings.
+// Room for the shortest and for the usual read. At 256 KiB the cost of the system call is
+// negligible.
 constexpr std::size_t kLeast = std::size_t{1} << 12U;
 constexpr std::size_t kChunk = std::size_t{1} << 18U;
 
@@ -33,14 +33,14 @@ kernel::outcome::Result<LineSource> LineSource::open(const std::string& path) {
     return std::unexpected(cannot_open(path, std::strerror(errno)));
   }
   struct stat status{};
-  // open() takes a directory, but read() on it fails only later, with a less telling text.
+  // open() accepts a directory; read() fails on it only later, with a less helpful text.
   if (::fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode)) {
     ::close(descriptor);
     return std::unexpected(cannot_open(path, "it is a directory"));
   }
   LineSource source;
   source.descriptor_ = descriptor;
-  // A short program is read whole at once; nothing is gained by more room, nor by zeroing it.
+  // A short program is read in one go; more room or zeroing would gain nothing.
   const bool known = S_ISREG(status.st_mode) && status.st_size >= 0;
   // kLongestLine more than a chunk, so that a line begun in the old chunk can be kept in front of
   // the new one.
@@ -65,7 +65,7 @@ LineSource::LineSource(LineSource&& other) noexcept {
   *this = std::move(other);
 }
 
-// The file descriptor has one owner; what this one had open is closed first.
+// The file descriptor has one owner; the one already open here is closed first.
 LineSource& LineSource::operator=(LineSource&& other) noexcept {
   if (this != &other) {
     if (descriptor_ >= 0) {
@@ -94,7 +94,7 @@ LineSource::~LineSource() {
 }
 
 // Moves the unfinished line to the front and fills the rest of the buffer. Views of earlier lines
-// end here.
+// become invalid.
 bool LineSource::refill() noexcept {
   if (exhausted_) {
     return false;
@@ -118,8 +118,8 @@ bool LineSource::refill() noexcept {
   return got > 0;
 }
 
-// Goes back (or on) to a place that was noted: the head of a loop, a subprogram. `number` is the
-// line before it.
+// Jumps to a noted place, back or forward: the head of a loop, a subprogram. `number` is the line
+// before it.
 bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
   // Loops mostly go back a few lines: within the buffer nothing is read again.
   number_ = number;
@@ -132,20 +132,20 @@ bool LineSource::seek(std::uint64_t offset, std::uint32_t number) noexcept {
     return false;
   }
   base_ = offset;
-  // Nothing is buffered from there: the next line fills it.
+  // Nothing is buffered from there: next() refills.
   at_ = end_ = begin_;
   exhausted_ = failed_ = false;
   return true;
 }
 
-// The line up to `stop`; `ending` bytes behind it are its end.
+// The line up to `stop`; the `ending` bytes after it are its line end.
 LineSource::Status LineSource::take(const char* stop, std::size_t ending) noexcept {
   auto length = static_cast<std::size_t>(stop - at_);
   if (length > kLongestLine) {
     return Status::too_long;
   }
   const char* const begin = at_;
-  // The end is LF or CR LF, by line, as mixed files occur. It is not part of the view, but its
+  // The line end is LF or CR LF, line by line, as mixed files occur. The view excludes it, but its
   // length counts against the longest line.
   at_ = stop + ending;
   if (length > 0 && begin[length - 1] == '\r') {
@@ -165,7 +165,7 @@ LineSource::Status LineSource::next() noexcept {
   for (;;) {
     const auto available = static_cast<std::size_t>(end_ - at_);
     if (available > searched) {
-      // What has been searched is not searched again after a refill: a long line costs one pass.
+      // After a refill the search continues where it was: a long line costs one pass.
       const void* const found = std::memchr(at_ + searched, '\n', available - searched);
       if (found != nullptr) {
         return take(static_cast<const char*>(found), 1);

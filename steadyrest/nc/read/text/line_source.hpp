@@ -15,8 +15,8 @@ namespace steadyrest::nc::read {
 /// Lines of a file or of a text in memory, one after the other, in bounded memory.
 ///
 /// A file is read in chunks; a line is a view into the chunk and is valid until the next call.
-/// Lines end with LF; a CR before it belongs to the line's end. The size of the file has no
-/// influence on memory; a line of more than `kLongestLine` bytes ends the reading.
+/// Lines end with LF; a CR before it belongs to the line end. Memory does not depend on the file's
+/// size; a line of more than `kLongestLine` bytes ends the reading.
 class LineSource {
  public:
   static constexpr std::size_t kLongestLine = 65536;
@@ -38,8 +38,8 @@ class LineSource {
   ~LineSource();
 
   Status next() noexcept;
-  /// Goes over the next line if `whole`, which ends with LF, is what comes next and is in the
-  /// buffer; else nothing is done. line() is not set.
+  /// Skips the next line if it is `whole`, which ends with LF, and is in the buffer; else does
+  /// nothing. Does not set line().
   bool skip(std::string_view whole) noexcept {
     if (static_cast<std::size_t>(end_ - at_) < whole.size() ||
         std::memcmp(at_, whole.data(), whole.size()) != 0) {
@@ -55,10 +55,10 @@ class LineSource {
   [[nodiscard]] std::uint64_t offset() const noexcept {
     return base_ + static_cast<std::uint64_t>(at_ - begin_);
   }
-  /// Goes on at a place that offset() and number() told before. False when the file cannot go
+  /// Continues at a place returned earlier by offset() and number(). False when the file cannot go
   /// back (a pipe).
   [[nodiscard]] bool seek(std::uint64_t offset, std::uint32_t number) noexcept;
-  /// Bytes of the line's end: 0 at the end of the file, 1 for LF, 2 for CR LF.
+  /// Bytes of the line end: 0 at the end of the file, 1 for LF, 2 for CR LF.
   [[nodiscard]] std::size_t ending_length() const noexcept { return ending_length_; }
 
  private:
@@ -67,7 +67,7 @@ class LineSource {
   Status take(const char* stop, std::size_t ending) noexcept;
 
   int descriptor_ = -1;
-  // Not a vector, which would be zeroed for each file.
+  // Not a vector, which would zero it for each file.
   std::unique_ptr<char[]> buffer_;  // NOLINT(*-avoid-c-arrays)
   std::size_t room_ = 0;
   const char* begin_ = nullptr;  ///< what is held: the text, or the chunk

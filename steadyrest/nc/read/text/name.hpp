@@ -29,8 +29,8 @@ class Name {
   std::size_t length_ = 0;
 };
 
-/// The name between < and >; `at` stands on <. Returns what follows, or nullptr when it is not
-/// closed, empty or too long.
+/// Reads the name between < and >; `at` points to <. Returns what follows, or nullptr when the name
+/// is empty, too long or not closed.
 const char* read_name(const char* at, const char* end, Name& name) noexcept;
 
 }  // namespace steadyrest::nc::read

@@ -17,7 +17,7 @@ struct Number {
   bool decimal_point = false;
 };
 
-/// What read_number() does when the digits do not fit a mantissa that a double holds exactly.
+/// read_number() for digits that do not fit a mantissa that a double holds exactly.
 [[nodiscard]] bool read_long_number(const char* begin, const char* end, double& value) noexcept;
 
 namespace detail {
@@ -77,7 +77,7 @@ inline constexpr int kSafeDigits = 18;  // 10^18 < 2^63
 /// Reads `[+-]digits[.digits]`, correctly rounded (the nearest double, as the C library gives).
 ///
 /// At least one digit; no exponent: `E` is a word of its own in NC programs. Bounded by the text;
-/// never allocates. A number whose magnitude exceeds every double is not a number: length 0.
+/// never allocates. A number too large for a double is not read: length 0.
 [[nodiscard]] inline Number read_number(std::string_view text) noexcept {
   const char* const begin = text.data();
   const char* const end = begin + text.size();

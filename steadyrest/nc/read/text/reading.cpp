@@ -6,7 +6,7 @@
 
 namespace steadyrest::nc::read {
 
-// The one place where reading allocates: a refusal ends it.
+// The only place where reading allocates: a refusal ends it.
 bool Reading::refuse(std::uint32_t line, std::string_view word, std::string_view reason,
                      std::string_view text) {
   refused = {.line = line,

@@ -11,7 +11,7 @@
 
 namespace steadyrest::nc::read {
 
-/// What the reading of one line needs to know of the program's, and says of the line.
+/// What reading a line needs from the program, and what it reports about the line.
 struct Reading {
   Dialect dialect = Dialect::linuxcnc;
   Values* values = nullptr;             ///< nullptr: expressions are refused
@@ -19,7 +19,7 @@ struct Reading {
   bool numbers_alone = false;           ///< no value was asked for or set
   Refused refused = {};
 
-  /// Keeps why a line is refused; false.
+  /// Stores why a line is refused; returns false.
   bool refuse(std::uint32_t line, std::string_view word, std::string_view reason,
               std::string_view text);
 };

@@ -6,8 +6,7 @@
 namespace steadyrest::nc::read {
 
 std::string printable(std::string_view text) {
-  // Refusals are shown on a terminal and in JSON: no control characters, no bytes that are not
-  // ASCII, and no more than a line's width.
+  // Refusals are shown on a terminal and in JSON: printable ASCII only, and at most a line's width.
   constexpr std::size_t kLongest = 60;
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string out;

@@ -17,8 +17,8 @@ struct Digits {
   unsigned count = 0;  ///< 8: there may be more
 };
 
-/// The digits at `at`, by eight bytes at once: no branch depends on how many there are. Before
-/// `end` the text has eight bytes at least.
+/// The digits at `at`, eight bytes at once: no branch depends on their number. The text must have
+/// at least eight bytes before `end`.
 [[nodiscard]] inline Digits few_digits(const char* at, const char* end) noexcept {
   constexpr std::uint64_t kZeros = 0x3030303030303030;
   constexpr std::uint64_t kLow = 0x7f7f7f7f7f7f7f7f;
@@ -27,7 +27,7 @@ struct Digits {
   const auto rest = static_cast<std::size_t>(end - at);
   if (rest >= sizeof bytes) {
     std::memcpy(&bytes, at, sizeof bytes);
-  } else {  // the last eight; what lies before `at` is shifted out, twice by half
+  } else {  // the last eight; those before `at` are shifted out, twice by half
     std::memcpy(&bytes, end - sizeof bytes, sizeof bytes);
     const auto half = static_cast<unsigned>(4 * (sizeof bytes - rest));
     bytes = bytes >> half >> half;
@@ -44,9 +44,9 @@ struct Digits {
 
 }  // namespace detail
 
-/// Reads what read_number() reads where it has at most seven digits on either side of the point.
-/// False, and `number` as it was, where it is anything else. `begin` is where the text begins that
-/// `at` is a place of.
+/// Reads like read_number() a number with at most seven digits on either side of the point.
+/// Anything else returns false and leaves `number` unchanged. `begin` is the start of the text that
+/// `at` points into.
 [[nodiscard]] inline bool read_short_number(const char* begin, const char* at, const char* end,
                                             Number& number) noexcept {
   if constexpr (std::endian::native != std::endian::little) {
@@ -57,7 +57,7 @@ struct Digits {
   }
   const char* const first = at;
   const auto negative = static_cast<std::uint64_t>(*at == '-');
-  at += negative | static_cast<std::uint64_t>(*at == '+');  // no branch: signs cannot be guessed
+  at += negative | static_cast<std::uint64_t>(*at == '+');  // no branch: signs are unpredictable
   const detail::Digits whole = detail::few_digits(at, end);
   at += whole.count;
   detail::Digits decimals;

@@ -12,10 +12,10 @@ namespace steadyrest::nc::read {
 enum class ValueType : std::uint8_t { real, integer, boolean };
 
 /// Values of `sinumerik`: R-parameters by number, variables by name (in lower case) and type. A
-/// value is converted to the type of its variable: INT rounds, BOOL is whether it is not zero.
+/// value is converted to its variable's type: INT rounds, BOOL is true unless zero.
 class TypedValues : public Values {
  public:
-  /// DEF: false when the name is in use here already.
+  /// DEF: false when the name is already in use here.
   virtual bool define(std::string_view name, ValueType type, double value) = 0;
   /// PROC: the parameter at this place of the call, or `otherwise` where the call leaves it out.
   virtual bool define_argument(std::string_view name, ValueType type, std::size_t place,

@@ -9,21 +9,21 @@ namespace steadyrest::nc::read {
 /// Why a parameter could not be read or written.
 enum class Lookup : std::uint8_t {
   found,
-  no_such_number,  ///< outside of what the control has
+  no_such_number,  ///< a number that the control does not have
   no_such_name,    ///< a named parameter that was never set
   read_only,
-  assigned_in_block,       ///< set in the block that is being read
+  assigned_in_block,       ///< set in the block being read
   not_while_compensating,  ///< positions, while cutter radius compensation is on
   not_known_here           ///< exists on the control, but its value is known only there
 };
 
-/// The same as a refusal says it.
+/// The same in the words of a refusal.
 struct LookupText {
   std::string_view reason;
   std::string_view text;
 };
 
-/// What expressions ask for and assignments write to.
+/// What expressions read and assignments write.
 class Values {
  public:
   Values() = default;
@@ -38,7 +38,7 @@ class Values {
   virtual Lookup set_number(int index, double value) = 0;
   virtual Lookup set_name(std::string_view name, double value) = 0;
   virtual void commit() = 0;
-  /// What a value is rounded to that is calculated for a word with this letter; 0: it is not.
+  /// The increment to which a calculated value of this letter's word is rounded; 0: not rounded.
   [[nodiscard]] virtual double increment(char /*letter*/) const { return 0.0; }
   virtual void drop() noexcept = 0;  ///< forgets assignments that were not committed
 };

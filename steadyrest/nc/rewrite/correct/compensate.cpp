@@ -25,8 +25,8 @@ using kernel::file::OutputFile;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-// The text once (marks, uses of the same variable, place of the head), then survey, walk and clock,
-// then the choice of places, then writing beside the target, the proof, and only then the name.
+// One pass over the text (marks, uses of the same variable, place of the head), then survey, walk
+// and clock, then the choice of places; writes beside the target, proves, and only then renames.
 class Rewriter {
  public:
   Rewriter(const std::string& program, const Plan& plan, const interpret::Config& config,
@@ -88,7 +88,7 @@ class Rewriter {
       return std::unexpected(lines.error());
     }
     while (lines->next()) {
-      // Plain words alone hold no mark and name no variable.
+      // Plain words hold no mark and name no variable.
       const bool bare = plain_.look(lines->line());
       if (!bare && is_inserted(lines->line())) {
         return refuse(lines->number(), "already has corrections",
@@ -109,7 +109,7 @@ class Rewriter {
     }
     survey_ = std::move(*surveyed);
     auto walk = Walk::make(program_, config_, survey_, settings_);
-    // The clock answers in the order of the questions, so the first that waits is meant.
+    // The clock answers in the order of the questions, so the first one waiting is meant.
     auto clock = Clock::make(machine_, [this](std::uint64_t /*ticket*/, double time_s) {
       waiting_.front().second.time_s = time_s;
       schedules_[waiting_.front().first].offer(waiting_.front().second);
@@ -124,7 +124,7 @@ class Rewriter {
     if (const auto report = (*walk)->take(); !report.refused.empty()) {
       return std::unexpected(interpret::first_refusal(report, program_));
     }
-    // A plan without a step writes nothing, so nothing can be taken for it either.
+    // A plan without steps writes nothing, so nothing conflicts with it.
     if (const auto& taken = (*walk)->taken(); taken && corrects(plan_)) {
       return refuse(taken->line, taken->what, taken->to_do);
     }
@@ -160,8 +160,8 @@ class Rewriter {
     for (std::size_t axis = 0; axis < plan_.axes.size(); ++axis) {
       const auto& [letter, index, steps] = plan_.axes[axis];
       const Site site = walk.site(letter, index);
-      // Beside the program STOPRE would stop in the cut, so no feed moves. Otherwise a clearance
-      // restates the position, which must fit the program's digits.
+      // Outside the program's coordinates STOPRE would stop in the cut, so feed moves are out.
+      // Otherwise a clearance restates the position, which must fit the program's digits.
       const bool writable =
           beside_program(settings_.method)
               ? site != Site::feed
@@ -180,7 +180,7 @@ class Rewriter {
                                           .units_said = walk.units_said(),
                                           .active_offset = walk.before().active_offset});
       }
-      // The best explanation if no place is found: the first line that would have been one.
+      // The best explanation if no place is found: the first line that would have been a place.
       if (const Walk::Unsaid* const unsaid = walk.unsaid(letter, index);
           unsaid != nullptr && unsaid_[axis].first == 0) {
         unsaid_[axis] = {walk.line(), *unsaid};
@@ -226,12 +226,12 @@ class Rewriter {
       }
       return std::unexpected(std::move(refusal));
     }
-    // Lines that change the frame and corrections in the order of the program; `stands_mm` is what
-    // is in force between them.
+    // Frame changes and corrections in program order; `stands_mm` is the correction in force
+    // between them.
     std::size_t next = 0;
     double stands_mm = 0.0;
     for (const FrameLine& frame : frames_[axis]) {
-      // A correction before the very line acts first; below it, in a subprogram, likewise.
+      // A correction before this line acts first; so does one below it, in a subprogram.
       while (next < chosen->size() && (*chosen)[next].place.line <= frame.top_line) {
         if (auto put = placing_.put_correction(plan, *chosen, next, stands_mm); !put) {
           return put;
@@ -248,8 +248,7 @@ class Rewriter {
   Result<void> write(const std::string& output) {
     const std::string head = whole_head(plan_, settings_);
     if (!head.empty()) {
-      // The head goes before anything else that is inserted at its line, which moves those lines
-      // down.
+      // The head goes before anything else inserted at its line and moves those lines down.
       std::string& first = texts_[head_.line()].before_line;
       first.insert(0, head);
       for (const std::size_t index : texts_[head_.line()].insertions) {
@@ -262,7 +261,7 @@ class Rewriter {
     if (!lines || !writer) {
       return std::unexpected(lines ? writer.error() : lines.error());
     }
-    // A device has no name under which it could be read again.
+    // A device cannot be read back by name.
     if (writer->path().empty()) {
       return kernel::outcome::refuse(
           output, "is not a file: the changed program is read back for the proof",
@@ -276,7 +275,7 @@ class Rewriter {
       return flushed;
     }
     progress(0.5, "proving");
-    // The proof takes the times of the insertions from this walk; all else it finds for itself.
+    // The proof takes only the times of the insertions from this walk.
     KnownTimes known{.line_s = {}, .program_s = result_.program_s};
     for (const Insertion& one : result_.insertions) {
       known.line_s.emplace(one.original_line, one.time_s);
@@ -289,13 +288,13 @@ class Rewriter {
     return writer->commit();
   }
 
-  /// The changed program is not there for the user: its refusal names the line of his own.
+  /// The user never sees the refused program: the refusal names the line of the original.
   Refusal of_original(Refusal refusal, const std::string& changed) const {
     if (refusal.file != changed) {
       return refusal;
     }
     refusal.file = program_;
-    // Lines inserted above the faulty one are taken off its number; within a group the line that
+    // The number of lines inserted above the faulty one is subtracted; within a group the line that
     // follows is named.
     std::size_t inserted = 0;
     for (const auto& [line, text] : texts_) {
@@ -314,7 +313,7 @@ class Rewriter {
   void copy(SourceLines& lines, OutputFile& writer) {
     std::string ending;
     auto text = texts_.begin();
-    // Inserted lines end as the lines around them do, so a file keeps one kind of ending.
+    // Inserted lines end like the lines around them, so a file keeps one kind of line end.
     while (lines.next()) {
       if (ending.empty()) {
         ending = lines.ending();
@@ -347,7 +346,7 @@ class Rewriter {
   PlainSurvey plain_;
   Survey survey_;
   std::vector<Schedule> schedules_;
-  /// By axis: the first line that would be a place, and what the program has not said before it.
+  /// By axis: the first line that would be a place, and what the program has not set before it.
   std::vector<std::pair<std::uint32_t, Walk::Unsaid>> unsaid_;
   std::vector<std::vector<FrameLine>> frames_;  ///< by axis, in the order of execution
   std::deque<std::pair<std::size_t, Place>> waiting_;

@@ -18,12 +18,12 @@ namespace steadyrest::nc::rewrite {
 /// One correction in the text.
 struct Insertion {
   std::uint32_t line = 0;           ///< its first line in the changed program
-  std::uint32_t original_line = 0;  ///< the line of the original before which it stands
+  std::uint32_t original_line = 0;  ///< the line of the original that it precedes
   char axis = 'Z';
-  double time_s = 0.0;     ///< when the machine gets there
-  double planned_s = 0.0;  ///< when the plan wants it
-  double delta_um = 0.0;   ///< by how much the axis is moved here
-  double total_um = 0.0;   ///< what stands from here on
+  double time_s = 0.0;     ///< when the machine reaches it
+  double planned_s = 0.0;  ///< when the plan calls for it
+  double delta_um = 0.0;   ///< how far the axis is moved here
+  double total_um = 0.0;   ///< the correction in force from here on
   Site site = Site::none;
 };
 
@@ -35,7 +35,7 @@ struct Compensated {
 };
 
 /// Writes `program` with the plan's corrections to `output`: reads, writes beside `output`, proves
-/// what was written with verify(), renames. On any refusal `output` is as it was.
+/// the result with verify(), renames. Any refusal leaves `output` unchanged.
 ///
 /// `output` may be `program` itself. Memory does not grow with the program.
 [[nodiscard]] kernel::outcome::Result<Compensated> compensate(

@@ -15,8 +15,8 @@ Result<void> Placing::refuse(std::uint32_t line, std::string what, std::string t
   return kernel::outcome::refuse(program_, line, std::move(what), std::move(to_do));
 }
 
-// Steps that share a place become one change of the offset. Each is recorded all the same, so the
-// plan can be followed. The sum is rounded, not the change (README): whole increments, no drift.
+// Steps that share a place become one change of the offset, but each is recorded, so the plan can
+// be followed. The sum is rounded, not the change (README): whole increments, no drift.
 Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Chosen>& chosen,
                                      std::size_t& next, double& stands_mm) {
   const std::size_t first = next;
@@ -29,7 +29,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
                   "a fine offset in an inch program: its unit depends on a setting of the control",
                   "write the program in mm, or choose another method for the corrections");
   }
-  // In the program's unit (G10) a change of units between two corrections leaves a rounding behind.
+  // In the program's unit (G10) a change of units between two corrections leaves a rounding error.
   if (!unit_free(settings_.method) && place.unit_mm != chosen.front().place.unit_mm) {
     return refuse_units(place.line);
   }
@@ -42,7 +42,7 @@ Result<void> Placing::put_correction(const AxisPlan& plan, const std::vector<Cho
   const double before_mm = stands_mm;
   stands_mm = correction_mm(settings_, place.unit_mm, chosen[next - 1].step.displacement_um);
   if (stands_mm == before_mm) {
-    return {};  // they cancel, or are less than the control can take
+    return {};  // they cancel or are below the control's increment
   }
   if (std::abs(stands_mm) > settings_.clamp_mm + kHalfDigit_mm) {
     return refuse(place.line,
@@ -89,7 +89,7 @@ Result<void> Placing::put_frame(const AxisPlan& plan, const FrameLine& frame, do
                                 double& stands_mm) {
   const bool end = frame.ends;
   // On linuxcnc a line that sets the offset in force keeps the correction, but its note is checked
-  // before and written again behind.
+  // before and rewritten after.
   const bool renotes = !end && frame.frame == Frame::kept;
   if (stands_mm == 0.0) {
     return {};
@@ -113,7 +113,7 @@ Result<void> Placing::put_frame(const AxisPlan& plan, const FrameLine& frame, do
         "\n");
   };
   if (renotes) {
-    // `line + 1` is in front of the next line, that is, behind this one.
+    // Before `line + 1` is after this line.
     texts_[frame.line].before_line += check_text(settings_, plan.letter, "\n");
     texts_[frame.line + 1].before_line += renote_text(settings_, plan.letter, "\n");
     return {};

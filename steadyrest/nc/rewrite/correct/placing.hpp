@@ -14,14 +14,14 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// What is written before a line of the program.
+/// The text inserted before a line of the program.
 struct Text {
   std::string before_line;
   std::vector<std::size_t> insertions;  ///< indices into Compensated::insertions
 };
 using Texts = std::map<std::uint32_t, Text>;
 
-/// Puts the text of corrections to their lines. Refused where it may not be written.
+/// Attaches the text of corrections to their lines. Refused where it may not be written.
 class Placing {
  public:
   /// All outlive it.
@@ -29,12 +29,12 @@ class Placing {
           std::vector<Insertion>& insertions)
       : program_(program), settings_(settings), texts_(texts), insertions_(insertions) {}
 
-  /// The steps from `next` on that share a place; `next` goes behind them.
+  /// Writes the steps from `next` on that share a place; moves `next` past them.
   [[nodiscard]] kernel::outcome::Result<void> put_correction(const AxisPlan& plan,
                                                              const std::vector<Chosen>& chosen,
                                                              std::size_t& next, double& stands_mm);
   /// Off and on around a line that changes the frame, off at the end, a new note where the program
-  /// sets the offset. `unit_mm` is that of the corrections.
+  /// sets the offset. `unit_mm` is the unit of the corrections.
   [[nodiscard]] kernel::outcome::Result<void> put_frame(const AxisPlan& plan,
                                                         const FrameLine& frame, double unit_mm,
                                                         double& stands_mm);

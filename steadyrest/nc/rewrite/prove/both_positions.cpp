@@ -9,9 +9,8 @@ namespace steadyrest::nc::rewrite {
 
 using kernel::outcome::Result;
 
-// The operator's switch may be in either position when the changed program
-// runs, so it is proved in both. Times and windows are those of the position
-// asked for.
+// The operator's switch may be in either position when the changed program runs, so the program is
+// proved in both. Times and windows are those of the requested position.
 Result<Proof> verify(const std::string& original, const std::string& changed, const Plan& plan,
                      const interpret::Config& config, const kernel::machine::Machine& machine,
                      const Settings& settings, const KnownTimes* known) {

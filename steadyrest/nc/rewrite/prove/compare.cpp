@@ -30,17 +30,15 @@ bool same_tool(const interpret::Tool& a, const interpret::Tool& b) {
 
 using Variables = std::vector<std::pair<std::string, double>>;
 
-/// The first variable that one has and the other has not, or with another value.
-/// Both lists are sorted (numbers, then names), so the first mismatch of a merge is the first
-/// difference.
+/// The first variable that only one has or whose values differ. Both lists are sorted (numbers,
+/// then names), so the first mismatch of a merge is the first difference.
 std::string variable_difference(Variables a, Variables b) {
   for (Variables* const one : {&a, &b}) {
-    // The corrections' own parameters differ by nature, and no program may use them.
+    // The corrections' own parameters always differ, and no program may use them.
     std::erase_if(*one, [](const auto& named) { return named.first.starts_with(kOwnNames); });
   }
   const auto [in_a, in_b] = std::ranges::mismatch(a, b, [](const auto& x, const auto& y) {
-    // The difference of equal infinities is not a number, hence ==; an unset value is not a number
-    // in both.
+    // The difference of equal infinities is NaN, hence ==; an unset value is NaN in both.
     const bool value = same(x.second, y.second) || x.second == y.second ||
                        (std::isnan(x.second) && std::isnan(y.second));
     return x.first == y.first && value;
@@ -51,7 +49,7 @@ std::string variable_difference(Variables a, Variables b) {
 }  // namespace
 
 // Compared without tolerance: both values come from the same text by the same arithmetic. Only
-// positions may differ, and those are up to Shifts.
+// positions may differ; Shifts checks those.
 std::string_view first_difference(const Move& a, const Move& b) {
   if (a.kind != b.kind) {
     return "kind of move";
@@ -83,8 +81,8 @@ bool equal_events(const std::vector<Event>& a, const std::vector<Event>& b) {
       a, b, [](const Event& x, const Event& y) { return x.kind == y.kind && x.value == y.value; });
 }
 
-// What the inserted lines must leave as it was. Position and offsets are missing on purpose: they
-// are what a correction changes.
+// What the inserted lines must leave unchanged. Position and offsets are missing on purpose: a
+// correction changes them.
 Modes modes_of(const State& state) {
   return {.active_offset = state.active_offset,
           .rotation_deg = state.rotation_in_force_deg,
@@ -110,7 +108,7 @@ Modes modes_of(const State& state) {
           .diameter = state.diameter};
 }
 
-// A plain line sets motion and feed only. Copying all modes for each line would cost more than the
+// A plain line sets only motion and feed. Copying all modes for each line would cost more than the
 // rest of the comparison.
 void renew(Modes& modes, const State& state, bool moved_alone) {
   if (!moved_alone) {
@@ -121,7 +119,7 @@ void renew(Modes& modes, const State& state, bool moved_alone) {
 }
 
 std::string_view state_difference(const State& a, const State& b) {
-  // At the end every correction must be gone, so offsets agree again within rounding.
+  // Every correction must be gone at the end, so offsets agree again within rounding.
   if (!std::ranges::equal(a.work_offset, b.work_offset, same_axes)) {
     return "work offset";
   }
@@ -139,8 +137,8 @@ std::string_view state_difference(const State& a, const State& b) {
   return modes ? std::string_view{} : "modal state";
 }
 
-// What the control keeps beyond the program: reference points, rotations, tool data, parameters. A
-// correction that got in here would stay.
+// What the control keeps after the program: reference points, rotations, tool data, parameters. A
+// correction that gets in here stays.
 std::string kept_difference(const interpret::ProgramRun& original,
                             const interpret::ProgramRun& changed) {
   const State& a = original.state();

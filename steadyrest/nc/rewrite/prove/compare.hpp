@@ -20,11 +20,11 @@ inline constexpr double kSame_mm = 1e-9;
   return std::abs(a - b) <= kSame_mm;
 }
 
-/// What two moves of paired lines differ in, positions left out; empty when in nothing.
+/// What two moves of paired lines differ in, apart from positions; empty when in nothing.
 [[nodiscard]] std::string_view first_difference(const interpret::Move& a, const interpret::Move& b);
 [[nodiscard]] bool equal_events(const std::vector<interpret::Event>& a,
                                 const std::vector<interpret::Event>& b);
-/// What an inserted line must leave as it was.
+/// What an inserted line must leave unchanged.
 struct Modes {
   std::size_t active_offset = 0;
   double rotation_deg = 0.0;
@@ -51,16 +51,16 @@ struct Modes {
   bool operator==(const Modes&) const = default;
 };
 [[nodiscard]] Modes modes_of(const interpret::State& state);
-/// The same into what they were before a line that `moved_alone` (interpret::ProgramRun), or not.
+/// Updates `modes` after a line; `moved_alone` as in interpret::ProgramRun.
 void renew(Modes& modes, const interpret::State& state, bool moved_alone);
 
-/// What the state at the end of two programs differs in, where a next program would find it; empty
-/// when in nothing.
+/// What the end states of two programs differ in that the next program would notice; empty when in
+/// nothing.
 [[nodiscard]] std::string_view state_difference(const interpret::State& a,
                                                 const interpret::State& b);
 
-/// What else outlives two programs and differs: reference points, stored rotations, the tool table,
-/// variables (those of the inserted lines left out). With its name; empty when nothing.
+/// The name of anything else that outlives the programs and differs: reference points, stored
+/// rotations, the tool table, variables (except those of the inserted lines); empty when nothing.
 [[nodiscard]] std::string kept_difference(const interpret::ProgramRun& original,
                                           const interpret::ProgramRun& changed);
 

@@ -4,8 +4,8 @@
 
 namespace steadyrest::nc::rewrite {
 
-// Puts together the lines that the plan wants before the line in hand, from the original alone. The
-// proof compares them with those that are there, character for character.
+// Builds the lines that the plan calls for before the current line, from the original alone. The
+// proof compares them with the actual ones, character for character.
 Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
   const Walk::Before& before = walk_->before();
   return {.letter = plan_.axes[axis].letter,
@@ -16,8 +16,8 @@ Change GroupText::change(std::size_t axis, double from_mm, double to_mm) const {
           .incremental = before.incremental};
 }
 
-// What the line before left open: the correction to put on again behind a change of the frame, a
-// note to write again behind a change of the offset.
+// What the previous line left open: a correction to reapply after a change of the frame, a note to
+// rewrite after a change of the offset.
 void GroupText::behind_the_line_before(std::size_t axis, double stands_mm) {
   if ((off_ & axis_bit(axis)) != 0) {
     text_ += change_text(settings_, change(axis, 0.0, stands_mm), "\n");
@@ -42,7 +42,7 @@ void GroupText::stays(std::size_t axis, double stands_mm) {
 void GroupText::goes_off(std::size_t axis, double stands_mm) {
   behind_the_line_before(axis, stands_mm);
   text_ += change_text(settings_, change(axis, stands_mm, 0.0), "\n");
-  // At the program's end nothing follows that could put it on again.
+  // At the program's end nothing follows that could reapply it.
   off_ |= walk_->ends() ? 0U : axis_bit(axis);
 }
 

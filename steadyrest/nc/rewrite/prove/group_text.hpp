@@ -11,11 +11,11 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// What must stand before each line of the original, character for character, put together from
-/// what the proof finds to stand on each axis: checks and notes change nothing in a run from the
-/// beginning to the end, and would be missed after an abort.
+/// The text that must precede each line of the original, character for character, built from the
+/// correction that the proof finds in force on each axis. Running the program would not reveal
+/// missing checks and notes: they only act after an abort.
 ///
-/// For each line begin(), then for each axis of the plan, in its order, one of the others.
+/// Call begin() for each line, then one of the others for each axis, in the plan's order.
 class GroupText {
  public:
   /// Both outlive it.
@@ -25,11 +25,11 @@ class GroupText {
     walk_ = &walk;
     text_.clear();
   }
-  /// The axis stands corrected as before, by `stands_mm`.
+  /// The axis keeps its correction, `stands_mm`.
   void stays(std::size_t axis, double stands_mm);
-  /// What stands is taken off, for this line alone or at the program's end.
+  /// The correction comes off, for this line only or at the program's end.
   void goes_off(std::size_t axis, double stands_mm);
-  /// It changes, at a place of this kind.
+  /// The correction changes, at a place of this kind.
   void changes(std::size_t axis, double from_mm, double to_mm, Site site);
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
@@ -42,8 +42,8 @@ class GroupText {
   const Settings& settings_;
   const Walk* walk_ = nullptr;
   std::string text_;
-  std::uint32_t off_ = 0;    ///< axes that were taken off for the line before, a mask
-  std::uint32_t noted_ = 0;  ///< axes whose offset the line before has set, a mask
+  std::uint32_t off_ = 0;    ///< axes whose correction was off for the previous line, a mask
+  std::uint32_t noted_ = 0;  ///< axes whose offset the previous line set, a mask
 };
 
 }  // namespace steadyrest::nc::rewrite

@@ -14,16 +14,16 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// How many of the steps may have been answered so far: ascending, never empty.
 /// A change in the text may answer one step, or several that share a place; steps that cancel may
-/// be answered by none. Which it was is not written anywhere, so every possibility is carried
-/// along: `answered_` has each number of steps that may have been answered so far.
+/// be answered by none. The text does not say which, so every possibility is kept: `answered_` has
+/// each number of steps that may have been answered so far.
 using Answered = std::vector<std::size_t>;
 
 class Match {
  public:
   Match(const AxisPlan& axis, const Settings& settings) : axis_(axis), settings_(settings) {}
 
-  /// Adds what can be reached by groups that change nothing between two instants. Of the groups
-  /// that end with a step the shortest is the easiest to place, so no other is looked at.
+  /// Adds the numbers reached by groups that change nothing between two instants. Of the groups
+  /// that end with a step, the shortest is the easiest to place, so only that one is tried.
   void pass_over(double from_s, double to_s) {
     Answered reached;
     std::size_t next = 0;
@@ -39,7 +39,7 @@ class Match {
     answered_ = std::move(reached);
   }
 
-  /// Of the groups that end with the change. False when there is none.
+  /// Takes the groups that end with the change. False when there is none.
   bool take(const WrittenChange& change) {
     Answered reached;
     std::size_t next = 0;
@@ -74,8 +74,8 @@ class Match {
   }
   [[nodiscard]] bool silent(std::size_t first, std::size_t last, double from_s,
                             double to_s) const noexcept {
-    // One instant must lie in the windows of all steps of the group, and between the two changes;
-    // and the last step must leave what is in force already.
+    // One instant must lie in the windows of all steps of the group and between the two changes,
+    // and the last step must leave the correction unchanged.
     const double earliest_s = axis_.steps[last].time_s - settings_.window_s;
     const double latest_s = axis_.steps[first].time_s + settings_.window_s;
     return earliest_s <= latest_s && earliest_s <= to_s && latest_s >= from_s &&
@@ -97,12 +97,12 @@ std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
   double now_s = 0.0;
   double stands_mm = 0.0;
   for (const WrittenChange& change : changes) {
-    // Unit of this change: rounding depends on it.
+    // The unit of this change: rounding depends on it.
     match.now(stands_mm, change.unit_mm);
     match.pass_over(now_s, change.time_s);
     if (!match.take(change)) {
-      // For the message: a later step with this sum is one at the wrong time, otherwise the plan
-      // has no such sum.
+      // For the message: a later step with this sum means the wrong time; otherwise the plan has no
+      // such sum.
       std::size_t step = match.most_answered();
       while (step < axis.steps.size() && !match.stands(step, change.stands_mm)) {
         ++step;
@@ -121,7 +121,7 @@ std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
     stands_mm = change.stands_mm;
     match.now(stands_mm, change.unit_mm);
   }
-  // Behind the last change only steps that cancel may be left.
+  // After the last change only steps that cancel may remain.
   match.pass_over(now_s, kNever);
   if (match.most_answered() == axis.steps.size()) {
     return {};

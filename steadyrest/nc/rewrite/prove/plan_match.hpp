@@ -11,26 +11,26 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// A place of the changed program at which the correction of one axis becomes another.
+/// A place in the changed program where the correction of one axis changes.
 struct WrittenChange {
   std::uint32_t line = 0;
   double stands_mm = 0.0;  ///< from there on
   double unit_mm = 1.0;
-  double time_s = 0.0;  ///< of the original, when the machine gets there
+  double time_s = 0.0;  ///< when the machine gets there in the original
 };
 
 struct Mismatch {
-  std::uint32_t line = 0;  ///< 0: of no line
+  std::uint32_t line = 0;  ///< 0: no line
   std::string what;
 };
 
-/// Whether the changes written for one axis are the plan's, all of them and no other.
+/// Whether the changes written for one axis are exactly the plan's.
 ///
-/// The steps in their order are cut into groups. A group answers to a change: it lasts until the
-/// correction that is written there, and each of its steps is planned within the window of the
-/// change. Or it answers to nothing: after it stands what stood before it, because its steps cancel
-/// or are less than the control can take, and one instant lies within the window of them all.
-/// The work is the number of steps times the number of changes.
+/// The ordered steps are divided into groups. A group may match a change: it ends with the
+/// correction written there, and all its steps are planned within the change's window. Or it
+/// matches nothing: it leaves the correction unchanged, because its steps cancel or are below the
+/// control's increment, and one instant lies within all their windows. The cost is the number of
+/// steps times the number of changes.
 [[nodiscard]] std::optional<Mismatch> mismatch(const AxisPlan& axis, const Settings& settings,
                                                const std::vector<WrittenChange>& changes);
 

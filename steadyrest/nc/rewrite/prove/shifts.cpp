@@ -15,14 +15,14 @@ using interpret::MoveKind;
 
 namespace {
 
-// The centre as a point of all axes, so that machine_of() can turn it.
+// The centre as a point of all axes, so that machine_of() can rotate it.
 Axes centre_of(const Move& move) {
   Axes centre = move.start;
   std::ranges::copy(move.centre_mm, centre.begin());
   return centre;
 }
 
-// A spline keeps its correction from start to end, so its points are those of the original in work
+// A spline keeps its correction from start to end, so its points equal the original's in work
 // coordinates.
 bool same_points(const interpret::SplinePoint& a, const interpret::SplinePoint& b) {
   return same(a.x_mm, b.x_mm) && same(a.y_mm, b.y_mm) && a.weight == b.weight;
@@ -42,8 +42,7 @@ std::string Shifts::add(const Move& move, double most_mm) {
   }
   for (std::size_t i = 0; i < shift_.size(); ++i) {
     const double distance_mm = move.end[i] - move.start[i];
-    // Twice the largest correction is the most that a change can move an axis: from one end to the
-    // other.
+    // A change moves an axis by at most twice the largest correction, from one end to the other.
     if (distance_mm != 0.0 &&
         ((planned_ & axis_bit(i)) == 0 || std::abs(distance_mm) > most_mm + kSame_mm)) {
       return "an inserted line moves more than a correction";
@@ -54,9 +53,9 @@ std::string Shifts::add(const Move& move, double most_mm) {
   return {};
 }
 
-/// Of straight moves that are not turned: begins where the move before ended and ends where it is
-/// wanted, on every axis. False, and nothing changed, where it needs an excuse.
-/// Nearly all moves take this way: no turning, no arcs, no exceptions.
+/// Straight moves without rotation: starts where the previous move ended and ends where it should,
+/// on every axis. False, and nothing changed, if an exception is needed. Nearly all moves take this
+/// path: no rotation, no arcs, no exceptions.
 bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
   Axes end{};
   double worst_mm = 0.0;
@@ -75,8 +74,8 @@ bool Shifts::as_wanted(const Move& before, const Move& after) noexcept {
 }
 
 // `shift_` is how far the changed program's machine position is from the original's. Each move must
-// begin with it and end with what is wanted; then the plan has come about on the machine and not
-// merely in offsets.
+// begin with it and end with the planned shift: the plan then takes effect on the machine, not just
+// in offsets.
 std::string Shifts::pair(const Move& before, const Move& after, const Frames& frames) {
   const bool turned = before.rotation_deg != 0.0 || after.rotation_deg != 0.0;
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
@@ -120,7 +119,7 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
   if (!same(start_mm, shift_[axis])) {
     return "a move begins where the one before it did not end";
   }
-  // An axis that is not programmed, or by an increment, keeps what it had.
+  // An axis that is not programmed, or only incrementally, keeps its shift.
   const bool may_keep = (frames.acts_at_once & axis_bit(axis)) == 0 &&
                         (frames.incremental || same(before.start[axis], before.end[axis]));
   double error_mm = std::abs(end_mm - wanted[axis]);
@@ -135,13 +134,13 @@ std::string Shifts::one_axis(std::size_t axis, const Move& before, const Differe
     return fmt::format("{} is off by {:.9f} mm after this line; the plan has {:.6f} mm",
                        kAxisLetters[axis], end_mm, wanted[axis]);
   }
-  // On an arc or spline a shift that grows along the way is another curve.
+  // On an arc or spline, a shift that grows along the way makes another curve.
   const bool straight = before.kind == MoveKind::rapid || before.kind == MoveKind::linear;
   if (!straight && !same(start_mm, end_mm)) {
     return fmt::format("a correction of {} begins in a curved move and would bend it",
                        kAxisLetters[axis]);
   }
-  // The axis along the normal has no centre that matters.
+  // The centre along the normal does not matter.
   if (before.kind == MoveKind::arc && axis < before.normal.size() && before.normal[axis] == 0.0) {
     const double centre_mm = difference.centre[axis];
     if (!same(centre_mm, start_mm)) {

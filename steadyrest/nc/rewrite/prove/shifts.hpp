@@ -18,26 +18,27 @@ namespace steadyrest::nc::rewrite {
   return std::uint32_t{1} << axis;
 }
 
-/// What a line says about how its positions are meant.
+/// How a line's positions are meant.
 struct Frames {
   bool incremental = false;        ///< G91
   bool machine = false;            ///< G53, SUPA, G28, G30
   std::uint32_t acts_at_once = 0;  ///< axes whose new correction must act in this line, a mask
 };
 
-/// How far the machine of the changed program is from that of the original, move by move.
+/// The distance between the machine positions of the changed program and the original, move by
+/// move.
 ///
-/// A move must end at the shift that is wanted; or, where the original leaves the axis alone or
-/// moves it by increments, at the shift that it began with; or at none, where the original goes to
-/// machine coordinates. Arcs, splines, threads and probes keep what they begin with.
+/// A move must end at the planned shift. Where the original leaves the axis alone or moves it by
+/// increments, it may end at the shift it began with; where the original goes to machine
+/// coordinates, at none. Arcs, splines, threads and probes keep the shift they begin with.
 class Shifts {
  public:
   explicit Shifts(const Plan& plan);
 
-  /// A pair of moves: the fault, empty when there is none.
+  /// Takes a pair of moves; returns the fault, empty when there is none.
   [[nodiscard]] std::string pair(const interpret::Move& before, const interpret::Move& after,
                                  const Frames& frames);
-  /// A move that the original has not: a rapid of planned axes, by `most_mm` at most.
+  /// Takes a move that the original lacks: a rapid of planned axes, by at most `most_mm`.
   [[nodiscard]] std::string add(const interpret::Move& move, double most_mm);
 
   [[nodiscard]] double now(std::size_t axis) const noexcept { return shift_[axis]; }
@@ -46,7 +47,7 @@ class Shifts {
   }
   [[nodiscard]] double largest_error_mm() const noexcept { return largest_error_mm_; }
 
-  interpret::Axes wanted{};  ///< the correction that stands by the plan
+  interpret::Axes wanted{};  ///< the correction in force by the plan
 
  private:
   /// Where a pair of moves differs in machine coordinates, by axis.

@@ -16,8 +16,8 @@ using kernel::outcome::Result;
 
 namespace {
 
-// Both files side by side, once: the original's lines must all be there, in order and byte for
-// byte. What else is there must carry a mark, and is kept by the line it comes before.
+// One pass over both files side by side: the original's lines must all be there, in order and byte
+// for byte. Any other line must carry a mark and is stored under the line it precedes.
 class TextPair {
  public:
   TextPair(SourceLines before, SourceLines after, const std::string& original,
@@ -34,7 +34,7 @@ class TextPair {
       const bool bare = plain.look(before_.line());
       head_.look(before_.line(), before_.number());
       if (!bare && is_inserted(before_.line())) {
-        // A mark in the original would be taken out by strip, which would then not restore it.
+        // strip would remove a mark of the original and not restore it.
         refuse(original_, before_.number(), "the original already has corrections");
       }
       if (std::string use = bare ? "" : own_use(way_, before_.line()); !use.empty()) {
@@ -71,9 +71,9 @@ class TextPair {
     }
   }
 
-  /// Up to the line of the changed program that pairs with the original's in hand.
+  /// Advances to the line of the changed program that pairs with the original's current one.
   void pair() {
-    // The original's line is no inserted one: what is the same is none either.
+    // The original's line is not an inserted one, so an identical line is not either.
     if (after_.skip(before_.line(), before_.ending())) {
       return;
     }
@@ -87,10 +87,10 @@ class TextPair {
     }
   }
 
-  // An inserted line: to the head or to the group of the original's line that follows it.
+  // Adds an inserted line to the head or to the group before the original's next line.
   void take() {
     inserted_.lines.push_back(after_.number());
-    // The line ends around the inserted line: the last one seen, or at the top of the file the
+    // The line end used around the inserted line: the last one seen, or at the top of the file the
     // next.
     const bool crlf = ended_ ? crlf_ : before_.ending().size() > 1;
     if (after_.ending().size() != (crlf ? 2 : 1)) {
@@ -103,7 +103,7 @@ class TextPair {
     }
     inserted_.head.append(after_.line()).append("\n");
     ++inserted_.head_lines;
-    // The head is right in one place only: after an abort it must run before anything moves.
+    // The head has only one right place: after an abort it must run before anything moves.
     if (head_.line() != before_.number()) {
       refuse(changed_, after_.number(),
              "the head is not before the first block that does something", kAgainstOtherLines);
@@ -116,7 +116,7 @@ class TextPair {
   const std::string& changed_;
   const Way& way_;
   PlaceOfHead head_;
-  bool ended_ = false;  ///< a line of the original has had an end
+  bool ended_ = false;  ///< a line of the original had a line end
   bool crlf_ = false;   ///< the last of these was CR LF
   Inserted inserted_;
   std::optional<Refusal> fault_;

@@ -16,16 +16,16 @@ namespace steadyrest::nc::rewrite {
 /// The inserted lines of a changed program.
 struct Inserted {
   std::vector<std::uint32_t> lines;  ///< their numbers
-  std::string head;                  ///< the text of those of the head, one under the other
+  std::string head;                  ///< the text of the head's lines
   std::size_t head_lines = 0;
-  /// The others, by the line of the original before which they stand, one under the other.
+  /// The text of the others, by the line of the original that they precede.
   std::map<std::uint32_t, std::string> groups;
 };
 
-/// Compares two programs byte by byte, inserted lines of `changed` left out. Refused at the first
-/// line that differs otherwise, where an inserted one ends otherwise than the lines around it, and
-/// where the head is not that of the plan or stands elsewhere than it belongs: it changes nothing
-/// in a run from the beginning to the end. `plain` looks at the original's lines on the way.
+/// Compares two programs byte by byte, ignoring the inserted lines of `changed`. Refused at the
+/// first other difference, where an inserted line's end differs from those around it, and where the
+/// head is not the plan's or is in the wrong place: running the program would not show that.
+/// `plain` sees the original's lines on the way.
 [[nodiscard]] kernel::outcome::Result<Inserted> compare_text(const std::string& original,
                                                              const std::string& changed,
                                                              PlainSurvey& plain, const Plan& plan,

@@ -9,8 +9,8 @@ namespace steadyrest::nc::rewrite {
 
 using interpret::Move;
 
-// The original may exceed the travel by itself; that is the control's affair. Here only what the
-// correction adds is judged.
+// The original may exceed the travel by itself: the control deals with that. Only what the
+// correction adds is judged here.
 std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter,
                         const Reach& original, const Reach& corrected) {
   constexpr double kRounding_mm = 1e-9;
@@ -27,7 +27,7 @@ std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter
         "{} goes to {:.4f} mm (machine coordinates)",
         letter, to_mm, end_mm, letter, own_mm);
   };
-  // Exactly at the limit is allowed, and positions are sums of rounded numbers.
+  // Exactly at the limit is allowed; positions are sums of rounded numbers.
   if (corrected.high_mm > axis->max_mm + kRounding_mm &&
       original.high_mm <= axis->max_mm + kRounding_mm) {
     return fault(corrected.high_mm, axis->max_mm, original.high_mm);
@@ -43,7 +43,7 @@ std::string over_travel(std::span<const kernel::machine::Axis> axes, const Plan&
                         const Move& original, const Move& corrected) {
   std::string fault;
   for (std::size_t i = 0; fault.empty() && i < plan.axes.size(); ++i) {
-    // Reach counts the bulges of arcs, which leave the travel before the ends do.
+    // Reach includes the bulges of arcs, which leave the travel before the ends do.
     const AxisPlan& axis = plan.axes[i];
     fault = over_travel(axes, axis.letter, reach_of(original, axis.index),
                         reach_of(corrected, axis.index));

@@ -19,9 +19,9 @@ using plan::reach_of;
 inline constexpr std::string_view kAgainstTravel =
     "leave room for the correction: move the work offset or the program, or plan without this axis";
 
-/// The fault when a correction takes a linear axis over an end of its travel that the original move
-/// keeps; empty when there is none. What is over the end without the correction is the program's
-/// own affair, or shows that the work offset is not the machine's.
+/// The fault when a correction takes a linear axis beyond an end of its travel that the original
+/// move respects; empty when there is none. A move beyond the end without the correction is the
+/// program's own fault, or shows that the work offset is not the machine's.
 [[nodiscard]] std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter,
                                       const Reach& original, const Reach& corrected);
 /// The same for a pair of moves and all axes of a plan.

@@ -30,7 +30,7 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-/// Runs both programs, line beside line.
+/// Runs both programs side by side, line by line.
 class Prover {
  public:
   Prover(const Claim& claim, const interpret::Config& config, bool timed)
@@ -133,7 +133,7 @@ class Prover {
     return at_end();
   }
 
-  /// Runs the changed program up to and with the line that pairs with the original's.
+  /// Runs the changed program up to and including the line that pairs with the original's.
   bool inserted_lines() {
     renew(modes_, changed_run_->state(), changed_run_->moved_alone());
     for (const AxisPlan& axis : plan_.axes) {
@@ -156,7 +156,7 @@ class Prover {
                (changed_run_->line() - before == walk_->line() || refuse("executes another line"));
       }
       passed_inserted_ = true;
-      // The head acts after an abort alone, or does here what is done already.
+      // The head acts only after an abort; here it has no effect.
       executed_inserted_ += changed_run_->executed() && inserted_.before() >= head_lines_ ? 1U : 0U;
       if (!added_moves()) {
         return false;
@@ -166,8 +166,8 @@ class Prover {
     }
   }
 
-  /// Moves of an inserted line: a rapid of planned axes alone, to their position in the original
-  /// plus the correction.
+  /// Moves of an inserted line: only a rapid of planned axes to their position in the original plus
+  /// the correction.
   bool added_moves() {
     const bool head = inserted_.before() < head_lines_;
     if (std::ranges::any_of(changed_moves_.events, [head](const interpret::Event& event) {
@@ -210,8 +210,9 @@ class Prover {
     return belongs() && compare_moves() && (!walk_->stores() || keeps_the_same());
   }
 
-  /// The lines before this one are those that belong here, character for character. Where none do,
-  /// what others do shows further down; if nothing, they are refused at the end.
+  /// The lines before this one are exactly those that belong here, character for character. Where
+  /// none belong, the effect of others shows further down; if they have none, they are refused at
+  /// the end.
   bool belongs() {
     const std::string& wanted = belongs_here_.text();
     const auto group = passed_inserted_ ? groups_.find(walk_->line()) : groups_.end();
@@ -228,7 +229,7 @@ class Prover {
                      std::string(kAgainstOtherLines));
   }
 
-  /// What outlives the program holds no correction, at this line already.
+  /// Nothing that outlives the program holds a correction, even at this line.
   bool keeps_the_same() {
     const std::string kept = kept_difference(walk_->run(), *changed_run_);
     return kept.empty() ||
@@ -237,7 +238,7 @@ class Prover {
                      "do this before the first correction, or leave the axis out of the plan");
   }
 
-  /// Before the paired line: the correction is the last one, or changes here.
+  /// Before the paired line: the correction is still the last one, or changes here.
   bool what_stands(std::size_t index, double stands_mm) {
     const AxisPlan& axis = plan_.axes[index];
     double& wanted_mm = shifts_.wanted[axis.index];
@@ -375,10 +376,10 @@ class Prover {
   Shifts shifts_;
   std::map<std::uint32_t, std::string> groups_;  ///< inserted lines by the original's line
   GroupText belongs_here_;
-  bool passed_inserted_ = false;   ///< lines were inserted before the pair in hand
-  std::uint32_t other_lines_ = 0;  ///< the first line before which others stand than belong there
+  bool passed_inserted_ = false;   ///< lines were inserted before the current pair
+  std::uint32_t other_lines_ = 0;  ///< the first line preceded by lines that do not belong there
   Axes offset_before_{};
-  Axes shift_before_{};  ///< before the inserted lines in hand
+  Axes shift_before_{};  ///< before the current inserted lines
   bool restated_ = false;
   std::uint32_t acts_at_once_ = 0;  ///< axes whose correction must act in this line, a mask
   Refusal refusal_;

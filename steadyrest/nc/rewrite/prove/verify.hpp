@@ -13,27 +13,26 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// What a proof has looked at.
+/// What a proof has checked.
 struct Proof {
   std::uint64_t moves = 0;      ///< pairs of moves that were compared
-  std::uint64_t corrected = 0;  ///< of these, pairs that differ by a correction
+  std::uint64_t corrected = 0;  ///< pairs among them that differ by a correction
   std::uint64_t added = 0;      ///< moves of inserted lines: an axis restated
   std::uint64_t inserted_lines = 0;
-  std::uint64_t changes = 0;      ///< places at which what stands changes, the reset included
-  double largest_error_mm = 0.0;  ///< worst difference from what the plan wants
+  std::uint64_t changes = 0;      ///< places where the correction changes, including the reset
+  double largest_error_mm = 0.0;  ///< worst difference from the plan
   double program_s = 0.0;
 };
 
-/// Shows that `changed` does what `original` does, but for the plan's corrections.
+/// Proves that `changed` does what `original` does, except for the plan's corrections.
 ///
-/// Both are interpreted, line beside line; nothing is taken from the one who wrote the changes.
-/// Machine positions differ on the planned axes by the sum of the corrections planned so far,
-/// within 1e-9 mm, and nowhere else; feeds, speeds, arcs, path modes, events are equal. What
-/// stands changes only at places that the original allows (Walk::site), within the window of the
-/// planned instant, and acts at once. At the end nothing is left standing. Without its inserted
-/// lines the changed text is the original, byte for byte. Refused with line and reason otherwise.
-/// `known`: the times of the original's lines where they were found just now; without them it is
-/// timed.
+/// Interprets both side by side, line by line, and takes nothing from the code that wrote the
+/// changes. Machine positions differ on the planned axes by the sum of the corrections planned so
+/// far, within 1e-9 mm, and nowhere else; feeds, speeds, arcs, path modes, events are equal. The
+/// correction changes only at places that the original allows (Walk::site), within the window of
+/// the planned instant, and acts at once. At the end it is zero. Without its inserted lines the
+/// changed text is the original, byte for byte. Refused with line and reason otherwise. `known`:
+/// the times of the original's lines if just found; without them the original is timed.
 [[nodiscard]] kernel::outcome::Result<Proof> verify(const std::string& original,
                                                     const std::string& changed, const Plan& plan,
                                                     const interpret::Config& config,

@@ -23,8 +23,8 @@ using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
 // For corrections that bypass the program's coordinates (R-parameter, setting data): the original's
-// blocks and moves stay, so both programs need not be run side by side. Each group of lines must be
-// the text of a planned step at a safe place, and off at the end.
+// blocks and moves stay the same, so the programs need not run side by side. Each group of lines
+// must be the text of a planned step at a safe place, and the end must reset it.
 class BesideProver {
  public:
   explicit BesideProver(const Claim& claim)
@@ -46,7 +46,7 @@ class BesideProver {
       return std::unexpected(text ? surveyed.error() : text.error());
     }
     text_ = std::move(*text);
-    // The changed variable could be read or written there, in a file that nobody looked into.
+    // A subprogram file that was not searched could read or write the variable.
     if (!surveyed->subprogram_files.empty()) {
       return std::unexpected(subprogram_may_use_it());
     }
@@ -57,7 +57,7 @@ class BesideProver {
     }
     while (!refusal_ && (*walk)->step()) {
       line(**walk, **window);
-      // Only the position of the switch that was asked for has times.
+      // Only the requested position of the switch has times.
       if (timed_) {
         (*window)->feed(**walk);
       }
@@ -77,8 +77,8 @@ class BesideProver {
     }
     proof_.inserted_lines = text_.lines.size();
     at_end();
-    // Correct lines may still be at places that the control does not read: the changed program must
-    // run to its end.
+    // Correct lines may still be where the control does not read them: the changed program must run
+    // to its end.
     if (!refusal_) {
       run_changed(config);
     }
@@ -95,7 +95,7 @@ class BesideProver {
     }
   }
 
-  /// A subprogram that is not looked into may use the parameter itself.
+  /// A subprogram that was not searched may use the parameter itself.
   [[nodiscard]] Refusal subprogram_may_use_it() const {
     return bad_input(original_,
                      fmt::format("a subprogram may use {} itself",
@@ -106,7 +106,8 @@ class BesideProver {
                                  against_own_use(settings_)));
   }
 
-  // The text from what is in force to `to_mm`: what the file must have, character for character.
+  // The text of a change from the correction in force to `to_mm`, which the file must have
+  // character for character.
   [[nodiscard]] std::string text_to(double to_mm) const {
     return change_text(settings_,
                        {.letter = axis_.letter,
@@ -119,7 +120,7 @@ class BesideProver {
   }
 
   void line(const Walk& walk, Window& window) {
-    // Erased when met, so what is left at the end was never executed.
+    // Erased when reached, so whatever remains at the end was never executed.
     if (const auto group = text_.groups.find(walk.line()); group != text_.groups.end()) {
       change(walk, window, group->second);
       text_.groups.erase(group);
@@ -151,15 +152,14 @@ class BesideProver {
       stands_mm_ = 0.0;
       return;
     }
-    // No note says which step is meant: the text tells. Whether the order is the plan's is judged
-    // at the end (plan_match).
+    // No note names the step: the text does. plan_match checks the order at the end.
     for (const PlannedStep& step : axis_.steps) {
       const double to_mm = correction_mm(settings_, 1.0, step.displacement_um);
       if (group != text_to(to_mm)) {
         continue;
       }
       const Site site = walk.site(axis_.letter, axis_.index);
-      // Not a feed move: STOPRE stops, which leaves a mark in the cut.
+      // Not at a feed move: STOPRE stops, which leaves a mark in the cut.
       if (site != Site::rapid && site != Site::clearance) {
         refuse(
             walk.line(),

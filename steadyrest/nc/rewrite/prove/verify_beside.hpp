@@ -5,12 +5,13 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// verify() for a correction that the machine adds beside the program (an R-parameter).
+/// verify() for a correction that the machine adds outside the program's coordinates (an
+/// R-parameter).
 ///
-/// The blocks are the original's, byte for byte, so the moves are; what is proved is where the
+/// The blocks are the original's, byte for byte, and so are the moves; the proof is about where the
 /// value is written and which one. Every group of inserted lines must be, character for character,
-/// what belongs to a planned step, at a rapid or a clearance of the original, in its window; the
-/// value is zero from the head to the first and from the end on.
+/// the text of a planned step, at a rapid or a clearance of the original, in its window; the value
+/// is zero from the head to the first group and from the end on.
 [[nodiscard]] kernel::outcome::Result<Proved> verify_beside(const Claim& claim,
                                                             const interpret::Config& config,
                                                             bool timed);

@@ -11,7 +11,7 @@ namespace steadyrest::nc::rewrite {
 struct Proved {
   Proof proof;
   bool switchable =
-      false;  ///< the program has lines with `/`: the other position is another matter
+      false;  ///< the program has lines with `/`: the other position needs its own proof
 };
 
 /// What is to be proved, for verify().
@@ -24,9 +24,9 @@ struct Claim {
   const KnownTimes* known = nullptr;
 };
 
-/// verify() for a correction that the positions of the program know of: both programs are run, line
-/// beside line, and their moves compared. `timed`: that corrections act in their windows is shown
-/// too, and that all of them act; else that what acts is right wherever the program ends.
+/// verify() for a correction within the program's positions: runs both programs side by side, line
+/// by line, and compares their moves. `timed`: also proves that all corrections act, and within
+/// their windows; else only that those that act are right wherever the program ends.
 [[nodiscard]] kernel::outcome::Result<Proved> verify_moves(const Claim& claim,
                                                            const interpret::Config& config,
                                                            bool timed);

@@ -14,7 +14,7 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
                                              const Plan& plan, const Settings& settings,
                                              const std::string& changed) {
   std::unique_ptr<Window> made(new Window(plan, settings, changed));
-  // The ticket has both numbers: change · axes + axis.
+  // The ticket encodes both numbers: change · axes + axis.
   auto clock =
       Clock::make(known, machine, [&changes = made->changes_](std::uint64_t ticket, double time_s) {
         changes[ticket % changes.size()][ticket / changes.size()].time_s = time_s;
@@ -26,7 +26,7 @@ Result<std::unique_ptr<Window>> Window::make(const KnownTimes* known,
   return made;
 }
 
-// The time comes later, when the clock has it: the ticket says whose it is.
+// The clock delivers the time later; the ticket tells whose it is.
 void Window::ask(std::size_t axis, const WrittenChange& change) {
   clock_->ask(changes_[axis].size() * changes_.size() + axis);
   changes_[axis].push_back(change);
@@ -37,7 +37,7 @@ Result<double> Window::finish() {
   if (!total) {
     return total;
   }
-  // Of a plan for another program the windows would only tell the symptom.
+  // For a plan of another program the windows would only show the symptom.
   if (auto fits = check_total(plan_, *total); !fits) {
     return std::unexpected(fits.error());
   }

@@ -16,10 +16,10 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// Whether corrections act within the window about the instants that they are planned at.
+/// Whether corrections act within the window about their planned instants.
 class Window {
  public:
-  /// `changed` names the file in refusals. What is given stays where it is.
+  /// `changed` names the file in refusals. All arguments must outlive it.
   static kernel::outcome::Result<std::unique_ptr<Window>> make(
       const KnownTimes* known, const kernel::machine::Machine& machine, const Plan& plan,
       const Settings& settings, const std::string& changed);
@@ -27,10 +27,10 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window() = default;
 
-  /// The correction of an axis of the plan becomes another in the line that is fed next.
+  /// The correction of an axis of the plan changes in the line that is fed next.
   void ask(std::size_t axis, const WrittenChange& change);
   void feed(Walk& walk) { clock_->feed(walk); }
-  /// The program's time. Refused: another time than the plan's, changes that are not the plan's.
+  /// The program's time. Refused: a time other than the plan's, changes that are not the plan's.
   [[nodiscard]] kernel::outcome::Result<double> finish();
 
  private:

@@ -44,7 +44,7 @@ TEST_F(Fanuc, MovesTheExternalOffsetByIncrements) {
 }
 
 TEST_F(Fanuc, NeedsNoCareWhenTheWorkOffsetChanges) {
-  // The external offset acts in every system: no lines beside G55.
+  // The external offset acts in every system: no lines around G55.
   shop_.config.work_offset[1][2] = -3.0;
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55 G0 X0 Y20 Z5\n");
   const auto done = shop_.compensate(program, kGrowth);
@@ -95,9 +95,9 @@ TEST_F(Fanuc, RefusesAProgramThatTakesTheCorrectionOffInOtherUnits) {
   EXPECT_THAT(refused.error().what, HasSubstr("changes its units"));
 }
 
-// What the control adds up is what it takes: whole increments, in whatever order they are written.
+// The control adds up only whole increments, in whatever order they are written.
 RC_GTEST_PROP(Increments, AddUpToNothingAndStayWithinHalfOfOneOfThePlan, ()) {
-  // The text is read back and counted in the control's own unit, as the control would.
+  // Reads the text back and counts in the control's own unit, as the control would.
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   const auto below = [&random](unsigned n) { return static_cast<int>(random() % n); };
   Way way;
@@ -138,7 +138,7 @@ TEST_F(Fanuc, VerifyCatchesAMissingG90) {
 }
 
 TEST_F(Haas, MovesTheActiveWorkOffsetAndTurnsItOver) {
-  // G55 has another offset: off G54 before it, on G55 behind it.
+  // G55 has another offset: off in G54 before it, on in G55 after it.
   shop_.config.work_offset[1][2] = -3.0;
   const std::string program = replaced(kFanuc, "G0 X0 Y20\n", "G55\nG0 X0 Y20\n");
   const auto done = shop_.compensate(program, kGrowth);
@@ -228,7 +228,7 @@ TEST_F(Sinumerik, VerifyCatchesEachFault) {
 }
 
 TEST_F(Sinumerik, RefusesAProgramThatUsesTheParameterItself) {
-  // Spelled in ways that the control reads as R50, or that could be R50.
+  // Spellings that the control reads as R50, or that could be R50.
   for (const char* line : {"R50=1", "R050=1", "X=R50", "N10 G0 X=R1+R50", "r 50=2", "N10R50=1",
                            "R[R1]=3", "X=$R[1]", "Y=-R50*2", "MSG(\"a;b\") R50=2"}) {
     EXPECT_TRUE(uses_parameter(line, 50)) << line;

@@ -35,7 +35,7 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   const std::string text = text_of_file(shop_.changed());
   const std::string head = "G90 G10 L2 P0 Z0.0000 (STEADYREST head Z)\n";
   EXPECT_THAT(text, HasSubstr("%\r\nO1234 (PASSES)\n" + head + "G21 G90"));
-  // One line of head moves the first insertion down.
+  // The head's one line moves the first insertion down.
   EXPECT_EQ(done->insertions.at(0).line, 9U);
   ASSERT_TRUE(shop_.verify(kGrowth));
   EXPECT_THAT(shop_.fault(kGrowth, replaced(text, head, "")), HasSubstr("head"));
@@ -48,7 +48,7 @@ TEST_F(Fanuc, TakesOffWhatAnAbortedRunHasLeftWhereNobodyElseUsesTheExternalOffse
   EXPECT_EQ(text_of_file(shop_.changed()), kFanuc);
 }
 
-// 0 takes it off by value, but a touch-off through it shows in no number.
+// 0 takes it off by value, but no number shows a touch-off made through it.
 TEST_F(Fanuc, AsksBeforeItTakesOffWhereSomebodyMayHaveTouchedOff) {
   shop_.settings.external_offset_free = true;
   ASSERT_TRUE(shop_.compensate(kFanuc, kGrowth));
@@ -93,7 +93,7 @@ TEST_F(Fanuc, TheExternalOffsetIsNotFreeWhereTheProgramSetsIt) {
     EXPECT_EQ(done ? 0U : done.error().line, done ? 0U : 9U) << line;
     return done ? "" : done.error().what + ": " + done.error().to_do;
   };
-  // In every order and by expressions too: it is the effect that counts, not the spelling.
+  // In any order and by expressions too: the effect counts, not the spelling.
   for (const char* line : {"G10 L2 P0 Z0", "P0 L2 G10 Z0", "G91 G10 L2 P0 Z0.1", "G10 L2 P0 X0",
                            "N8 G10 P0 L2 Y1", "G10 L2 P[1-1] Z0", "/G10 L2 P0 Z0"}) {
     EXPECT_THAT(refusal(line), HasSubstr("external_offset_free")) << line;

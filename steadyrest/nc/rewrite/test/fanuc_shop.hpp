@@ -5,7 +5,7 @@
 
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-/// The workshop of a Fanuc.
+/// A Workshop for a Fanuc.
 namespace steadyrest::nc::rewrite::test {
 
 inline const std::string kFanuc = replaced(kPasses, "%\n", "%\r\nO1234 (PASSES)\n");

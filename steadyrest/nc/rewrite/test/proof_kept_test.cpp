@@ -5,7 +5,7 @@
 #include <steadyrest/nc/rewrite/test/pockets.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// A changed program must leave no correction in what the control keeps when it is over.
+// A changed program must leave no correction in what the control keeps afterwards.
 namespace steadyrest::nc::rewrite {
 namespace {
 
@@ -67,7 +67,7 @@ TEST_F(Kept, WhatHoldsNoCorrectionMayBeKept) {
   EXPECT_EQ(fault(shop_, pockets("", head)), "");
 }
 
-// By numbers alone they wait until the control takes them up, together with the next correction.
+// Set by number, they lie dormant until the control takes them up with the next correction.
 TEST_F(Kept, OffsetsInForceThatAreSetByTheirNumbersAreRefusedByTheLine) {
   const auto expect_refused = [&](const std::string& program, std::uint32_t line) {
     const auto done = shop_.compensate(program, kThreeSteps);

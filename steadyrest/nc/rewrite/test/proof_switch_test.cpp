@@ -5,7 +5,7 @@
 #include <steadyrest/nc/rewrite/test/pockets.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// A changed program must hold for both positions of block delete.
+// A changed program must be right in both positions of block delete.
 namespace steadyrest::nc::rewrite {
 namespace {
 
@@ -59,7 +59,7 @@ TEST_F(Switch, ProvesForBothPositions) {
   EXPECT_THAT(shop_.fault(kOneStep, replaced(text, "\nN90", "\n/N90")), HasSubstr("no safe place"));
 }
 
-// Each switches what the lines behind it mean.
+// Each changes the meaning of the lines after it.
 TEST_F(Switch, PlacesNothingWhoseMeaningTheSwitchChanges) {
   EXPECT_EQ(fault(shop_, replaced(kClamp, "/N90 G0 Z2\n", ""), kOneStep), "");
   for (const char* line : {"/G20", "/G91", "/G55", "/G10 L2 P1 Z3", "/G92 Z1", "/G41.1 D1 G1 X70",

@@ -5,7 +5,7 @@
 #include <steadyrest/nc/rewrite/test/pockets.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// A changed program must hold for a start that the program does not say.
+// A changed program must be right for any start state that the program does not set.
 namespace steadyrest::nc::rewrite {
 namespace {
 
@@ -40,7 +40,7 @@ TEST_F(Start, TheWorkOffsetIsSaidBeforeTheFirstPlace) {
 
 TEST_F(Start, AbsolutePositionsAreSaid) {
   EXPECT_THAT(fault_of(pockets("", replaced(kHead, "G90 ", ""))), HasSubstr("(G90)"));
-  // What M70 has kept before it was said comes back with M72.
+  // A mode saved by M70 before the program set it comes back with M72.
   const std::string head = replaced(replaced(kHead, "G90 ", ""), "N20", "M70\nG90\nN20");
   EXPECT_THAT(fault_of(pockets("", head)), HasSubstr("(G90)"));
 }
@@ -56,7 +56,7 @@ TEST_F(Start, AStoredRotationIsKnownForWhatIsTurnedByIt) {
   EXPECT_EQ(fault(shop_, pockets(""), kThreeSteps), "") << "Z does not turn";
 }
 
-// The text checks it too: whoever has turned the offset since, or is in G7, is stopped.
+// The text checks it too: it stops if the offset has been rotated since, or in G7.
 TEST_F(Start, XAndYAreCorrectedAlongTheMachinesAxesAlone) {
   shop_.config.start_known = true;
   const std::string in_x = replaced(kThreeSteps, R"({"tr)", R"({"axis": "X", "tr)");
@@ -81,7 +81,7 @@ TEST_F(Start, ALatheSaysWhetherXIsARadius) {
   EXPECT_EQ(fault(shop_, "G8 " + turning, in_x), "");
 }
 
-// The axis is no longer where the program has sent it.
+// The axis is no longer where the program sent it.
 TEST_F(Start, RestatesNothingBehindATool) {
   shop_.settings.window_s = 6.0;
   const std::string plan =
@@ -90,7 +90,7 @@ TEST_F(Start, RestatesNothingBehindATool) {
       kHead + "G0 X0 Y0 Z10\nG1 X50 F100\nG43 H2\nG0 X0 Y1\nG0 X1\nG1 X50\nG0 Z20\nM2\n";
   EXPECT_THAT(fault(shop_, program, plan), HasSubstr("no safe place"));
   EXPECT_EQ(fault(shop_, replaced(program, "G43 H2\n", ""), plan), "");
-  // The length and the shift that were in force at the start are not known, whatever files are.
+  // The length and the shift in force at the start are unknown, whatever the files say.
   shop_.config.tools.emplace(2);
   shop_.config.tools->front().number = 1;
   shop_.config.tools->back().number = 2;
@@ -104,7 +104,7 @@ TEST_F(Start, RestatesNothingBehindATool) {
   }
 }
 
-// A note holds as long as work offset plus G92 are what they were.
+// A note holds as long as work offset plus G92 are unchanged.
 TEST_F(Start, AShiftOfTheProgramIsNotedWhateverItWasBefore) {
   for (const char* line : {"G92.1", "G92.2", "G92.3", "G92 X0", "G52 Z0", "G52 X1"}) {
     ASSERT_EQ(fault_of(pockets("N121 " + std::string{line} + "\n")), "") << line;
@@ -146,7 +146,7 @@ TEST_F(Start, KnowsWhatTheVariableFileHolds) {
   EXPECT_THAT(fault_of(pockets("#1=#101\n")), HasSubstr("uses #101"));
 }
 
-// G55 does nothing in a control that is in G55 already.
+// G55 does nothing on a control already in G55.
 TEST_F(Start, AnyWorkOffsetMayBeInForceUntilTheProgramSaysWhich) {
   EXPECT_THAT(fault_of("#5250=30\nG55\n" + pockets("")), HasSubstr("by its numbers"));
   EXPECT_EQ(fault_of("G54\n#5250=30\nG55\n" + pockets("")), "");

@@ -4,7 +4,7 @@
 
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// The two ways of SINUMERIK that are no R-parameter.
+// The two SINUMERIK methods other than the R-parameter.
 namespace steadyrest::nc::rewrite {
 namespace {
 
@@ -16,7 +16,7 @@ using test::Workshop;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// DEF must stay in front of the head (alarm 14500).
+// DEF must stay before the head (alarm 14500).
 const std::string kProgram =
     replaced(replaced(kPasses, "%\nG21", "DEF REAL DEPTH=-1 ;mm\nG71"), "M30\n%\n", "M30\n");
 
@@ -99,7 +99,7 @@ TEST_F(SettingData, RefusesAProgramThatWritesItItself) {
   EXPECT_THAT(
       refusal(replaced(kProgram, "G0 X0 Y30\n", "$SA_TEMP_COMP_ABS_VALUE[X]=0\nG0 X0 Y30\n")),
       HasSubstr("uses the temperature compensation itself"));
-  // In small letters, another of its family, behind a `;` in quotes.
+  // In small letters, another of its family, after a `;` in quotes.
   for (const char* line : {"$sa_temp_comp_abs_value[Z]=0", "$MA_TEMP_COMP_TYPE[Z]=0",
                            "MSG(\"a;b\") $SA_TEMP_COMP_SLOPE[Z]=0"}) {
     EXPECT_NE(refusal(replaced(kProgram, "G0 X0 Y30\n", line + std::string{"\nG0 X0 Y30\n"})), "")
@@ -130,7 +130,7 @@ TEST_F(FrameFine, IsWrittenFromWhatIsStored) {
 
 TEST_F(FrameFine, IsWrittenAgainWhereAFrameIsTakenAnew) {
   shop_.config.work_offset[1][2] = -3.0;
-  // Each of these loads the stored frame, in which the correction is not.
+  // Each of these loads the stored frame, which lacks the correction.
   for (const std::string word : {"G54", "G55", "G500"}) {
     const std::string program = replaced(kProgram, "G0 X0 Y30\n", word + "\nG0 X0 Y30\n");
     EXPECT_THAT(write(program),

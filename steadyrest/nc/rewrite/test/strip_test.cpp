@@ -20,8 +20,8 @@ namespace {
 using test::text_of_file;
 using test::Workshop;
 
-/// A program of passes with ends of lines, comments and formats as they come; its bytes need not
-/// be ASCII in comments.
+/// A program of passes with random line ends, comments and formats; comments may hold non-ASCII
+/// bytes.
 std::string random_program(std::mt19937& random) {
   const auto one_of = [&](auto... texts) {
     const std::string list[] = {texts...};
@@ -66,7 +66,7 @@ RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
   const double first = 20.0 + static_cast<double>(random() % 100);
   const double delta = static_cast<double>(random() % 200) / 7.0 - 14.0;
   // The program's own time first: the plan must fit.
-  // 40000 minutes fit no program: the refusal tells the program's own time.
+  // 40000 minutes fit no program: the refusal reveals the program's own time.
   const auto unknown =
       shop.compensate(program, R"({"transitions": [{"n": 1, "t_min": [40000], "delta_um": [0]}]})");
   RC_ASSERT(!unknown);
@@ -87,16 +87,16 @@ RC_GTEST_PROP(Strip, RestoresEveryProgramByteForByte, ()) {
 
 TEST(Strip, LeavesOtherCommentsAlone) {
   const Workshop shop;
-  // STEADYREST without the blank and words behind it, or not at the beginning of a comment: the
-  // user's own.
+  // STEADYREST without a blank and words after it, or not at the start of a comment: the user's
+  // own.
   const std::string program = "(STEADYREST)\n(made for STEADYREST 1)\n;a STEADYREST b\nM2";
   test::write_file(shop.original(), program);
   EXPECT_EQ(strip(shop.original(), shop.changed()).value(), 0U);
   EXPECT_EQ(text_of_file(shop.changed()), program);
 }
 
-/// Lines with the mark that an author may have written; of the last ones only a number, a blank or
-/// an axis differs from what compensate() writes.
+/// Lines with the mark that an author may have written; the last ones differ from what compensate()
+/// writes only by a number, a blank or an axis.
 const std::string kOwnLines[] = {
     "G1 X1 F10 (STEADYREST is on this machine)",
     "(STEADYREST is on this machine)",
@@ -119,7 +119,7 @@ const std::string kOwnLines[] = {
 TEST(Strip, RefusesALineThatCompensateDoesNotWriteWithItsLine) {
   const Workshop shop;
   for (const std::string& own : kOwnLines) {
-    // With a head, so that its absence is not the reason.
+    // With a head, so that a missing head is not the reason.
     const std::string program = "(STEADYREST head told --window-s 60)\n" + own + "\nM2\n";
     test::write_file(shop.original(), program);
     const auto stripped = strip(shop.original(), shop.changed());
@@ -130,7 +130,7 @@ TEST(Strip, RefusesALineThatCompensateDoesNotWriteWithItsLine) {
   }
 }
 
-// What compensate() would write, in a program that it has not written.
+// What compensate() would write, in a program that it did not write.
 TEST(Strip, RefusesCorrectionsWithoutAHead) {
   const Workshop shop;
   for (const std::string& line :
@@ -143,7 +143,7 @@ TEST(Strip, RefusesCorrectionsWithoutAHead) {
   }
 }
 
-// Any line of the author's own in a corrected program: nothing is taken out.
+// Any line of the author's own in a corrected program: nothing is removed.
 RC_GTEST_PROP(Strip, TakesNoLineThatCompensateDidNotInsert, ()) {
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   Workshop shop;
@@ -155,7 +155,7 @@ RC_GTEST_PROP(Strip, TakesNoLineThatCompensateDidNotInsert, ()) {
   const std::string& own = kOwnLines[random() % std::size(kOwnLines)];
   const bool apart = random() % 2 == 0;
   text.insert(at, own + "\n");
-  // Or the author has changed a line of ours: a word more in front of its mark.
+  // Or the author changed an inserted line: an extra word before its mark.
   if (apart) {
     text.erase(at, own.size() + 1);
     const auto mark = text.find(" (STEADYREST", at);
@@ -184,7 +184,7 @@ TEST(Strip, RefusesATargetThatIsAFolder) {
   EXPECT_FALSE(std::filesystem::exists(shop.changed()));
 }
 
-// A limit on the size of files stands in for a full disk.
+// A file size limit acts as a full disk.
 TEST(Strip, ADiskThatTakesNoMoreLeavesTheOldFile) {
   const Workshop shop;
   test::write_file(shop.original(), std::string(50'000, '\n') + "M2\n");

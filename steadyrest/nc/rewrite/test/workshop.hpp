@@ -20,7 +20,7 @@ inline void write_file(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// A folder of its own, a machine, and the two files of a rewriting.
+/// A folder of its own, a machine, and the two files of a rewrite.
 class Workshop {
  public:
   Workshop() {
@@ -47,7 +47,7 @@ class Workshop {
     return rewrite::verify(original(), changed(), parse_plan(plan, "plan.json").value(), config,
                            machine, settings);
   }
-  /// Why the changed program with this text is refused; empty when it is proved.
+  /// Why the changed program with this text is refused; empty when it passes.
   std::string fault(const std::string& plan, const std::string& text) const {
     write_file(changed(), text);
     const auto proof = verify(plan);
@@ -69,7 +69,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// What is written on linuxcnc from where Z stands corrected by `to_mm`.
+/// The text that corrects Z by `to_mm` on linuxcnc.
 inline std::string change_to(double to_mm) {
   return change_text(Way{}, Change{.letter = 'Z', .to_mm = to_mm}, "\n");
 }

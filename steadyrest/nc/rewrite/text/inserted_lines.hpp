@@ -8,8 +8,8 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// The numbers of the inserted lines of a changed program, asked for while it runs: cheap where the
-/// lines follow one another.
+/// The numbers of the inserted lines of a changed program, for lookups while it runs: cheap for
+/// consecutive lines.
 class InsertedLines {
  public:
   InsertedLines() = default;
@@ -25,7 +25,7 @@ class InsertedLines {
     }
     return before_ < lines_.size() && lines_[before_] == line;
   }
-  /// How many stand before the line that was asked for last.
+  /// How many precede the line looked up last.
   [[nodiscard]] std::uint32_t before() const noexcept {
     return static_cast<std::uint32_t>(before_);
   }

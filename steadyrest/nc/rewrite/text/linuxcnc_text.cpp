@@ -11,12 +11,13 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-// LinuxCNC's corrections work by G10 L20: the active work offset is set so that the present
-// position reads s more or less than it does. s, the correction in force, and v, the offset it
-// belongs to, are noted in the offset's own slots of axes that the machine does not have (README,
-// "After an abort"), so LinuxCNC saves them together with it.
+// LinuxCNC's corrections use G10 L20: it sets the active work offset so that the present position
+// reads s more or less. s, the correction in force, and v, the offset it belongs to, are noted in
+// the offset's slots for axes that the machine does not have (README, "After an abort"), so
+// LinuxCNC saves them together with it.
 
-// Axes in the order they get notes; unused axes whose slots in the work offset hold them: s, v.
+// Axes in the order they get notes, then unused axes whose slots in the work offset hold them: s,
+// v.
 constexpr std::string_view kServed = "ZYXWVU";
 constexpr std::string_view kNotes = "WVUCBA";
 // LinuxCNC's numbered parameters: #5221 … for G54 (n = 1).
@@ -37,17 +38,17 @@ char lower(char letter) noexcept {
 }
 
 /// The parameter of the work offset in force.
-/// #5220 is the number of the active system: one text serves in all of them.
+/// #5220 is the number of the active system: one text works in all of them.
 std::string in_force(int base) {
   return fmt::format("#[{}+20*#5220]", base);
 }
-/// Not 0 where G10 L20 would set more or less than this axis: in a work offset that is turned about
-/// Z, and where X is a diameter (LinuxCNC's #<_x> is a radius all the same). Empty for other axes.
+/// Not 0 where G10 L20 would not set exactly this axis: in a work offset rotated about Z, and where
+/// X is a diameter (LinuxCNC's #<_x> is always a radius). Empty for other axes.
 std::string when_crooked(char letter) {
   const std::string turned = fmt::format("ABS[{}]", in_force(kRotationNumber));
   return letter == 'X' ? turned + "+#<_lathe_diameter_mode>" : letter == 'Y' ? turned : "";
 }
-// G92 counts as well, as it shifts the same axis; #5210 is 1 while it is in force.
+// G92 counts too, since it shifts the same axis; #5210 is 1 while it is in force.
 std::string offset_of(char letter) {
   return fmt::format("{}+#5210*#{}", in_force(kWorkOffset + axis_of(letter)),
                      kG92 + axis_of(letter));
@@ -55,8 +56,8 @@ std::string offset_of(char letter) {
 
 }  // namespace
 
-// Two slots an axis, in a fixed order of axes whatever the plan corrects: the head of any program
-// finds the notes that another program left.
+// Two slots per axis, in a fixed order of axes whatever the plan corrects: the head of any program
+// finds the notes left by another.
 std::optional<OffsetNote> offset_note(const Way& way, char letter) {
   const auto has = [&](char axis) { return way.axes.find(axis) != std::string::npos; };
   std::size_t before = 0;
@@ -73,7 +74,7 @@ std::optional<OffsetNote> offset_note(const Way& way, char letter) {
       continue;
     }
     (slot % 2 == 0 ? note.sum : note.offset) = kWorkOffset + axis_of(free);
-    // The second slot of the pair: both are filled in.
+    // The second slot of the pair: both are filled.
     if (slot++ == 2 * before + 1) {
       return note;
     }
@@ -82,8 +83,8 @@ std::optional<OffsetNote> offset_note(const Way& way, char letter) {
 }
 
 bool names_note(const Way& way, std::string_view line) {
-  // `#` and its digits, however they are spaced. A number beyond all work offsets stops growing: it
-  // is no note, and must not overflow.
+  // `#` and its digits, however spaced. A number beyond all work offsets stops growing: it is not a
+  // note and must not overflow.
   for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
     int number = 0;
     for (const char c : line.substr(at + 1)) {
@@ -110,10 +111,10 @@ bool names_note(const Way& way, std::string_view line) {
   return false;
 }
 
-// Who starts a program from a line may start it at any. So a line that builds on the one before
-// divides by 0 where that has not been executed just now.
+// A program may be started from any line. So a line that builds on the previous one divides by 0
+// unless that has just been executed.
 // A division by 0 stops LinuxCNC at this line. `holds` is 1 where nothing is noted or v still
-// describes the offset, otherwise 0.
+// matches the offset, otherwise 0.
 std::string linuxcnc_check(const Way& way, char letter, std::string_view ending) {
   const OffsetNote note = offset_note(way, letter).value_or(OffsetNote{});
   const std::string holds = fmt::format("[{} EQ 0] OR [ABS[{}-{}] LT {}]", in_force(note.sum),
@@ -129,8 +130,8 @@ std::string linuxcnc_check(const Way& way, char letter, std::string_view ending)
                      ending);
 }
 
-// v again, after the offset has changed; only directly behind a check, whose 1 it divides by and
-// then clears.
+// Notes v again after the offset has changed; only directly after a check, whose 1 it divides by
+// and then clears.
 std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending) {
   const OffsetNote note = offset_note(way, letter).value_or(OffsetNote{});
   return fmt::format(
@@ -141,13 +142,13 @@ std::string linuxcnc_renote(const Way& way, char letter, std::string_view ending
 std::string linuxcnc_change(const Way& way, const Change& change, std::string_view ending) {
   const OffsetNote note = offset_note(way, change.letter).value_or(OffsetNote{});
   // #<_z> is the position shown: + s takes the noted correction off, − the new one puts it on. Both
-  // are mm; kProgramUnits turns them into the unit in force.
+  // are mm; kProgramUnits converts them to the unit in force.
   const std::string sum = in_force(note.sum);
   const std::string mark =
       fmt::format("(STEADYREST {}{} mm)", change.letter, correction_number(change.to_mm));
   const char axis = lower(change.letter);
   const std::string check = linuxcnc_check(way, change.letter, ending);
-  // Off: nothing remains noted, so the next head finds an offset as the operator left it.
+  // Off: no note remains, so the next head finds the offset as the operator left it.
   if (change.to_mm == 0.0) {
     return check + fmt::format(
                        "G10 L20 P0 {0}[#<_{1}>+{2}*{3}/#<_steadyrest_{1}>] {2}=0 {4}=0 "
@@ -165,7 +166,7 @@ std::string linuxcnc_change(const Way& way, const Change& change, std::string_vi
 
 namespace {
 
-/// Of a program that corrects X where nobody says G8.
+/// For a program that corrects X and does not say G8.
 std::string diameter_head(std::string_view ending) {
   const std::string mark = fmt::format(" (STEADYREST head X){}", ending);
   return "o<steadyrest_x3> if [#<_lathe_diameter_mode> NE 0]" + mark +
@@ -183,7 +184,7 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
   const std::string crooked = when_crooked(letter);
   std::string all;
   std::string listed;
-  // Written out for all nine systems; a sum of magnitudes is 0 only if each of them is.
+  // Written out for all nine systems; a sum of magnitudes is 0 only if every one is.
   for (int n = 1; n <= kWorkOffsets; ++n) {
     all += fmt::format("{}ABS[#{}]", n == 1 ? "" : "+", note.sum + 20 * n);
     listed += fmt::format(" #{}", note.sum + 20 * n);
@@ -192,8 +193,8 @@ std::string axis_head(const OffsetNote& note, char letter, std::string_view endi
   return fmt::format("#<_steadyrest_{}>=[{}]{}", axis, all, mark) +
          fmt::format("o<steadyrest_{0}1> if [#<_steadyrest_{0}> NE 0]{1}", axis, mark) +
          fmt::format(
-             // Another system holds a note, or the offset was set since: by how much the axis is
-             // off is then up to the operator.
+             // Another system holds a note, or the offset was set since: only the operator can tell
+             // how far the axis is off.
              "o<steadyrest_{0}2> if [[#<_steadyrest_{0}>-ABS[{1}] NE 0] OR [ABS[{2}-{3}] GE "
              "{4}]{5}]{6}",
              axis, sum, offset_of(letter), noted, kSame,

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view kBegin = "STEADYREST head told ";
 constexpr std::string_view kSum = "sum";
-// A comment must not contain brackets, and a control may take small letters for capitals or drop
-// blanks: all else than these characters is written as =XX.
+// A comment must not contain brackets, and a control may capitalise letters or drop blanks: any
+// character but these is written as =XX.
 constexpr std::string_view kPlain = "-_./+,:";
 
 bool is_plain(char c) noexcept {
@@ -30,7 +30,7 @@ std::string decoded(std::string_view text) {
     unsigned byte = 0;
     if (text[i] == '=' && i + 2 < text.size() &&
         std::from_chars(&text[i + 1], &text[i + 1] + 2, byte, 16).ptr == &text[i + 1] + 2) {
-      // Two hexadecimal digits are a byte; anything else after = is left as it is.
+      // Two hexadecimal digits are a byte; anything else after = stays as it is.
       out += static_cast<char>(byte);
       i += 2;
     } else {
@@ -41,7 +41,7 @@ std::string decoded(std::string_view text) {
 }
 
 /// FNV-1a over the words as they are written.
-/// Not against forgery: it shows that somebody has edited the line or cut it.
+/// Not against forgery: it shows that the line was edited or truncated.
 std::string sum_of(const std::vector<Told>& told) {
   constexpr std::uint32_t kBasis = 2166136261U;
   constexpr std::uint32_t kPrime = 16777619U;
@@ -83,7 +83,7 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   if (told.empty()) {
     return {};
   }
-  // Last, over all others: a mark that was cut short has no sum.
+  // Last, over all others: a truncated mark has no sum.
   told.push_back({.name = std::string{kSum}, .value = sum_of(told)});
   const bool sinumerik = of_sinumerik(way.method);
   std::string text;
@@ -97,7 +97,7 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   };
   for (const Told& one : told) {
     const std::string word = told_as_text(one);
-    // Controls have longest lines, so the record may take several; a word is never split.
+    // Controls limit the line length, so the record may take several lines; a word is never split.
     if (line.size() + 1 + word.size() > kLongestTold) {
       put();
     }
@@ -133,7 +133,7 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
     sum = std::move(told.back());
     told.pop_back();
   }
-  // A program without inserted lines has no mark to miss.
+  // A program without inserted lines needs no mark.
   if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
     return kernel::outcome::refuse(
         changed, "the record in its head of how it was made is missing or changed",

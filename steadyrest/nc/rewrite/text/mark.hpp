@@ -10,25 +10,25 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// What the program was made with, in the comments that its head begins with, so that verify need
+/// The options the program was made with, in the comments that begin its head, so that verify need
 /// not be told again: `(STEADYREST head told --dialect linuxcnc --window-s 60 --sum 51f0c9a3)`. The
-/// sum is over the others, against a slip of the hand: nothing else in the program would show it.
+/// sum covers the others against accidental edits, which nothing else in the program would show.
 struct Told {
   std::string name;   ///< of an option, without its dashes
   std::string value;  ///< empty for a flag
   bool operator==(const Told&) const = default;
 };
 
-/// Longest comment that every control reads, LinuxCNC's 255 less what is before and behind.
+/// Longest comment that every control reads: LinuxCNC's 255 less what surrounds it.
 inline constexpr std::size_t kLongestTold = 200;
 
-/// As it is written: whatever is not a letter, a digit or one of `-_./+,:` is =XX; a % would
-/// end the program on a fanuc.
+/// As written: anything but a letter, a digit or one of `-_./+,:` becomes =XX; a % would end the
+/// program on a fanuc.
 [[nodiscard]] std::string told_as_text(const Told& one);
 [[nodiscard]] std::string mark_text(const Way& way, std::vector<Told> told,
                                     std::string_view ending);
-/// Empty for a program without inserted lines. Refused: a mark that is not what was written, and
-/// inserted lines without one, as earlier versions wrote them.
+/// Empty for a program without inserted lines. Refused: an altered mark, and inserted lines without
+/// one, as written by earlier versions.
 [[nodiscard]] kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed);
 
 }  // namespace steadyrest::nc::rewrite

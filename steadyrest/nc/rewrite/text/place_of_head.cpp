@@ -11,7 +11,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-// The head must run before anything acts, but behind what the control demands at the top: %, a
+// The head must run before anything acts, but after what the control requires at the top: %, a
 // program number, definitions.
 constexpr std::string_view kBlanks = " \t\r";
 
@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view line) noexcept {
   return first == std::string_view::npos ? std::string_view{} : line.substr(first);
 }
 
-// A block number in front of a definition changes nothing.
+// A block number before a definition changes nothing.
 std::string_view without_number(std::string_view line) noexcept {
   if (line.size() < 2 || upper(line[0]) != 'N' || !is_digit(line[1])) {
     return line;
@@ -46,8 +46,8 @@ bool first_word(std::string_view line, std::string_view upper_word) noexcept {
 
 }  // namespace
 
-// A SINUMERIK wants definitions before the first block that does something (alarm 14500), a FANUC
-// the program's number first.
+// A SINUMERIK requires definitions before the first block that does something (alarm 14500), a
+// FANUC the program number first.
 bool PlaceOfHead::opens(std::string_view line) const noexcept {
   if (line.empty() || line[0] == '%') {
     return true;
@@ -66,15 +66,15 @@ bool PlaceOfHead::opens(std::string_view line) const noexcept {
                              [block](std::string_view word) { return first_word(block, word); });
 }
 
-// The first line that opens nothing is where the head goes; later ones are not looked at.
+// The head goes before the first line that opens nothing; later ones are ignored.
 void PlaceOfHead::look(std::string_view line, std::uint32_t number) noexcept {
   if (line_ == 0 && !opens(trimmed(line))) {
     line_ = number;
   }
 }
 
-// A program that writes to the same variable would undo corrections, or be corrected by its own
-// value: refused by the text alone, before anything is executed.
+// A program that writes to the same variable would undo corrections or be corrected by its own
+// value: refused by its text alone, before anything is executed.
 std::string own_use(const Way& way, std::string_view line) {
   constexpr std::string_view kSetting = "$SA_TEMP_COMP";
   constexpr std::string_view kFrames = "$P_";

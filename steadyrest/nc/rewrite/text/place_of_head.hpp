@@ -9,15 +9,15 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// Goes through the text of a program before anything of it is understood: where the head may
-/// stand, and whether the program uses itself what the corrections are written to.
+/// Scans a program's text before any of it is interpreted: where the head may go, and whether the
+/// program itself uses what the corrections are written to.
 class PlaceOfHead {
  public:
   explicit PlaceOfHead(const Way& way) : way_(way) {}
 
   /// The next line of the program.
   void look(std::string_view line, std::uint32_t number) noexcept;
-  /// The line before which the head stands: the first that does something. 0 in an empty program.
+  /// The line after the head: the first that does something. 0 in an empty program.
   [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 
  private:
@@ -27,7 +27,7 @@ class PlaceOfHead {
   std::uint32_t line_ = 0;
 };
 
-/// What the line may use itself of that to which corrections are written; empty when nothing.
+/// Whatever the line itself may use of what corrections are written to; empty when nothing.
 [[nodiscard]] std::string own_use(const Way& way, std::string_view line);
 /// What to do about it.
 [[nodiscard]] std::string_view against_own_use(const Way& way) noexcept;

@@ -30,11 +30,11 @@ constexpr std::size_t kLargestFile = 1U << 24U;
 constexpr std::size_t kMostTransitions = 100'000;
 constexpr double kLongest_min = 30.0 * 24.0 * 60.0;
 constexpr double kLargest_um = 10'000.0;
-/// Axes that end so near to one another end together: their makers may have rounded each interval.
+/// Axes that end this close together count as ending together: the plan's maker may have rounded
+/// each interval.
 constexpr double kSameTime_s = 1e-3;
 
-/// The first four are read; the others are what the maker of a plan may say about it, on which
-/// nothing here depends.
+/// The first four are read; the others are the plan maker's own remarks and have no effect here.
 constexpr std::array<std::string_view, 19> kRootKeys = {
     "machine",      "axis",    "axes",        "transitions",    "made_by", "program",  "level",
     "tolerance_um", "share",   "k",           "cyclogram",      "date",    "passport", "max_um",
@@ -65,8 +65,8 @@ class PlanReader {
     if (text.size() > kLargestFile) {
       return refuse("more than 16 MiB; this is not a plan", "give the JSON file of a plan");
     }
-    // JSON allows a key twice, and most readers take the last without a word. Here the parser's
-    // events tell.
+    // JSON allows a key twice, and most readers silently take the last. The parser's events reveal
+    // it.
     std::vector<std::set<std::string>> keys;
     std::string twice;
     const auto watch = [&](int /*depth*/, Json::parse_event_t event, Json& parsed) {
@@ -92,8 +92,8 @@ class PlanReader {
     return twice.empty() || refuse_key(twice, "a key that appears twice", "keep one of them");
   }
 
-  // Either `transitions`, for one axis, or `axes`, for several; every other key must be one of
-  // those that makers of plans are known to write.
+  // Either `transitions` for one axis or `axes` for several; any other key must be one that plan
+  // makers are known to write.
   bool root() {
     if (!json_.is_object()) {
       return refuse("not an object", "write {\"axis\": \"Z\", \"transitions\": […]}");
@@ -151,8 +151,8 @@ class PlanReader {
       return refuse_key(list_key, "not a list of transitions (1 to 100000)",
                         R"(write [{"n": 1, "t_min": [60], "delta_um": [0]}])");
     }
-    // Sums run from transition to transition: the thermal displacement does not start again at a
-    // tool change.
+    // Sums carry over from transition to transition: a tool change does not reset the thermal
+    // displacement.
     double now_s = 0.0;
     double sum_um = 0.0;
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -206,13 +206,13 @@ class PlanReader {
         return refuse_key(key + ".t_min" + at, "not a duration",
                           "write minutes above 0, at most 43200");
       }
-      // At the START of the interval the displacement so far counts (Marusich's R = {n; t; δ}).
+      // The displacement so far counts at the START of the interval (Marusich's R = {n; t; δ}).
       sum_um += deltas[i];
       if (!(std::abs(deltas[i]) <= kLargest_um && std::abs(sum_um) <= kLargest_um)) {
         return refuse_key(key + ".delta_um" + at, "far beyond a thermal displacement",
                           "write micrometres, at most 10000 in total");
       }
-      // A zero step would only cost a safe place.
+      // A zero step would only use up a safe place.
       if (deltas[i] != 0.0) {
         made.steps.push_back({now_s, sum_um});
       }

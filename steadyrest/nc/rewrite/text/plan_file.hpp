@@ -9,13 +9,13 @@
 
 #include <steadyrest/kernel/outcome/result.hpp>
 
-/// Corrections written into the text of an NC program, taken out again, and proved.
+/// Writes corrections into the text of an NC program, takes them out again, and proves them.
 namespace steadyrest::nc::rewrite {
 
-/// From `time_s` on, the axis stands corrected against `displacement_um` altogether.
+/// From `time_s` on, the axis is corrected for `displacement_um` in total.
 struct PlannedStep {
   double time_s = 0.0;           ///< since the program's start
-  double displacement_um = 0.0;  ///< Σ δ so far; the machine's axis is moved by its negative
+  double displacement_um = 0.0;  ///< Σ δ so far; the axis is moved by its negative
 };
 
 struct AxisPlan {
@@ -25,22 +25,22 @@ struct AxisPlan {
 };
 
 /// The system R of corrections: {n; {t_j}; {δ_j}} for each transition, n the number of intervals,
-/// t_j their durations, δ_j the further displacement that is corrected at the START of interval j.
-/// The sum is carried over from transition to transition.
+/// t_j their durations, δ_j the additional displacement to correct at the START of interval j. The
+/// sum carries over from transition to transition.
 struct Plan {
   std::string file;
-  std::string machine;  ///< machine file that the plan names; empty for none
+  std::string machine;  ///< machine file named in the plan; empty for none
   double total_s = 0.0;
   std::vector<AxisPlan> axes;
 };
 
-/// There is something to correct.
+/// Whether there is anything to correct.
 [[nodiscard]] inline bool corrects(const Plan& plan) noexcept {
   return std::ranges::any_of(plan.axes, [](const AxisPlan& axis) { return !axis.steps.empty(); });
 }
 
-/// Reads PLAN.json (README.md has its keys). Refused with the line or the key: what is not JSON,
-/// keys that are not known, a key twice, lists whose length is not n, numbers out of range.
+/// Reads PLAN.json (README.md has its keys). Refused with the line or the key: invalid JSON,
+/// unknown keys, a key twice, lists whose length is not n, numbers out of range.
 [[nodiscard]] kernel::outcome::Result<Plan> read_plan(const std::string& path);
 [[nodiscard]] kernel::outcome::Result<Plan> parse_plan(std::string_view text,
                                                        const std::string& path);

@@ -46,7 +46,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
                     "plan with a larger share of the tolerance");
     }
     for (const PlannedStep& step : axis.steps) {
-      // Half a digit more: the limit itself, written in decimal, must pass.
+      // Half a digit more, so that the limit itself, written in decimal, passes.
       if (std::abs(step.displacement_um) * 1e-3 > settings.clamp_mm + kHalfDigit_mm) {
         return refuse(
             fmt::format(
@@ -60,7 +60,7 @@ Result<void> check_plan(const Plan& plan, const Settings& settings,
 }
 
 Result<void> check_total(const Plan& plan, double program_s) {
-  // Safe places are found by time, so a plan for another program would put its corrections
+  // Safe places are found by time, so a plan for another program would put its corrections just
   // anywhere.
   if (std::abs(plan.total_s - program_s) <= std::max(kFit_s, kFitShare * program_s)) {
     return {};
@@ -72,8 +72,7 @@ Result<void> check_total(const Plan& plan, double program_s) {
                                  "make the plan from this program and this machine file");
 }
 
-// Only axes that are corrected get a head, but on linuxcnc the head looks after every axis of the
-// machine.
+// Only corrected axes get a head, but on linuxcnc the head covers every axis of the machine.
 std::string whole_head(const Plan& plan, const Settings& settings) {
   std::string letters;
   for (const AxisPlan& axis : plan.axes) {
@@ -83,9 +82,9 @@ std::string whole_head(const Plan& plan, const Settings& settings) {
 }
 
 // Without the control's data both programs run with offsets that no text contains. A correction
-// written as an absolute value, or one that misses the tool's length or G92, then shows in the
-// moves. 0.375 is exact in binary, so no rounding comes in; each system has another multiple, so
-// mixing them up shows as well.
+// written as an absolute value, or one that misses the tool length or G92, then shows in the moves.
+// 0.375 is exact in binary, so nothing is rounded; each system has a different multiple, so mixing
+// them up shows too.
 interpret::Config with_unknown_offsets(interpret::Config config, const Way& way) {
   constexpr double kOwn_mm = 0.375;
   const auto none = [](const interpret::Axes& axes) { return axes == interpret::Axes{}; };
@@ -93,8 +92,7 @@ interpret::Config with_unknown_offsets(interpret::Config config, const Way& way)
     return config;
   }
   const interpret::DialectRules& rules = interpret::rules_of(config.dialect);
-  // The head may set the external offset to 0 where it is free: it must be unknown only where it is
-  // not.
+  // The head may set a free external offset to 0: it must be unknown only where it is not free.
   if (none(config.external) && rules.g10_adds && config.external_offset &&
       !way.external_offset_free) {
     std::fill_n(config.external.begin(), 3, kOwn_mm);

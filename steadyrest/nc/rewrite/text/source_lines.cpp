@@ -7,7 +7,7 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-// The text as it is in the file, for copying and comparing: lines with their own ends, no words.
+// The raw text of the file, for copying and comparing: lines with their own ends, no words.
 Result<SourceLines> SourceLines::open(const std::string& path) {
   auto source = read::LineSource::open(path);
   if (!source) {
@@ -16,7 +16,7 @@ Result<SourceLines> SourceLines::open(const std::string& path) {
   return SourceLines(std::move(*source), path);
 }
 
-// A program must be seen to its end: half a file would be proved as if it were whole.
+// A program must be read to its end: otherwise half a file would be proved as if it were whole.
 Result<void> SourceLines::whole() const {
   if (status_ == read::LineSource::Status::end) {
     return {};

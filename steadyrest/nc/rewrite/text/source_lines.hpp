@@ -10,7 +10,7 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// The lines of a file together with their ends: what is copied byte for byte.
+/// The lines of a file together with their line ends, for copying byte for byte.
 class SourceLines {
  public:
   static kernel::outcome::Result<SourceLines> open(const std::string& path);
@@ -19,7 +19,7 @@ class SourceLines {
     status_ = source_.next();
     return status_ == read::LineSource::Status::line;
   }
-  /// Goes over the next line if it is this one with this end; else nothing is done.
+  /// Skips the next line if it is this one with this line end; else does nothing.
   bool skip(std::string_view line, std::string_view ending) noexcept {
     return !ending.empty() && line.data() + line.size() == ending.data() &&
            source_.skip({line.data(), line.size() + ending.size()});
@@ -27,7 +27,7 @@ class SourceLines {
   [[nodiscard]] std::string_view line() const noexcept { return source_.line(); }
   [[nodiscard]] std::uint32_t number() const noexcept { return source_.number(); }
   [[nodiscard]] std::string_view ending() const noexcept {
-    // It stands in the buffer behind the line: LF, CR LF, or at the file's end a lone CR.
+    // It follows the line in the buffer: LF, CR LF, or at the file's end a lone CR.
     return {source_.line().data() + source_.line().size(), source_.ending_length()};
   }
   /// Refused when next() ended before the end of the file.

@@ -10,7 +10,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-/// A SINUMERIK line without its comment: `;` within quotation marks begins none.
+/// A SINUMERIK line without its comment: a `;` within quotation marks begins none.
 std::string_view code_of(std::string_view line) noexcept {
   bool quoted = false;
   const auto* const end = std::ranges::find_if(line, [&quoted](char c) {
@@ -22,7 +22,7 @@ std::string_view code_of(std::string_view line) noexcept {
 
 }  // namespace
 
-// The mark must begin a comment: the word in the middle of a text is the user's own.
+// The mark must begin a comment: in the middle of a text the word is the user's own.
 bool is_inserted(std::string_view line) noexcept {
   for (std::size_t at = line.find(kTag); at != std::string_view::npos;
        at = line.find(kTag, at + 1)) {
@@ -36,7 +36,7 @@ bool is_inserted(std::string_view line) noexcept {
 }
 
 bool is_head(std::string_view inserted_line) noexcept {
-  // The four kinds of lines that the head consists of.
+  // The four kinds of lines in a head.
   return inserted_line.find("(STEADYREST head ") != std::string_view::npos ||
          inserted_line.find(";STEADYREST head ") != std::string_view::npos ||
          inserted_line.find("(ABORT,STEADYREST ") != std::string_view::npos ||
@@ -44,7 +44,7 @@ bool is_head(std::string_view inserted_line) noexcept {
 }
 
 // R50, r 50, R[50]; an expression in brackets could be any number, so it counts as this one. An R
-// within a name (CR=) is none.
+// within a name (CR=) does not.
 bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
   line = code_of(line);
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -66,7 +66,7 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
     std::uint64_t value = 0;
     const std::size_t first = next;
     for (; next < line.size() && is_digit(line[next]); ++next) {
-      // Bounded: a number of many digits must not wrap round to ours.
+      // Bounded: a number of many digits must not wrap round to this one.
       value =
           std::min<std::uint64_t>(value * 10 + static_cast<unsigned>(line[next] - '0'), 1U << 20U);
     }
@@ -78,7 +78,7 @@ bool uses_parameter(std::string_view line, std::uint32_t number) noexcept {
 }
 
 bool uses_own_names(std::string_view line) noexcept {
-  // LinuxCNC ignores blanks and case within a name, so a plain search could be passed by.
+  // LinuxCNC ignores blanks and case within a name, so a plain search could miss it.
   for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
     std::size_t next = at;
     const bool same = std::ranges::all_of(kOwnNames, [&](char wanted) {
@@ -122,7 +122,7 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   std::size_t removed = 0;
   std::uint32_t first = 0;
   bool headed = false;
-  // Byte for byte: lines that stay are written with their own ends.
+  // Byte for byte: remaining lines keep their own line ends.
   while (lines->next()) {
     if (is_inserted(lines->line())) {
       // The mark alone proves nothing: the line may be the author's own move.
@@ -143,7 +143,7 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   if (auto whole = lines->whole(); !whole) {
     return std::unexpected(whole.error());
   }
-  // compensate() puts a head into every program that it corrects.
+  // compensate() puts a head into every program it corrects.
   if (removed > 0 && !headed) {
     return kernel::outcome::refuse(
         program, first, "has a STEADYREST comment, but the program has no head of corrections",

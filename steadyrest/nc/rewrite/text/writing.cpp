@@ -11,7 +11,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-// Digits behind the point: what each control takes, and enough for the smallest increment that a
+// Digits after the point: as many as each control accepts, and enough for the smallest increment a
 // machine file may give.
 constexpr int kLinuxcncPlaces = 6;
 constexpr int kMmPlaces = 4;
@@ -24,9 +24,8 @@ double rounded(double value, int places) noexcept {
   return std::round(value * scale) / scale + 0.0;  // no -0
 }
 
-/// At least four digits behind the point (five in inches), more where they say something.
-/// Trailing zeros say nothing, but a control needs the point, and four digits read as micrometres
-/// at a glance.
+/// At least four digits after the point (five in inches), more where they are not zero. A control
+/// needs only the point, but four digits let micrometres be read at a glance.
 std::string number(double value, int places, int least) {
   std::string text = fmt::format("{:.{}f}", value, places);
   while (places > least && text.back() == '0') {
@@ -43,7 +42,7 @@ std::string tag(const Change& change, int places) {
 
 std::string fanuc_change(Method method, const Change& change, std::string_view ending) {
   const bool mm = change.unit_mm == 1.0;
-  // P0 is the external offset on Fanuc but G52 on Haas, which gets the active offset by its number.
+  // P0 is the external offset on Fanuc but G52 on Haas, where the active offset is set by number.
   // In G91, since the offset's value belongs to the operator.
   const std::size_t system = method == Method::fanuc ? 0 : change.active_offset + 1;
   const std::string mark = tag(change, mm ? kMostMmPlaces : kLinuxcncPlaces);
@@ -59,22 +58,22 @@ std::string fanuc_change(Method method, const Change& change, std::string_view e
   return text;
 }
 
-// The control reads blocks ahead of the motion: STOPRE makes it write the value when the machine
-// gets here.
+// The control reads blocks ahead of the motion: STOPRE delays the write until the machine gets
+// here.
 std::string beside_change(const Way& way, const Change& change, std::string_view ending) {
   const auto text = [](double value) { return number(value + 0.0, kMostMmPlaces, kMmPlaces); };
   const std::string variable = way.method == Method::r_parameter
                                    ? fmt::format("R{}", way.r_parameter)
                                    : fmt::format("$SA_TEMP_COMP_ABS_VALUE[{}]", change.letter);
   // The manuals disagree on which way a positive temperature compensation moves the axis: the
-  // machine file says what an indicator showed.
+  // machine file says what a dial indicator showed.
   const double value_mm =
       way.method == Method::r_parameter ? change.to_mm : way.sign * change.to_mm;
   return fmt::format("STOPRE ;STEADYREST {0}{1} mm{4}{2}={3} ;STEADYREST {0}{1} mm{4}",
                      change.letter, text(change.to_mm), variable, text(value_mm), ending);
 }
 
-// From what is stored, so that nothing adds up and the operator's own fine offset stays.
+// Relative to the stored value, so that nothing adds up and the operator's own fine offset stays.
 std::string fine_offset(char letter, double to_mm) {
   const std::string stored = fmt::format("$P_IFRAME[{0},FI]=$P_UIFR[$P_UIFRNUM,{0},FI]", letter);
   return to_mm == 0.0 ? stored
@@ -93,8 +92,8 @@ double writable_mm(const Way& way, double unit_mm, double correction_mm) noexcep
     return rounded(correction_mm, kLinuxcncPlaces);
   }
   const bool inch = unit_mm != 1.0 && !unit_free(way.method);
-  // 0.0001 inch where millimetres have 0.001. The sum is rounded, not each change, so nothing
-  // drifts.
+  // 0.0001 inch where the metric increment is 0.001 mm. The sum is rounded, not each change, so
+  // nothing drifts.
   const double increment_mm = way.increment_mm * (inch ? 0.1 * unit_mm : 1.0);
   return std::round(correction_mm / increment_mm) * increment_mm + 0.0;  // no -0
 }
@@ -117,15 +116,15 @@ std::string change_text(const Way& way, const Change& change, std::string_view e
                      change.letter, number(change.to_mm, kMostMmPlaces, kMmPlaces), ending);
 }
 
-// G0 to where the axis is, in the coordinates that the correction has just shifted: so the shift
-// acts before the line.
+// G0 to where the axis is, in the coordinates that the correction has just shifted, so that the
+// shift acts before the line.
 std::string restate_text(Method method, char letter, double position_mm, double unit_mm,
                          std::string_view ending) {
   constexpr double kExact = 1e-10;
   const int places = unit_mm == 1.0 ? kMmPlaces : kInchPlaces;
   const double value = rounded(position_mm / unit_mm, places);
-  // A position that the program's digits cannot say would move the axis: then there is no place
-  // here.
+  // A position that the program's digits cannot express would move the axis, so this is not a
+  // place.
   if (std::abs(value * unit_mm - position_mm) > kExact) {
     return {};
   }
@@ -139,8 +138,8 @@ std::string restate_text(Method method, const Change& change, bool units_said, d
   if (units_said) {
     return restate_text(method, change.letter, position_mm, change.unit_mm, ending);
   }
-  // The unit is not known here, so the position is not written: what the control shows is put back
-  // by what the change has just added to it.
+  // The unit is unknown here, so the position is not written out: the text takes the position shown
+  // and removes what the change has just added.
   const double back_mm = change.to_mm - change.from_mm;
   const char axis = static_cast<char>(change.letter - 'A' + 'a');
   return fmt::format("G0 {}[#<_{}>{}{}*[#<_metric>+#<_imperial>/25.4]] (STEADYREST restated){}",
@@ -158,7 +157,7 @@ std::string renote_text(const Way& way, char letter, std::string_view ending) {
 
 namespace {
 
-/// Whether somebody has touched off through what an aborted run has left shows in no number.
+/// No number shows whether somebody touched off through the correction left by an aborted run.
 std::string question(const Way& way, std::string_view letters, std::string_view ending) {
   if (way.method == Method::fanuc) {
     return fmt::format(
@@ -177,7 +176,7 @@ std::string question(const Way& way, std::string_view letters, std::string_view 
 
 std::string axis_head(const Way& way, char letter, std::string_view ending) {
   switch (way.method) {
-    case Method::r_parameter:  // these two keep their values over an abort and over power off
+    case Method::r_parameter:  // these two keep their values through an abort and power off
       return fmt::format("R{}=0.0000 ;STEADYREST head {}{}", way.r_parameter, letter, ending);
     case Method::setting_data:
       return fmt::format("$SA_TEMP_COMP_ABS_VALUE[{0}]=0.0000 ;STEADYREST head {0}{1}", letter,
@@ -206,7 +205,7 @@ std::string head_text(const Way& way, std::string_view letters, std::string_view
         letters, ending);
   }
   std::string head;
-  // frame_fine takes the stored frame: nothing to ask.
+  // frame_fine loads the stored frame: nothing to ask.
   if (way.method != Method::frame_fine && !way.cleared_after_abort) {
     head = question(way, letters, ending);
   }

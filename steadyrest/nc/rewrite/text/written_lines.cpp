@@ -17,11 +17,11 @@ constexpr bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
-/// How long the number at `at` is, its sign included; 0 where none begins. What a G, M or L is
-/// followed by is no number but the word's meaning: G1 is not G0.
+/// Length of the number at `at`, including its sign; 0 where none begins. Digits after G, M or L
+/// are not a number but the word's meaning: G1 is not G0.
 std::size_t number_at(std::string_view line, std::size_t at) noexcept {
   constexpr std::string_view kCodes = "GML";
-  // Within a code, too: the 0 of L20.
+  // Also within a code: the 0 of L20.
   std::size_t word = at;
   while (word > 0 && (is_digit(line[word - 1]) || line[word - 1] == '.')) {
     --word;
@@ -72,7 +72,8 @@ bool is_told(std::string_view line) noexcept {
          line.find(')') == line.size() - 1;
 }
 
-/// What one method writes of one axis. Signs are the numbers'; 0 is written shorter.
+/// All lines that one method writes for one axis. Signs belong to the numbers; 0 is written
+/// shorter.
 std::string all_of(const Way& way, char letter) {
   constexpr double kSome_mm = 0.25;
   std::string text = check_text(way, letter, "\n") + renote_text(way, letter, "\n");
@@ -97,7 +98,8 @@ WrittenLines::WrittenLines() {
                                  Method::r_parameter, Method::setting_data, Method::frame_fine};
   for (const Method method : kMethods) {
     for (const char letter : interpret::kAxisLetters) {
-      // LinuxCNC's head looks after the axes of the machine: one of each, so each has its note.
+      // LinuxCNC's head covers the axes of the machine: a machine with this one axis only, so it
+      // has its note.
       Way way{.method = method, .axes = std::string(1, letter)};
       add(all_of(way, letter));
       for (const bool free : {false, true}) {

@@ -9,9 +9,8 @@ namespace steadyrest::nc::rewrite {
 
 using kernel::outcome::Result;
 
-// A place asks for its time before its line's moves are handed over; the timer, which looks ahead,
-// answers later. Moves and events get running numbers for that, since a program's lines repeat in
-// loops.
+// A place asks for its time before its line's moves are fed; the timer, which looks ahead, answers
+// later. For that, moves and events get running numbers, since lines repeat in loops.
 Result<std::unique_ptr<Clock>> Clock::make(const kernel::machine::Machine& machine, Told told) {
   auto timer = plan::SegmentTimer::make(machine);
   if (!timer) {
@@ -32,7 +31,7 @@ std::unique_ptr<Clock> Clock::of(const KnownTimes& known, Told told) {
 }
 
 void Clock::arrived(std::uint32_t sequence, double time_s) {
-  // A block that takes no time is reached with the move behind it.
+  // A block that takes no time is reached with the next move.
   while (!asked_.empty() && asked_.front().sequence <= sequence) {
     told_(asked_.front().ticket, time_s);
     asked_.pop_front();
@@ -40,7 +39,7 @@ void Clock::arrived(std::uint32_t sequence, double time_s) {
 }
 
 void Clock::tell(const Walk& walk) {
-  // Known times come from a walk over the same file a moment before (README, "Limits").
+  // Known times come from a walk over the same file just before (README, "Limits").
   for (; !asked_.empty(); asked_.pop_front()) {
     const auto at = known_->line_s.find(walk.line());
     if (at != known_->line_s.end()) {
@@ -51,7 +50,7 @@ void Clock::tell(const Walk& walk) {
   }
 }
 
-// A block's events come before its moves, but for a stop and the program's end.
+// A block's events come before its moves, except a stop and the program's end.
 void Clock::feed(Walk& walk) {
   if (known_ != nullptr) {
     tell(walk);
@@ -88,7 +87,7 @@ Result<double> Clock::finish() {
   if (!time) {
     return std::unexpected(time.error());
   }
-  // Lines behind the last move are reached at the program's end.
+  // Lines after the last move are reached at the program's end.
   arrived(std::numeric_limits<std::uint32_t>::max(), *time);
   return *time;
 }

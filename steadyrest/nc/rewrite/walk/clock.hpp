@@ -14,23 +14,23 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// What a clock has told of a program: for those who need not time it again.
+/// A program's times from a clock, so that it need not be timed again.
 struct KnownTimes {
   std::map<std::uint32_t, double> line_s;  ///< by the line, which is executed once
   double program_s = 0.0;
 };
 
-/// When the machine gets to the lines of a walk: the times of segment_timer, asked for at chosen
-/// lines only, so that memory does not grow with the program.
+/// When the machine reaches the lines of a walk: the times of segment_timer, asked for only at
+/// chosen lines, so that memory does not grow with the program.
 class Clock {
  public:
-  /// Told of a chosen line, in the order of the lines: when its first move begins.
+  /// Called for each chosen line, in order, with the time at which its first move begins.
   using Told = std::function<void(std::uint64_t ticket, double time_s)>;
 
   static kernel::outcome::Result<std::unique_ptr<Clock>> make(
       const kernel::machine::Machine& machine, Told told);
-  /// Knows the times already: nothing is planned. finish() refuses a line that was asked for and is
-  /// not known. `known` outlives the clock.
+  /// With known times: nothing is planned. finish() refuses a requested line that is not known.
+  /// `known` must outlive the clock.
   static std::unique_ptr<Clock> of(const KnownTimes& known, Told told);
   /// One of the two.
   static kernel::outcome::Result<std::unique_ptr<Clock>> make(
@@ -42,9 +42,9 @@ class Clock {
   void ask(std::uint64_t ticket) {
     asked_.push_back({.sequence = sequence_ + 1, .ticket = ticket});
   }
-  /// The moves and events of the line that the walk has been at. Their line is another afterwards.
+  /// Feeds the moves and events of the walk's current line. Overwrites their line numbers.
   void feed(Walk& walk);
-  /// The program's total time; every line that was asked for is told before it returns.
+  /// The program's total time; reports every requested line before it returns.
   [[nodiscard]] kernel::outcome::Result<double> finish();
 
  private:
@@ -61,7 +61,7 @@ class Clock {
   std::uint32_t unknown_line_ = 0;
   Told told_;
   std::deque<Asked> asked_;
-  std::uint32_t sequence_ = 0;  ///< stands in for the line, which need not grow
+  std::uint32_t sequence_ = 0;  ///< replaces the line number, which need not grow
 };
 
 }  // namespace steadyrest::nc::rewrite

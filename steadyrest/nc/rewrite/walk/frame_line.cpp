@@ -9,7 +9,7 @@
 namespace steadyrest::nc::rewrite {
 
 // A line that changes the frame while a correction is in force: the correction comes off before it
-// and goes on again behind it. The obstacles, in the order in which they are named.
+// and goes on again after it. The obstacles, in the order they are reported.
 std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
                                                  const std::string& program) {
   const auto refuse = [&](std::string what, std::string to_do) {
@@ -28,7 +28,7 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
                               letter),
                   "store it before the first correction, or leave this axis out of the plan");
   }
-  // Lines that may run twice, or never, take nothing off reliably.
+  // Lines that may run twice or never cannot take it off reliably.
   if (!frame.may_write) {
     constexpr std::string_view kWhere =
         "in a subprogram, a loop, cutter compensation, a rotated frame, diameter mode (G7) or a "
@@ -39,7 +39,7 @@ std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char le
                : refuse(fmt::format("the work offset changes {} while a correction is on", kWhere),
                         "change it at the top level, without /");
   }
-  // The axis would move without its correction in that line.
+  // The axis would move uncorrected in that line.
   if (frame.moves_axis && frame.frame == Frame::changed) {
     return refuse(
         fmt::format("the work offset changes in a line that moves {} while a correction is on",

@@ -11,8 +11,8 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// A line that does something to the frame in which a correction stands, or the program's end;
-/// where the frame is kept and the program does not end, it gives the offset another value.
+/// A line that affects the frame that holds a correction, or the program's end; where the frame is
+/// kept and the program does not end, the line sets the offset.
 struct FrameLine {
   std::uint32_t line = 0;
   std::uint32_t top_line = 0;
@@ -28,8 +28,8 @@ struct FrameLine {
   double unit_behind_mm = 1.0;
 };
 
-/// Why a correction of the axis may not stand at the line; nothing where it is taken off before it
-/// (and put on again behind it, unless the program ends there).
+/// Why a correction of the axis may not be in force at the line; nothing where it can come off
+/// before it (and go on again after it, unless the program ends there).
 [[nodiscard]] std::optional<kernel::outcome::Refusal> fault_of(const FrameLine& frame, char letter,
                                                                const std::string& program);
 

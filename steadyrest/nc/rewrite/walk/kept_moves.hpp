@@ -13,7 +13,7 @@ class KeptMoves final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& move) override {
     moves.push_back(move);
-    if (!move.spline.empty()) {  // its points are the interpreter's
+    if (!move.spline.empty()) {  // the interpreter owns its points
       splines_.emplace_back(move.spline.begin(), move.spline.end());
       moves.back().spline = splines_.back();
     }

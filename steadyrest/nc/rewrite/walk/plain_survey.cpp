@@ -7,19 +7,18 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-// Most CAM programs have no subprograms, loops or `/` lines. What must be known of those shows in
-// the text: no line is repeated, and tool changes and G43 are words. One pass over the characters
-// then replaces a run of the interpreter. Anything else met (parameters, O-words, M98, `/`) ends
-// this, and survey() runs the program.
+// Most CAM programs have no subprograms, loops or `/` lines. For those the text shows everything:
+// no line is repeated, and tool changes and G43 are words. One pass over the characters then
+// replaces a run of the interpreter. Anything else (parameters, O-words, M98, `/`) ends this, and
+// survey() runs the program.
 
-/// From `blank` on there is nothing to be done.
+/// From `blank` on nothing needs to be done.
 enum class Role : std::uint8_t { other, code, round, rest, blank, digit, point, sign, word };
 
 constexpr std::array<Role, 256> roles() {
   std::array<Role, 256> out{};
   out[' '] = out['\t'] = Role::blank;
-  // Words other than G and M say nothing about the survey, so letters, digits and signs need no
-  // look.
+  // Only G and M words matter to the survey, so other letters, digits and signs are skipped.
   for (unsigned c = '0'; c <= '9'; ++c) {
     out[c] = Role::digit;
   }
@@ -43,9 +42,8 @@ Role role(char c) noexcept {
   return kRoles[static_cast<unsigned char>(c)];
 }
 
-/// What a line weighs: nothing where nothing is to be done, 1 for each G, more for all else.
-/// One G weighs 1, all else that matters 256, so the sum tells both apart: 1 is a single G and
-/// nothing more. No line is long enough for 256 of them.
+/// Weights of a line's characters: 0 where nothing needs to be done, 1 for each G, 256 for anything
+/// else that matters. A sum of 1 is a single G and nothing more. No line is long enough for 256 Gs.
 constexpr std::array<std::uint32_t, 256> weights() {
   std::array<std::uint32_t, 256> out{};
   for (std::size_t c = 0; c < out.size(); ++c) {
@@ -57,7 +55,7 @@ constexpr std::array<std::uint32_t, 256> weights() {
 
 constexpr std::array<std::uint32_t, 256> kWeights = weights();
 
-/// Digits from `at` on, blanks between them left out, and how many; `at` goes behind them.
+/// The digits from `at` on, ignoring blanks between them, and how many; `at` moves past them.
 std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
   int value = 0;
   int count = 0;
@@ -66,7 +64,7 @@ std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
     if (next != Role::digit && next != Role::blank) {
       break;
     }
-    // One digit more than allowed is counted, so that the count shows the excess.
+    // Counts one digit more than allowed, so that the count shows the excess.
     if (next == Role::digit && count <= kMostDigits) {
       value = 10 * value + (line[at] - '0');
       ++count;
@@ -75,12 +73,12 @@ std::pair<int, int> digits(std::string_view line, std::size_t& at) noexcept {
   return {value, count};
 }
 
-/// One G at most, a whole number that is not 43, and else nothing to be done: nearly all lines.
+/// At most one G, a whole number other than 43, and nothing else to be done: nearly all lines.
 bool is_simple(std::string_view line) noexcept {
   const auto weight_of = [](char c) { return kWeights[static_cast<unsigned char>(c)]; };
   std::uint32_t weight = 0;
   std::size_t i = 0;
-  for (; i + 4 <= line.size(); i += 4) {  // four at once: no sum waits for another
+  for (; i + 4 <= line.size(); i += 4) {  // four at once: the sums do not depend on each other
     weight += (weight_of(line[i]) + weight_of(line[i + 1])) +
               (weight_of(line[i + 2]) + weight_of(line[i + 3]));
   }
@@ -96,7 +94,7 @@ bool is_simple(std::string_view line) noexcept {
     ++at;
   }
   const auto [number, count] = digits(line, ++at);
-  // A decimal point may make G43.1 of it: the slow way decides.
+  // A decimal point may make it G43.1: the slow path decides.
   return count > 0 && count <= kMostDigits && number != 43 &&
          (at == line.size() || role(line[at]) != Role::point);
 }
@@ -113,7 +111,7 @@ bool PlainSurvey::look(std::string_view line) {
     return true;
   }
   for (std::size_t at = 0;;) {
-    // Roles from `blank` on are what is_simple() skips as well.
+    // is_simple() skips roles from `blank` on too.
     while (at < line.size() && role(line[at]) >= Role::blank) {
       ++at;
     }
@@ -138,7 +136,7 @@ bool PlainSurvey::look(std::string_view line) {
   }
 }
 
-/// A G or M word at `at`, which goes behind it. False when it is not a plain one.
+/// Reads a G or M word at `at` and moves past it. False when it is not a plain one.
 bool PlainSurvey::code(std::string_view line, std::size_t& at) {
   const bool m = (static_cast<unsigned char>(line[at]) | 0x20U) == 'm';
   const auto [number, count] = digits(line, ++at);
@@ -150,14 +148,14 @@ bool PlainSurvey::code(std::string_view line, std::size_t& at) {
       return false;
     }
   }
-  // G43 to G43.9 put the tool's length on, M6 and M61 change the tool.
+  // G43 to G43.9 apply the tool length, M6 and M61 change the tool.
   if (m && (number == 6 || number == 61)) {
     changed_at_ = line_;
   } else if (!m && number == 43 && changed_at_ != 0) {
     survey_.without_length.emplace_back(changed_at_, line_);
     changed_at_ = 0;
   }
-  // M98 and M99 call and return, M97 does on some controls: lines may be repeated.
+  // M98 and M99 call and return, on some controls M97 too: lines may be repeated.
   return !(m && number >= 97 && number <= 99);
 }
 

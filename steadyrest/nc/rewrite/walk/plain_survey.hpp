@@ -12,19 +12,19 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// The survey of a program whose text alone shows that its lines are executed one after the other,
-/// each once: found while the text is read for other reasons.
+/// The survey of a program whose text alone shows that each line is executed once, in order: found
+/// while the text is read for other reasons.
 ///
-/// Plain is a program of dialect linuxcnc with nothing outside of comments but `%` and words of a
-/// letter and a written number; no O, none of M97, M98, M99, no mark `/`, no parameter, no
-/// expression. M and its number must be whole. Whatever else stands there makes it not plain, and
+/// A plain program is one of dialect linuxcnc with nothing outside comments but `%` and words of a
+/// letter and a literal number; no O, none of M97, M98, M99, no mark `/`, no parameter, no
+/// expression. The number of M must be whole. With anything else a program is not plain, and
 /// survey() runs it.
 class PlainSurvey {
  public:
   explicit PlainSurvey(read::Dialect dialect) noexcept
       : plain_(interpret::rules_of(dialect).plain_words) {}
 
-  /// The next line. True where it certainly holds no comment.
+  /// Takes the next line. True if it certainly holds no comment.
   bool look(std::string_view line);
   /// None when the program is not plain.
   [[nodiscard]] std::optional<Survey> take() {
@@ -40,8 +40,8 @@ class PlainSurvey {
   Survey survey_;
 };
 
-/// What `plain` has found, else what running the program shows. Where it is plain the program is
-/// not run: what the interpreter refuses shows when it is walked.
+/// The result of `plain`, else of running the program. A plain program is not run: what the
+/// interpreter refuses shows when it is walked.
 [[nodiscard]] kernel::outcome::Result<Survey> survey(const std::string& path,
                                                      const interpret::Config& config,
                                                      PlainSurvey& plain);

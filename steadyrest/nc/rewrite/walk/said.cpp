@@ -16,7 +16,7 @@ using interpret::ModeMask;
 
 namespace {
 
-// What a word settles: from then on the program, and not the control's past, has the mode.
+// What a word settles: from then on the program sets the mode, not the control's past.
 ModeMask of_g(double code, bool settable_frames) noexcept {
   if (settable_frames && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
     return mode(GGroup::units);
@@ -55,9 +55,8 @@ void Said::look(const read::Word& word) {
       modes_ |= of_g(word.value, settable_frames_) & ~lost_;
       break;
     case 'M':
-      // M72, or the end of the subprogram after M73, brings back what was in force here. A mode
-      // that the program has not set by now may come back at any time, so setting it later does not
-      // settle it.
+      // M72, or the end of the subprogram after M73, brings back what was in force here. A mode not
+      // yet set by the program may come back at any time, so setting it later does not settle it.
       if (word.value == 70.0 || word.value == 73.0) {
         lost_ |= ~modes_;
       }
@@ -82,16 +81,16 @@ void Said::take(Taken taken) {
 
 void Said::look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
                 std::uint32_t line) {
-  // Only the first finding is told.
+  // Only the first finding is reported.
   if (taken_ || !asked.any) {
     return;
   }
-  // As long as the program has not named its work offset, any of them may be the active one.
+  // Until the program selects a work offset, any of them may be active.
   if (!has(mode(GGroup::work_offset))) {
     active = ~interpret::Asked::kShift;
   }
-  // In the order of how much can be done about it: a value from the control's past, a position, a
-  // mode, dormant numbers (README, "Dormant numbers").
+  // Ordered by how easily the user can fix it: a value from the control's past, a position, a mode,
+  // dormant numbers (README, "Dormant numbers").
   if (!asked.value.empty()) {
     take({.line = line,
           .what = fmt::format("uses {}, whose initial value depends on the control", asked.value)});

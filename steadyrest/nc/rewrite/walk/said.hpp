@@ -16,19 +16,19 @@ namespace steadyrest::nc::rewrite {
 inline constexpr std::string_view kAgainstTaken =
     "set it in the program first, or give the control's variable file with --variables";
 
-/// Why a program cannot be corrected: what it takes from the state in which it happens to be
-/// started, or does with what the corrections are written to.
+/// Why a program cannot be corrected: what it takes from the state in which it happens to start, or
+/// does with what the corrections are written to.
 struct Taken {
   std::uint32_t line = 0;
   std::string what;
   std::string to_do = std::string(kAgainstTaken);
 };
 
-/// What a program has said itself by now, line by line: the modes that hold whatever the control
-/// stood in when it was started. A line with `/` says nothing.
+/// The modes that a program has set itself so far, line by line, whatever the control was in at the
+/// start. A line with `/` sets nothing.
 ///
-/// What M70 or M73 has kept before it was said may come back at any time, so it counts as unsaid
-/// from there on.
+/// A mode saved by M70 or M73 before the program set it may come back at any time, so it counts as
+/// unset from there on.
 class Said {
  public:
   explicit Said(const interpret::Config& config) noexcept
@@ -37,7 +37,7 @@ class Said {
 
   /// G0, G1: nearly every line.
   void motion() noexcept { modes_ |= mode(interpret::GGroup::motion) & ~lost_; }
-  /// Another word of a block that is executed.
+  /// Any other word of an executed block.
   void look(const read::Word& word);
   [[nodiscard]] bool has(interpret::ModeMask modes) const noexcept {
     return (modes_ & modes) == modes;
@@ -46,13 +46,13 @@ class Said {
     return modes_ & modes;
   }
 
-  /// What the expressions of a line have asked for. `known`: axes whose work position follows from
-  /// the program, `active`: work offsets in force before the line and behind it; masks.
+  /// Takes what the expressions of a line have read. `known`: axes whose work position follows from
+  /// the program; `active`: work offsets in force before and after the line; masks.
   void look(const interpret::Asked& asked, std::uint32_t known, std::uint32_t active,
             std::uint32_t line);
   /// The first is kept.
   void take(Taken taken);
-  /// The first that keeps the program from being corrected.
+  /// The first finding that keeps the program from being corrected.
   [[nodiscard]] const std::optional<Taken>& taken() const noexcept { return taken_; }
 
  private:

@@ -16,11 +16,10 @@ using kernel::outcome::Result;
 Schedule::Schedule(AxisPlan plan, double window_s)
     : plan_(std::move(plan)), window_s_(window_s), near_(plan_.steps.size()) {}
 
-// Six places a step are enough: for each kind the nearest before the planned instant and the
-// nearest behind it. Whether one may be used depends on the step before, which is known only in the
-// end.
+// Six places per step are enough: for each kind the nearest before and the nearest after the
+// planned instant. Whether one may be used depends on the previous step, known only at the end.
 void Schedule::offer(const Place& place) {
-  // Steps whose window is past take no more places, so the loop below stays short.
+  // Steps whose window has passed take no more places, so the loop below stays short.
   while (first_ < near_.size() && plan_.steps[first_].time_s + window_s_ < place.time_s) {
     ++first_;
   }
@@ -29,8 +28,8 @@ void Schedule::offer(const Place& place) {
   for (std::size_t i = first_;
        i < near_.size() && plan_.steps[i].time_s - window_s_ <= place.time_s; ++i) {
     Nearest& nearest = near_[i][site];
-    // Places come in order of time: the last before the instant is the nearest, and behind it the
-    // first.
+    // Places come in order of time: the nearest are the last before the instant and the first after
+    // it.
     if (place.time_s <= plan_.steps[i].time_s) {
       nearest.before = place;
     } else if (!nearest.behind) {
@@ -61,9 +60,9 @@ Result<std::vector<Chosen>> Schedule::choose() const {
   std::vector<Chosen> chosen;
   for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
     const PlannedStep& step = plan_.steps[i];
-    // Never before the last one, since the plan's steps act in order; two may share a place.
+    // Never before the last chosen one, since the plan's steps act in order; two may share a place.
     auto place = best(i, chosen.empty() ? 0 : chosen.back().place.line);
-    // The chosen place of the step before may lie behind all of this step's own: then both act
+    // The place chosen for the previous step may lie after all of this step's own: then both act
     // there, if the window allows.
     if (!place && !chosen.empty() &&
         std::abs(chosen.back().place.time_s - step.time_s) <= window_s_) {

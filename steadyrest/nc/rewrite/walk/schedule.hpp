@@ -17,9 +17,9 @@ struct Place {
   std::uint32_t line = 0;  ///< the correction goes before this line
   Site site = Site::none;
   double time_s = 0.0;
-  double position_mm = 0.0;  ///< where the axis stands, active work coordinates
+  double position_mm = 0.0;  ///< where the axis is, active work coordinates
   double unit_mm = 1.0;
-  bool units_said = true;  ///< by the program, and not by how the control stands
+  bool units_said = true;  ///< by the program, not by the control's state
   std::size_t active_offset = 0;
 };
 
@@ -29,9 +29,9 @@ struct Chosen {
   PlannedStep step;
 };
 
-/// Chooses the places of one axis while the program goes by: the best kind of place within the
-/// window (rapid, clearance, feed), of these the nearest, never before the step that comes before.
-/// Holds six places for each step, whatever the program's length.
+/// Chooses the places of one axis in one pass over the program: within the window the best kind of
+/// place (rapid, clearance, feed), then the nearest, never before the previous step's. Holds six
+/// places per step, whatever the program's length.
 class Schedule {
  public:
   Schedule(AxisPlan plan, double window_s);

@@ -10,7 +10,7 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-// Of the moves and events only tool changes matter to the survey.
+// Only tool changes matter to the survey.
 class Changes final : public interpret::Sink {
  public:
   void on_move(const interpret::Move& /*move*/) override {}
@@ -20,7 +20,7 @@ class Changes final : public interpret::Sink {
   bool changed = false;
 };
 
-// From G43 (D1) on the length of the tool is in force.
+// From G43 (D1) on the tool length is in force.
 bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   return std::ranges::any_of(block.words(), [dialect](const read::Word& word) {
     const int code = word.letter == 'G' ? interpret::g::code_of(word.value) : -1;
@@ -31,7 +31,7 @@ bool puts_length_on(const read::Block& block, read::Dialect dialect) {
   });
 }
 
-/// What is found with the switch as it is, and whether there are lines that it takes away.
+/// The survey with the switch as it is, and whether there are lines that it skips.
 kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& path,
                                                              const interpret::Config& config) {
   auto source = read::LineSource::open(path);
@@ -43,8 +43,7 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
   if (!run) {
     return std::unexpected(run.error());
   }
-  // A run of the whole program: what is repeated, and by which lines, depends on values in loops
-  // and calls.
+  // Runs the whole program: which lines are repeated depends on values in loops and calls.
   Survey found;
   std::vector<bool> seen;
   std::uint64_t steps = 0;
@@ -61,8 +60,8 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
     if (!run->executed()) {
       continue;
     }
-    // LinuxCNC changes the tool before it takes the length, so G43 in the very block of M6 ends the
-    // interval at once.
+    // LinuxCNC changes the tool before it applies the length, so G43 in the same block as M6 ends
+    // the interval at once.
     if (changes.changed) {
       changed_at = steps;
     }
@@ -103,7 +102,7 @@ kernel::outcome::Result<Survey> survey(const std::string& path, const interpret:
   if (!found) {
     return std::unexpected(found.error());
   }
-  // `/` lines make two programs of it, which are judged apart.
+  // `/` lines make it two programs, which are judged separately.
   if (found->second) {
     auto other = survey_once(path, switched(config));
     if (!other) {

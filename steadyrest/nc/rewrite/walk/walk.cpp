@@ -17,8 +17,8 @@ using kernel::outcome::Result;
 
 namespace {
 
-// What a line with a place may hold (README, "The law of a safe place"): a list of what is
-// allowed, so that a word nobody thought of makes no place.
+// What a line may hold to be a place (README, "The law of a safe place"): a list of what is
+// allowed, so that an unforeseen word never makes a place.
 constexpr std::array kPlainG = {0.0, 1.0, 17.0, 18.0, 19.0, 40.0, 61.0, 64.0, 80.0, 90.0, 94.0};
 constexpr std::array kPlainM = {3.0, 4.0, 5.0, 7.0, 8.0, 9.0};
 constexpr std::array<std::string_view, 4> kFrameWords = {"TRANS", "ATRANS", "ROT", "AROT"};
@@ -122,8 +122,8 @@ void Walk::remember() {
   };
   // X and Y: rotations are about Z.
   constexpr std::uint32_t kInPlane = 0b11;
-  // A tool length, shift, reference point or probe may have moved any axis: the values in force at
-  // the start are unknown.
+  // A tool length, shift, reference point or probe may affect any axis: the values in force at the
+  // start are unknown.
   std::uint32_t lost = facts_.loses || facts_.shifts ? ~0U : differing(state.offset, offset);
   lost |= turned ? kInPlane : 0U;
   const bool kept = start_known_ && !facts_.loses;
@@ -166,8 +166,8 @@ bool Walk::step() {
   return more;
 }
 
-// Lines at the top level follow one another in both positions, so the walks meet at each of them
-// that both execute.
+// Top-level lines come in the same order in both positions, so the walks meet at each one that both
+// execute.
 void Walk::follow() {
   while (run_->at_top() && !other_->over_ &&
          !(other_->run_->at_top() && other_->line() >= line())) {
@@ -175,7 +175,7 @@ void Walk::follow() {
   }
 }
 
-/// The other walk is at the same line, and what is written there means the same.
+/// The other walk is at the same line, and text written there means the same.
 bool Walk::together() const noexcept {
   const Before& others = other_->before_;
   return other_->run_->at_top() && other_->line() == line() && others.unit_mm == before_.unit_mm &&
@@ -193,8 +193,8 @@ bool Walk::step_alone() {
   ends_ = std::ranges::any_of(events(), [](const interpret::Event& event) {
     return event.kind == interpret::EventKind::end;
   });
-  // From a tool change to its G43 (D) no tool's length is in force that belongs to the tool: no
-  // line there is a place.
+  // From a tool change to its G43 (D) the tool length in force is not the tool's: no line there is
+  // a place.
   while (interval_ < survey_.without_length.size() &&
          survey_.without_length[interval_].second < steps_) {
     ++interval_;
@@ -218,7 +218,7 @@ bool Walk::step_alone() {
 }
 
 void Walk::look_at_g(const read::Word& word) {
-  // As the decoders read it: G[59.3-31.2] is G28.1, though not to the last bit.
+  // As the decoders read it: G[59.3-31.2] is G28.1, although not to the last bit.
   const double code = interpret::g::code_of(word.value) / 10.0;
   if (code == 0.0 || code == 1.0) {
     says_ ? said_.motion() : void();
@@ -245,7 +245,7 @@ void Walk::look(const read::Block& block) {
       mode(GGroup::units) | mode(GGroup::distance) | mode(GGroup::work_offset);
   const bool meaning = said_.has(kMeaning);
   const auto said_before = said_.among(kMeaning);
-  // What a switch may skip has not been said.
+  // A line that the switch may skip sets nothing.
   says_ = !block.deleted();
   facts_.plain = !block.words().empty();
   for (const read::Word& word : block.words()) {
@@ -308,7 +308,7 @@ bool Walk::may_write_alone(std::size_t index) const noexcept {
          (!turned || index > 1) && (index != 0 || (!before_.diameter && !now.diameter));
 }
 
-// No mode in force, before and behind the line, in which a shift would bend something.
+// No mode before or after the line in which a shift would distort the path.
 bool Walk::calm(std::size_t index) const noexcept {
   const interpret::State& now = run_->state();
   const bool with_length = interval_ >= survey_.without_length.size() ||
@@ -327,8 +327,8 @@ Site Walk::site(char letter, std::size_t index) const {
   if (own == Site::none || other_ == nullptr) {
     return own;
   }
-  // A place must be the same in both positions of block delete, or the correction would act
-  // differently with the switch.
+  // A place must be the same in both positions of block delete, or the switch would change the
+  // correction's effect.
   const bool same =
       together() && other_->missing(index) == nullptr &&
       other_->site_if_said(letter, index) == own &&
@@ -340,7 +340,7 @@ const Walk::Unsaid* Walk::unsaid(char letter, std::size_t index) const {
   return site_if_said(letter, index) == Site::none ? nullptr : missing(index);
 }
 
-/// What would give a correction of the axis another meaning, and the program has not said.
+/// What could change the meaning of a correction and the program has not set.
 const Walk::Unsaid* Walk::missing(std::size_t index) const noexcept {
   static constexpr Unsaid kDistance{"whether positions are absolute (G90)", "write G90 before it"};
   static constexpr Unsaid kOffset{"which work offset is active",
@@ -349,7 +349,7 @@ const Walk::Unsaid* Walk::missing(std::size_t index) const noexcept {
   static constexpr Unsaid kRotation{"whether a rotation is stored in the work offset",
                                     "give the control's variable file (--variables)"};
   static constexpr Unsaid kDiameter{"whether X is a radius (G8)", "write G8 before it"};
-  // The PLC or the temperature compensation moves the axis: no mode of the program bends that.
+  // The PLC or the temperature compensation moves the axis: no mode of the program affects that.
   if (beside_program(method_)) {
     return nullptr;
   }
@@ -378,7 +378,7 @@ Site Walk::site_if_said(char letter, std::size_t index) const {
            : move.kind == MoveKind::linear ? Site::feed
                                            : Site::none;
   }
-  // The axis is moved by an added G0; between two rapids that leaves no mark on the part.
+  // An added G0 moves the axis; between two rapids that leaves no mark on the part.
   const bool between_rapids = any_move_ && before_.last_move == MoveKind::rapid &&
                               move.kind == MoveKind::rapid && before_.motion == 0;
   const bool given = (before_.given & (std::uint32_t{1} << index)) != 0;

@@ -8,7 +8,7 @@ namespace steadyrest::nc::rewrite {
 
 using interpret::Step;
 
-// The kinds ascend by what they demand, so the worse of both positions counts.
+// The kinds ascend by severity, so the worse of both positions counts.
 Frame Walk::frame(char letter) const {
   const Frame own = frame_alone(letter);
   return other_ == nullptr || !together() ? own : std::max(own, other_->frame_alone(letter));
@@ -27,24 +27,24 @@ Frame Walk::frame_alone(char letter) const {
   if (!facts_.data || (facts_.axes & Step::bit(letter)) == 0) {
     return Frame::kept;
   }
-  // L20 sets the active offset from the position shown, which includes the correction: it stays in.
-  // Another offset would take it along for good.
+  // L20 sets the active offset from the position shown, which includes the correction, so it stays
+  // in. Any other offset would keep it for good.
   if (facts_.data_form == 20.0) {
     return of_active() ? Frame::kept : Frame::measured;
   }
   return of_active() ? Frame::changed : Frame::kept;
 }
 
-/// Of a G10: it is about the work offset in force.
+/// Whether a G10 refers to the work offset in force.
 bool Walk::of_active() const noexcept {
-  // P0, and no P at all, mean the active offset.
+  // P0 and no P both mean the active offset.
   return facts_.data_set <= 0.0 ||
          facts_.data_set == static_cast<double>(run_->state().active_offset) + 1.0;
 }
 
-/// What the program may not do where the head sets the external offset to 0, in G90.
+/// What the program may not do where the head sets the external offset to 0 in G90.
 void Walk::look_for_external() {
-  // The head's G90 stays in force, where the program may have relied on a G91 left in the control.
+  // The head's G90 stays in force; the program may have relied on a G91 left in the control.
   if (facts_.axes != 0 && !said_.has(mode(interpret::GGroup::distance))) {
     said_.take({.line = line_or_call(),
                 .what = "programs an axis before G90 or G91: the head removes the external offset "
@@ -66,7 +66,7 @@ bool Walk::sets_offset(char letter) const noexcept {
 bool Walk::sets_offset_alone(char letter) const noexcept {
   const bool measures = facts_.data && facts_.data_form == 20.0 && of_active() &&
                         (facts_.axes & Step::bit(letter)) != 0;
-  // From here on the offset is not the one that LinuxCNC's note describes: it is noted again.
+  // From here on the offset differs from LinuxCNC's note: it is noted again.
   return facts_.shifts || measures;
 }
 

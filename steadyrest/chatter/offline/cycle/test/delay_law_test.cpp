@@ -37,7 +37,7 @@ TEST(DelayLaw, ConstantDelaySolvesTheCharacteristicEquation) {
   const DelayLaw law = DelayLaw::make(turning(0.3, 0.05, 0.8, 0.0, 1.0)).value();
   const auto found = law.multipliers();
   const double tau = kTurn / 0.8;
-  // The logarithm is known up to whole turns: one of them must fit.
+  // The logarithm is known up to whole turns: one must fit.
   double least = 1.0;
   for (int k = -6; k <= 6; ++k) {
     // x = e^{λt} in ẍ + z·ẋ + (1 + kw)·x = kw·x(t − τ); μ belongs to T = τ.
@@ -49,8 +49,8 @@ TEST(DelayLaw, ConstantDelaySolvesTheCharacteristicEquation) {
   EXPECT_LT(least, 1e-9);
 }
 
-/// Two cutters of unlike distance under a modulation slower than a revolution: the map of a period
-/// does not depend on how finely it is resolved.
+/// Two cutters at unequal distances under a modulation slower than a revolution: the map of a
+/// period does not depend on its resolution.
 TEST(DelayLaw, TwoCuttersConverge) {
   DelayLaw::Config config;
   config.natural_rad_s = std::sqrt(14.5e6 / 11.0);

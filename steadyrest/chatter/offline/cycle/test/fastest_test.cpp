@@ -21,7 +21,7 @@ constexpr double kWhole = 2.0 * std::numbers::pi;
 constexpr int kSlices = 40;  ///< of a helical edge
 
 /// Forces over displacement and over velocity, per depth, with the spindle at θ: Altintas and
-/// Budak's equations as process.hpp has them, slice by slice.
+/// Budak's equations of process.hpp, slice by slice.
 struct FrozenForces {
   Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  ///< N/mm²
   Eigen::Matrix2d damping = Eigen::Matrix2d::Zero();    ///< N·s/mm²
@@ -50,7 +50,7 @@ struct FrozenForces {
   }
 };
 
-/// Largest |Im λ| of the modes while the spindle stands at θ, the surface in front unchanging.
+/// Largest |Im λ| of the modes with the spindle frozen at θ and the previous surface fixed.
 double oscillation_rad_s(const Process& p, double depth_mm, const FrozenForces& forces) {
   const auto modes = static_cast<Eigen::Index>(p.modes.size());
   Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(2 * modes, 2 * modes);
@@ -148,8 +148,8 @@ TEST(Fastest, NoFrozenCutOscillatesFaster) {
   EXPECT_GT(nearest, kSanitized ? 0.0 : 0.9);
 }
 
-// Where the chip's direction is the mode's and only the radial force acts the bound is met: z teeth
-// on one mode, or one tooth on two modes that move as one, are as stiff as z times the one.
+// The bound is reached where the chip's direction is the mode's and only the radial force acts: z
+// teeth on one mode, or one tooth on two modes that move as one, are as stiff as z times the one.
 TEST(Fastest, IsMetByTeethAndModesThatPushTogether) {
   for (const std::size_t teeth : {8U, 20U}) {
     Process p = many_teeth(teeth);
@@ -168,7 +168,7 @@ TEST(Fastest, IsMetByTeethAndModesThatPushTogether) {
   }
 }
 
-// What it is for: enough nodes where many teeth stiffen a light tool many times over.
+// Its purpose: enough nodes where many teeth stiffen a light tool many times over.
 TEST(Fastest, MultipliersOfManyTeethAreThoseOfRungeAndKutta) {
   Process p = many_teeth(64);
   p.modes[0].damping_ratio = 0.05;

@@ -42,14 +42,14 @@ TEST(GrowthCourse, WithoutACutIsFreeDecay) {
   const auto& log_growth = courses[0].log_growth;
   ASSERT_GE(log_growth.size(), 10U);
   EXPECT_EQ(log_growth[0], 0.0);
-  // q = e^{−ζωt}·(cos ω_d·t + …): the size swings with the phase, so that the mean over many passes
-  // is taken. ζ = 0.011, 922 Hz, a tooth each 6 ms.
+  // q = e^{−ζωt}·(cos ω_d·t + …): the size swings with the phase, so take the mean over many
+  // passes. ζ = 0.011, 922 Hz, a tooth each 6 ms.
   const double decay = -0.011 * 2.0 * std::numbers::pi * 922.0 * 0.006;
   const auto last = log_growth.size() - 1;
   EXPECT_NEAR((log_growth[last] - log_growth[1]) / static_cast<double>(last - 1), decay, 0.05);
 }
 
-// Whatever it starts with, after many periods only the dominant multiplier is left.
+// From any start, only the dominant multiplier is left after many periods.
 TEST(GrowthCourse, InTheLongRunFallsByTheRadiusInEachPeriod) {
   DelayCycle cycle = cycle_at(1.0, kTriangle);
   const double log_radius = stability(cycle, {}).log_radius;

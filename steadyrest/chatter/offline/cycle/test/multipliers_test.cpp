@@ -46,8 +46,8 @@ struct SlowLaw {
   double depth_mm;
 };
 
-/// Laws so slow that a vibration grows millions of times over what is left of it in the end; with a
-/// pair of leading multipliers, with two real ones far from and near to each other.
+/// Laws so slow that a vibration grows to millions of times its final size; with a pair of leading
+/// multipliers, and with two real ones far from and near each other.
 const SlowLaw kSlowLaws[] = {{5000.0, Law::sine, 0.025, 1.0},
                              {12000.0, Law::triangle, 0.025, 2.0},
                              {12000.0, Law::sine, 0.02, 1.0}};
@@ -69,14 +69,14 @@ TEST(Multipliers, UnderSlowLawsAreTheEigenvaluesOfTheWholeMap) {
     const Multipliers found = multipliers(cycle);
     const auto want = dense_log_moduli(cycle);
     ASSERT_EQ(found.log_modulus.size(), 2U);
-    // The first over its own modulus: by discrete QR, not by Arnoldi's method.
+    // The first over its own modulus: from discrete QR, not Arnoldi's method.
     EXPECT_NEAR(std::abs(found.value[0]), 1.0, 1e-12);
     EXPECT_NEAR(found.log_modulus[0], want[0], 1e-8) << slow.rvf;
     EXPECT_NEAR(found.log_modulus[1], want[1], 1e-8) << slow.rvf;
   }
 }
 
-// Three periods at least, of two vectors each; Arnoldi's passes come first.
+// At least three periods, of two vectors each; Arnoldi's passes come first.
 TEST(Multipliers, UnderSlowLawsDriveTheWantedVectorsAlone) {
   for (const SlowLaw& slow : cases(kSlowLaws)) {
     DelayCycle cycle = under(slow);

@@ -44,8 +44,7 @@ TEST(Reach, RefusesWhatWouldTakeNoEndAndNamesWhatIsAllowed) {
   }
 }
 
-// The refusal's own figure is read back from its text: rounded the wrong way it would be refused
-// again.
+// Reads the refusal's figure back from its text: rounded the wrong way, it would be refused again.
 TEST(Reach, WhatItSaysIsAllowedIsAllowed) {
   const auto refused = beyond_reach(slot(), 1.0 / 60.0, 1.0);
   ASSERT_TRUE(refused);
@@ -57,7 +56,7 @@ TEST(Reach, WhatItSaysIsAllowedIsAllowed) {
   EXPECT_FALSE(beyond_reach(slot(), rpm / 60.0, 1.0));
 }
 
-/// A stiffness a million times too small: no speed of the shop is within reach at 1 mm.
+/// A stiffness a million times too small: no practical speed is within reach at 1 mm.
 TEST(Reach, AStiffnessFarOffIsRefusedBeforeAnyWork) {
   Process p = slot();
   p.modes[0].mass_kg *= 1e-6;
@@ -113,7 +112,7 @@ TEST(Reach, AnyProcessAtAnyPointIsRefusedOrAnswered) {
     EXPECT_TRUE(std::isfinite(found.log_radius)) << i;
     EXPECT_TRUE(std::isfinite(found.peak_growth)) << i;
   }
-  // Enough inside the reach, or the bounds would be tested against nothing.
+  // Enough inside the reach, or the bounds would be tested on nothing.
   EXPECT_GT(answered, kSanitized ? 0U : 8U);
 }
 
@@ -144,7 +143,7 @@ TEST(Reach, AtLowSpeedTheBorderIsTheAbsoluteLimit) {
   }
 }
 
-/// The map of a pass column by column, as it defines the growth.
+/// The map of a pass column by column, which defines the growth.
 std::vector<double> slow_log_growth(DelayCycle& cycle, std::size_t passes) {
   Eigen::MatrixXd map = Eigen::MatrixXd::Identity(cycle.state_size(), cycle.state_size());
   std::vector<double> out{0.0};
@@ -157,8 +156,8 @@ std::vector<double> slow_log_growth(DelayCycle& cycle, std::size_t passes) {
   return out;
 }
 
-/// The rows that are followed at low speed find the worst of all rows; process damping, uneven
-/// pitch and two directions go through the other half of the adjoint.
+/// The rows followed at low speed find the worst of all rows; process damping, uneven pitch and two
+/// directions use the other half of the adjoint.
 TEST(Reach, GrowthByRowsIsThatOfTheWholeMap) {
   Process damped = slot();
   damped.cut.process_damping_n_mm = 10.0;
@@ -166,8 +165,7 @@ TEST(Reach, GrowthByRowsIsThatOfTheWholeMap) {
   uneven.tool.pitch_rad = {3.0, 2.0 * std::numbers::pi - 3.0};
   uneven.modes.push_back(uneven.modes[0]);
   uneven.modes[1].shape = {0.6, 0.8};
-  // 700 rpm has hundreds of rows, of which only some are followed; 5000 rpm has few, all of them
-  // are.
+  // 700 rpm has hundreds of rows, only some followed; 5000 rpm has few, all followed.
   for (const Process& p : cases({slot(), damped, uneven})) {
     for (const double rpm : {700.0, 5000.0}) {
       auto cycle = cycle_at(p, rpm, 0.3);

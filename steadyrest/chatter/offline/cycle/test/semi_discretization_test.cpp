@@ -33,7 +33,8 @@ TEST(SemiDiscretization, HasItsPublishedConvergence) {
   }
 }
 
-/// Two methods that share nothing but the forces: of second order, it meets the collocation.
+/// Two methods that share only the forces: extrapolated at second order, it matches the
+/// collocation.
 TEST(SemiDiscretization, ExtrapolatesToTheCollocation) {
   for (const auto& [immersion, rpm] : cases({std::pair{1.0, 5000.0}, std::pair{1.0, 15000.0}})) {
     const Process cut = benchmark_cut(immersion, Direction::up);

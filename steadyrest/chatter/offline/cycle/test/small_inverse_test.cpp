@@ -20,7 +20,7 @@ Eigen::VectorXd applied(const SmallInverse& inverse, const Eigen::VectorXd& in) 
 TEST(SmallInverse, SolvesWhatEigenSolves) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
-  SmallInverse inverse;  // made anew for each size
+  SmallInverse inverse;  // rebuilt for each size
   // On both sides of every block of rows: 4, 8, 24 and the 128 that fit on the stack.
   for (const int size : {1, 2, 3, 4, 7, 8, 21, 24, 25, 31, 44, 64, 127, 130}) {
     const Eigen::MatrixXd m =

@@ -53,7 +53,7 @@ TEST(Stability, MultipliersOfTheBenchmarkAt5000Rpm) {
 }
 
 // The published 0.8192, 1.0726 and 1.4040 are a semi-discretization's and good to three digits;
-// these are the converged ones, at which collocations of 40 and 80 nodes agree.
+// these are converged: collocations of 40 and 80 nodes agree on them.
 TEST(Stability, SlotMultipliersToEightDigits) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   EXPECT_NEAR(std::exp(at(slot, 5000.0, 0.2).log_radius), 0.81974278, 1e-8);
@@ -82,7 +82,8 @@ TEST(Stability, NamesTypeAndFrequencyOfTheChatter) {
   EXPECT_NEAR(waves - std::floor(waves), 0.5, 1e-9);
 }
 
-/// Figures of collocation in the angle domain, two rows also by RK4 with the delay solved exactly.
+/// Figures from collocation in the angle domain, two rows also from RK4 with the delay solved
+/// exactly.
 TEST(Stability, ModulatedSlotAndDownMilling) {
   struct Row {
     double immersion;
@@ -124,7 +125,7 @@ TEST(Stability, ModulatedSlotAndDownMilling) {
   }
 }
 
-/// Slow modulation: stable by the radius, and yet a vibration grows a thousandfold on the way.
+/// Slow modulation: stable by the radius, yet a vibration grows a thousandfold on the way.
 TEST(Stability, SlowModulationLetsVibrationsGrowOnTheWay) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   double last = 1.0;
@@ -149,7 +150,7 @@ TEST(Stability, UnevenPitchNearEvenIsEven) {
   EXPECT_NEAR(at(cut, 5000.0, 1.0).log_radius, 2.0 * even, 1e-6);
 }
 
-/// A damping far beyond the literature's 20 N/mm dies faster than any mode oscillates: the nodes
+/// A damping far beyond the literature's 20 N/mm decays faster than any mode oscillates: the nodes
 /// must follow it.
 TEST(Stability, StaysConvergedUnderStrongProcessDamping) {
   Process cut = benchmark_cut(1.0, Direction::up);

@@ -53,7 +53,7 @@ TEST(BestSpeeds, AreTheDeepestOfTheSpindleAndRanked) {
     }
     // No other speed holds more.
     const double most = best->front().sure_depth_mm.value_or(kMost_mm);
-    // A step that shares no factor with the lobes, so that cusps are not all passed over.
+    // A step that shares no factor with the lobes, so that it does not miss every cusp.
     for (double rpm = 3100.0; rpm < 14900.0; rpm += kSanitized ? 3007.0 : 97.0) {
       EXPECT_LE(sure_mm(cut, rpm / 60.0, 0.01), 1.03 * most + 0.01) << rpm;
     }

@@ -39,7 +39,7 @@ double at(const BorderLine& line, double speed_rev_s, double most_depth_mm) {
          share * line.depth_mm[i].value_or(most_depth_mm);
 }
 
-/// How many of the speeds, drawn at random, are off by more than is promised.
+/// How many of the random speeds are off by more than promised.
 int off_by_more(const Process& process, const BorderLineConfig& config, const BorderLine& line,
                 int draws) {
   draws = kSanitized ? std::min(draws, 5) : draws;
@@ -52,8 +52,8 @@ int off_by_more(const Process& process, const BorderLineConfig& config, const Bo
     const double speed = speeds(random);
     double low = most;
     double high = 0.0;
-    // At a cusp or a jump the line may be off in speed by 3e-4 of a lobe; anywhere between the
-    // depths there counts as right.
+    // At a cusp or a jump the line may be off in speed by 3e-4 of a lobe; any depth between those
+    // there counts as right.
     for (const double near : {1.0 - 2e-4, 1.0 - 1e-4, 1.0, 1.0 + 1e-4, 1.0 + 2e-4}) {
       const double depth =
           limit_depth_mm(process, speed * near, config.modulation, most).value().value_or(most);
@@ -75,7 +75,7 @@ TEST(BorderLine, OfTwoSpeedsIsTheWholeBorder) {
     ASSERT_TRUE(line.has_value());
     EXPECT_TRUE(line->settled);
     EXPECT_LE(off_by_more(cut, config, *line, 300), 1) << immersion;
-    // Both sides: fewer points would miss lobes, more would mean that it never settles.
+    // From both sides: fewer points would miss lobes, more would mean that it never settles.
     EXPECT_LT(line->speed_rev_s.size(), 5000U);
     EXPECT_GT(line->speed_rev_s.size(), 100U);
   }
@@ -112,7 +112,7 @@ TEST(BorderLine, FindsTheCuspsOfTurning) {
   const auto line = border_line(p, config);
   ASSERT_TRUE(line.has_value());
   EXPECT_LE(off_by_more(p, config, *line, 300), 1);
-  // A cusp is a point of the line above both neighbours by more than a bow can be.
+  // A cusp is a point of the line that exceeds both neighbours by more than a bow can.
   double highest = 0.0;
   for (const auto& depth : line->depth_mm) {
     highest = std::max(highest, depth.value_or(60.0));

@@ -43,8 +43,7 @@ constexpr double kRatios[] = {0.01, 0.3, 0.5, 0.7, 0.71, 0.9, 0.999};
 
 TEST(LimitDepth, FindsAnIslandThatIsNarrowerThanItsSteps) {
   auto line = DepthLine::make(helical(), kEnd_rev_s, {}, 5.0).value();
-  // Unstable for a few hundredths of a millimetre and stable on both sides: a march by 6 % steps
-  // over it.
+  // Unstable for a few hundredths of a millimetre and stable on both sides: steps of 6 % skip it.
   EXPECT_LT(line.log_radius(1.400), 0.0);
   EXPECT_GT(line.log_radius(1.428), 0.0);
   EXPECT_LT(line.log_radius(1.460), 0.0);

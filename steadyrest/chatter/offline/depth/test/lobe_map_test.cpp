@@ -50,7 +50,7 @@ TEST(LobeMap, DoesNotDependOnTheThreads) {
   const auto one = lobe_map(cut, config, {});
   config.threads = 3;
   const auto three = lobe_map(cut, config, {});
-  // To the last bit: speeds share nothing, so neither order nor number of threads may show.
+  // To the last bit: speeds share nothing, so neither the order nor the number of threads may show.
   EXPECT_EQ(one->log_radius, three->log_radius);
 }
 
@@ -79,7 +79,7 @@ TEST(LobeMap, RefusesWhatIsNoMap) {
 }
 
 /// Lowest crossing of ρ = 1. Another collocation gives 1.2254 at 4500 rpm and 2.7653 at 5500, where
-/// Runge and Kutta's rule with 1600 steps a pass still has ln ρ = −1.9e-4 and 2.1e-4.
+/// Runge–Kutta with 1600 steps per pass still has ln ρ = −1.9e-4 and 2.1e-4.
 TEST(LimitDepth, AtConstantSpeed) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   for (const auto& [rpm, depth] : std::vector<std::pair<double, double>>{{3000, .6802},
@@ -94,8 +94,8 @@ TEST(LimitDepth, AtConstantSpeed) {
   }
 }
 
-/// The borders themselves by Runge and Kutta's rule. Tables that interpolate between scanned depths
-/// are up to 5 % off: they have 2.013 for the first row and .7655 for the third.
+/// The borders themselves by Runge–Kutta. Tables that interpolate between scanned depths are up to
+/// 5 % off: they have 2.013 for the first row and .7655 for the third.
 TEST(LimitDepth, OfTheModulatedSlot) {
   const Process slot = benchmark_cut(1.0, Direction::up);
   struct Row {

@@ -33,8 +33,7 @@ TEST(Turning, BorderInClosedForm) {
   const Process p = turning();
   const Mode& mode = p.modes[0];
   const double wn = kTurn * mode.frequency_hz;
-  // Chatter of turning is above the natural frequency, where Re G < 0; at 1 + ζ it is the most
-  // negative.
+  // Turning chatters above the natural frequency, where Re G < 0; it is most negative at 1 + ζ.
   for (const double ratio : {1.005, 1.0120, 1.02, 1.04, 1.08}) {
     const double w = ratio * wn;
     const std::complex<double> g =
@@ -58,7 +57,7 @@ TEST(Turning, BorderInClosedForm) {
       config.most_depth_mm = want;
       DelayCycle cycle = DelayCycle::make(p, config).value();
       cycle.set_depth(want);
-      // At large depths a lower lobe may lead; then this point is unstable already.
+      // At large depths a lower lobe may lead; this point is then already unstable.
       const double log_radius = stability(cycle, {}).log_radius;
       EXPECT_GT(log_radius, -1e-9) << ratio << " " << waves;
       const auto limit = limit_depth_mm(p, speed, {}, 2.0 * want).value();
@@ -74,7 +73,7 @@ TEST(Turning, BorderInClosedForm) {
 /// A mode at the angle α from x (into the work) towards y (the way the tool cuts; the work's
 /// surface comes against it): the forces (−Kr, −Kt)·a·Δx excite it by Kr·cos α + Kt·sin α, and it
 /// moves the tool along x by cos α. Tlusty's oriented response: b_lim = −1/(2·Re G_o), G_o = cos
-/// α·(Kr·cos α + Kt·sin α)·G. Where the product is negative, chatter comes below the natural
+/// α·(Kr·cos α + Kt·sin α)·G. Where the product is negative, chatter occurs below the natural
 /// frequency.
 TEST(Turning, AnObliqueModeHasTheOrientedResponse) {
   std::size_t on_the_border = 0;

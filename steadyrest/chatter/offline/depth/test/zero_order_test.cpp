@@ -78,7 +78,7 @@ TEST(ZeroOrder, LimitAtASpeedLiesOnTheLobes) {
   }
 }
 
-/// With eight teeth two are always engaged: the mean of the cut tells nearly all.
+/// With eight teeth two are always engaged: the mean of the cut says nearly everything.
 TEST(ZeroOrder, AgreesWithTheExactBorderWhereManyTeethCut) {
   const Process p = two_modes(8, 0.5, Direction::up);
   for (double rpm = 2000.0; rpm <= 4000.0; rpm += 200.0) {

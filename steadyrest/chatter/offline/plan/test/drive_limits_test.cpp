@@ -17,7 +17,7 @@ using online::Law;
 
 constexpr double kSpeed = 5000.0 / 60.0;
 
-/// A spindle that can do nearly everything; each test takes one thing away.
+/// A spindle that can do nearly everything; each test removes one ability.
 Machine strong_machine() {
   Machine m;
   m.spindle.max_rev_s = 500.0;
@@ -46,7 +46,7 @@ void expect_only(const DriveDemand& demand, DriveLimit limit) {
   EXPECT_FALSE(demand.violations[0].reason.empty());
 }
 
-/// Of both sides of a bound.
+/// Both sides of the bound.
 TEST(DriveLimits, TriangleNeedsRvaTimesRvfTimesSquareOverFifteen) {
   Machine m = strong_machine();
   const Modulation law{Law::triangle, 0.2, 0.1, 1};
@@ -120,14 +120,14 @@ TEST(DriveLimits, OverrideMustWriteTheLaw) {
   ASSERT_EQ(fine.written_ratio.size(), 9U);
   EXPECT_DOUBLE_EQ(fine.written_ratio.front(), 0.8);
   EXPECT_DOUBLE_EQ(fine.written_ratio.back(), 1.2);
-  // ±5 % in steps of 5 % is no sweep but a square with three levels.
+  // ±5 % in steps of 5 % is not a sweep but a square with three levels.
   expect_only(limits_of(m).modulated(kSpeed, {Law::sine, 0.05, 0.1, 1}), DriveLimit::levels);
   EXPECT_TRUE(limits_of(m).modulated(kSpeed, {Law::square, 0.05, 0.1, 1}).possible());
-  // The envelope cuts the table.
+  // The envelope clips the table.
   m.envelope.max_spindle_ratio = 1.1;
   expect_only(limits_of(m).modulated(kSpeed, {Law::triangle, 0.2, 0.1, 1}), DriveLimit::levels);
   // So does the spindle.
-  // 105 % would be too fast: 100 % is left as the greatest.
+  // 105 % would be too fast: 100 % remains as the greatest.
   m.spindle.max_rev_s = 1.02 * kSpeed;
   EXPECT_DOUBLE_EQ(limits_of(m).writable(kSpeed).back(), 1.0);
 }

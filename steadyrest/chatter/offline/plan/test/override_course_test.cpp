@@ -33,7 +33,7 @@ TEST(SpeedCourse, ATriangleOfRampsHasTheReferencesRadius) {
   const double period_s = 10.0 / kSpeed_rev_s;
   const double high = 1.2 * kSpeed_rev_s;
   const double low = 0.8 * kSpeed_rev_s;
-  // The stability of the law itself is known to eight digits; made of ramps it must come out the
+  // The stability of the law itself is known to eight digits; built of ramps it must come out the
   // same.
   const std::vector<SpeedRamp> course{{0.25 * period_s, kSpeed_rev_s, high},
                                       {0.5 * period_s, high, low},
@@ -62,7 +62,7 @@ TEST(SpeedCourse, TimeAndAngleBelongTogether) {
   EXPECT_NEAR(profile.time_s(angle), 0.4, 1e-12);
   EXPECT_NEAR(profile.time_s(3.5 * angle), 1.4, 1e-12);
   for (double at = 0.0; at < angle; at += 0.37) {
-    // dt/dθ = 1/Ω: time and speed are worked out apart and must agree.
+    // dt/dθ = 1/Ω: time and speed are computed separately and must agree.
     const double h = 1e-5;
     const double slope = (profile.time_s(at + h) - profile.time_s(at)) / h;
     EXPECT_NEAR(slope * profile.speed_rad_s(at + 0.5 * h), 1.0, 1e-6);

@@ -54,7 +54,7 @@ TEST(Planner, AWeakDriveGetsASlowerLawOrNone) {
   options.least_rvf = 0.05;
   Machine m = without_110();
   const double strong = plan_at(m, 5000.0, 1.2, options).chosen.modulation.rvf;
-  // Just what RVA 0.2 at RVF 0.12 takes; below, what RVF 0.04 takes, slower than least_rvf.
+  // Exactly what RVA 0.2 at RVF 0.12 needs; below, what RVF 0.04 needs, slower than least_rvf.
   m.spindle.acceleration_rev_s2 = 0.2 * 0.12 * 5000.0 * 5000.0 / 15.0 / 60.0;
   const Plan slower = plan_at(m, 5000.0, 1.2, options);
   EXPECT_EQ(slower.decision, PlanDecision::law);
@@ -66,7 +66,7 @@ TEST(Planner, AWeakDriveGetsASlowerLawOrNone) {
   EXPECT_THAT(all_reasons(none), HasSubstr("the drive delivers 13333 rpm/s (RVF 0.04 at most)"));
 }
 
-/// Stable by its radius, and a vibration grows a hundred-thousandfold on the way.
+/// Stable by its radius, yet a vibration grows a hundred-thousandfold on the way.
 TEST(Planner, GrowthKeepsSlowLawsOut) {
   PlanOptions options;
   options.try_steps = false;

@@ -30,7 +30,7 @@ TEST(Planner, SlotAt5000RpmGoesTo110Percent) {
   ASSERT_EQ(p.alternatives.size(), 15U);
   EXPECT_NEAR(*p.alternatives[10].limit_depth_mm, 0.4086, 1e-4);
   EXPECT_FALSE(p.alternatives[10].stable);
-  // 90 % is stable by the figures as they are given and not surely so: a yes would not tell.
+  // 90 % is stable with the given figures but not reliably: yes or no would not tell.
   EXPECT_NEAR(*p.alternatives[8].limit_depth_mm, 1.2254, 1e-3);
   EXPECT_TRUE(p.alternatives[8].stable);
   EXPECT_FALSE(p.alternatives[8].accepted());
@@ -39,7 +39,7 @@ TEST(Planner, SlotAt5000RpmGoesTo110Percent) {
   EXPECT_NEAR(*p.chatter_frequency_hz, 960.0, 40.0);
 }
 
-// 5500 rpm carries 2.76 mm: any change would be for nothing.
+// 5500 rpm allows 2.76 mm: any change would be pointless.
 TEST(Planner, AStableCutIsLeftAlone) {
   const Plan p = plan_at(all_steps(), 5500.0, 1.0);
   EXPECT_EQ(p.decision, PlanDecision::keep);
@@ -73,7 +73,7 @@ TEST(Planner, SaysWhenNothingHelpsAndWhatDepthWould) {
   }
 }
 
-// Threads share the possible cuts; their order must not show in the answer.
+// Threads share the possible cuts; their order must not affect the answer.
 TEST(Planner, TwiceTheSameGivesTheSame) {
   const Plan a = plan_at(all_steps(), 5000.0, 1.0);
   const Plan b = plan_at(all_steps(), 5000.0, 1.0);

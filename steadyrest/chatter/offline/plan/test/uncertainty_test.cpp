@@ -6,7 +6,7 @@
 namespace steadyrest::chatter::offline::test {
 namespace {
 
-/// Each n-th part of a normal distribution once: the mean and variance of 64 samples are near to
+/// Each n-th part of a normal distribution once: the mean and variance of 64 samples are nearly
 /// exact.
 TEST(Uncertainty, SamplesAreALatinHypercube) {
   const Uncertainty of{.frequency = 0.01, .damping = 0.2, .coefficients = 0.1, .samples = 64};

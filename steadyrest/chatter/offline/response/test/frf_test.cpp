@@ -203,7 +203,7 @@ TEST(Uff58, RefusesByLine) {
     return read ? "accepted" : text(read.error());
   };
   const std::string whole = Uff().made();
-  // Wherever the file is cut off at the end of a line, it is refused.
+  // A file cut off after any line is refused.
   for (std::size_t end = whole.find('\n'); end + 1 < whole.size();
        end = whole.find('\n', end + 1)) {
     EXPECT_NE(refusal(whole.substr(0, end + 1)), "accepted") << end;

@@ -18,13 +18,14 @@ using Complex = std::complex<double>;
 
 enum class Noise { proportional, even };
 
-/// 100 … 2000 Hz in steps of 1 Hz; `noise` of each value, or of a tenth of the largest everywhere.
+/// 100 … 2000 Hz in steps of 1 Hz; `noise` relative to each value, or to a tenth of the largest
+/// everywhere.
 Frf measured(const std::vector<FittedMode>& modes, double noise, Noise kind, unsigned seed) {
   Frf out;
   double largest = 0.0;
   for (int f = 100; f <= 2000; ++f) {
     const double w = 2.0 * std::numbers::pi * f;
-    Complex h = 2e-5;  // what lies above the band
+    Complex h = 2e-5;  // modes above the band
     for (const FittedMode& m : modes) {
       const double w0 = 2.0 * std::numbers::pi * m.frequency_hz;
       h += 1000.0 / m.mass_kg / Complex(w0 * w0 - w * w, 2.0 * m.damping_ratio * w0 * w);
@@ -36,7 +37,8 @@ Frf measured(const std::vector<FittedMode>& modes, double noise, Noise kind, uns
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal(0.0, std::sqrt(0.5));
   for (Complex& h : out.compliance_mm_n) {
-    // An accelerometer's floor is even; gain errors of hammer and sensor go with the response.
+    // An accelerometer's noise floor is even; gain errors of hammer and sensor scale with the
+    // response.
     const double size = kind == Noise::even ? 0.1 * largest : std::abs(h);
     const double re = normal(generator);
     h += noise * size * Complex(re, normal(generator));
@@ -57,7 +59,7 @@ void expect_found(const std::vector<FittedMode>& modes, double noise, Noise kind
     EXPECT_NEAR(fit->modes[k].stiffness_n_mm * 1e3, fit->modes[k].mass_kg * w * w, 1e-3);
   }
   if (kind == Noise::proportional) {
-    // From both sides: less than half the noise left means that noise was fitted.
+    // From both sides: a residual below half the noise means that noise was fitted.
     EXPECT_GT(fit->residual, 0.5 * noise);
     EXPECT_LT(fit->residual, 1.5 * noise);
   }
@@ -79,7 +81,7 @@ TEST(ModeFit, FindsOneTwoAndThreeModesUnderNoise) {
   }
 }
 
-/// 12 Hz apart, half-power bands of 20 Hz: at 5 % of noise their masses are known to 13 % alone.
+/// 12 Hz apart, half-power bands of 20 Hz: at 5 % noise their masses are known only to 13 %.
 TEST(ModeFit, TellsCloseModesApart) {
   for (const unsigned seed : cases({1U, 2U, 3U, 4U})) {
     expect_found({{500.0, 0.02, 1.0, 0.0}, {512.0, 0.02, 1.5, 0.0}}, 0.01, Noise::proportional,
@@ -121,7 +123,7 @@ TEST(ModeFit, ItsResponseLeavesWhatItSaysThatItLeaves) {
   EXPECT_NEAR(std::sqrt(left / all), fit->residual, 1e-9);
 }
 
-/// Noise alone, `even` or falling with 1/ω² as an accelerometer's does in displacement.
+/// Only noise, `even` or falling with 1/ω², as an accelerometer's does in displacement.
 Frf noise_of(std::size_t points, bool even, unsigned seed) {
   Frf out;
   std::mt19937_64 generator(seed);

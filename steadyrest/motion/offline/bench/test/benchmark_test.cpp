@@ -35,7 +35,7 @@ const BenchRow& row(const Benchmark& benchmark, std::string_view scene, std::str
 }
 
 TEST(Benchmark, TheDifferenceErrsByTheClosedForm) {
-  // RMS 0.408·q/T and 0.707·q/T² where all phases and speeds come by: q = 1 µm, T = 1 ms.
+  // RMS 0.408·q/T and 0.707·q/T² where all phases and speeds occur: q = 1 µm, T = 1 ms.
   const Benchmark sine = bench({"sine"}, {"difference"});
   const BenchRow& difference = row(sine, "sine", "difference");
   EXPECT_NEAR(difference.velocity.rms, 1.0 / std::sqrt(6.0), 0.03);
@@ -70,7 +70,7 @@ TEST(Benchmark, AShiftShowsTheLagOfTheDifference) {
 }
 
 TEST(Benchmark, JitterHurtsDifferencesAndNotEvents) {
-  // √2·σ_t·v/T beside the quantisation: v RMS = 2π·2·√½ mm/s, σ_t = 100 µs.
+  // √2·σ_t·v/T on top of the quantisation: v RMS = 2π·2·√½ mm/s, σ_t = 100 µs.
   const Benchmark all = bench({"sine", "jitter-100us"}, {"kalman", "difference"});
   const double v_rms = 4.0 * 3.14159265 / std::sqrt(2.0);
   const double law = std::hypot(1.0 / std::sqrt(6.0), std::sqrt(2.0) * 0.1 * v_rms);
@@ -154,7 +154,7 @@ TEST(Requirement, VerdictsFollowFromTheirNumbers) {
   EXPECT_EQ(rows[3].guaranteed, Verdict::forbidden);
 }
 
-/// 600 counts/s up and down again in fine counts, a row each millisecond.
+/// 600 counts/s up and down again in fine counts, one row per millisecond.
 EdgeLog triangle() {
   EdgeLog log;
   log.file = "triangle.csv";
@@ -187,7 +187,7 @@ TEST(RecordedAxis, GapsAndGlitchesAreNotScored) {
   for (std::size_t i = 200; i < log.rows.size(); ++i) {
     log.rows[i].t_s += 5.0;
   }
-  log.rows[700].count += 2000;  // the counter errs once
+  log.rows[700].count += 2000;  // one counter error
   const RecordedAxis axis = recorded_axis(log);
   for (std::size_t i = 185; i <= 215; ++i) {
     EXPECT_EQ(axis.scored[i], 0) << i;

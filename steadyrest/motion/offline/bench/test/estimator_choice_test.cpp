@@ -27,7 +27,7 @@ TEST(EstimatorChoice, EveryNameFollowsAConstantSpeed) {
     const auto estimator = make_estimator(name, full_setup());
     ASSERT_TRUE(estimator.has_value()) << name << kernel::outcome::text(estimator.error());
     const auto estimates = run(**estimator, record);
-    // 10 counts a tick; the coarsest of them is off by less than one.
+    // 10 counts per tick; the coarsest estimator is off by less than one.
     EXPECT_LT(score(estimates, record, 0.0, 0.2).velocity_max_mm_s, 1.0) << name;
   }
 }

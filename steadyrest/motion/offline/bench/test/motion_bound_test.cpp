@@ -26,8 +26,8 @@ TEST(MotionBound, HoldsOnRandomMotionsEncodersClocksAndLags) {
   EXPECT_EQ(hunt.contradictions, 0U);
 }
 
-/// A sine about a line and stops beside one, whose edges of leaving a cell and coming back are both
-/// lost between two ticks: the cell was not kept although nothing says so.
+/// A sine about a line and stops near one, where the edges of leaving a cell and coming back are
+/// both lost between two ticks: the axis left the cell although nothing shows it.
 TEST(MotionBound, HoldsWhereEdgesAreLostWithoutAWord) {
   for (const std::uint64_t seed : {900062U, 900347U}) {
     const Hunt hunt = hunt_bounds(seed, 1);
@@ -37,8 +37,8 @@ TEST(MotionBound, HoldsWhereEdgesAreLostWithoutAWord) {
   }
 }
 
-/// Dense passages with error ε and jerk limit J: what no estimator can beat is 3.12·ε^⅔·J^⅓
-/// and 2.88·ε^⅓·J^⅔.
+/// Dense passages with error ε and jerk limit J: no estimator can beat 3.12·ε^⅔·J^⅓ and
+/// 2.88·ε^⅓·J^⅔.
 /// With the best span the triples give 3.30 and 3.00 where physics allows 3.12 and 2.88: 6 % and 4
 /// % above.
 TEST(MotionBound, IsWithinATenthOfLandauAndKolmogorovOnDenseEdges) {
@@ -65,7 +65,7 @@ TEST(MotionBound, IsWithinATenthOfLandauAndKolmogorovOnDenseEdges) {
   EXPECT_LT(a, 1.10 * landau_a);
 }
 
-// No edge, so the half cell is the error of each position.
+// Without edges the half cell is the error of each position.
 TEST(MotionBound, AtStandstillTheCellAloneGivesTheClosedForm) {
   MotionBound b = bound({.max_jerk_mm_s3 = 5000.0});
   MotionIntervals last;
@@ -99,7 +99,7 @@ TEST(MotionBound, WithoutAJerkLimitTheAccelerationLimitAloneBoundsTheSpeed) {
   }
 }
 
-// A limit that is too tight must show as a contradiction, not as a wrong bound that looks right.
+// A limit that is too tight must show as a contradiction, not as a plausible wrong bound.
 TEST(MotionBound, SaysWhenTheLimitsDoNotExplainTheRecord) {
   const Record record = offline::record(sine(1.0, 2.0, 1.0), {});  // jerk up to 1984 mm/s³
   MotionBound b = bound({.clock_s = 1e-7, .max_jerk_mm_s3 = 200.0});

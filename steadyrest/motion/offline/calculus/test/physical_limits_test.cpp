@@ -57,7 +57,7 @@ TEST(PhysicalLimits, NoClockHelpsWhereEdgesAreFarApart) {
   // Velocity of the spline: a parabola between the extremes ±J·D²/8 at the edges, 0 half-way.
   EXPECT_NEAR(least.velocity_mm_s, kJerk * kSpacing * kSpacing / 8.0, 1e-12);
   EXPECT_NEAR(least.acceleration_mm_s2, kJerk * kSpacing / 2.0, 1e-12);
-  // It must not turn the axis round.
+  // It must not reverse the axis.
   EXPECT_DOUBLE_EQ(guaranteed_floor({0.01, 0.001, 0.0, 0.0, 5000.0}).velocity_mm_s, 0.01);
 }
 

@@ -11,7 +11,7 @@
 #include <steadyrest/motion/offline/calculus/unit_curves.hpp>
 #include <steadyrest/motion/offline/scene/scene.hpp>
 
-// Every number is one that the source's text prints, to the digits that it prints.
+// Every number is printed in the source's text, checked to the printed digits.
 namespace steadyrest::motion::offline {
 namespace {
 

@@ -35,7 +35,7 @@ void expect_ten_and_eleven(const EdgeLog& log) {
   EXPECT_FALSE(log.stopped);
 }
 
-// Each spelling that the README promises, one variation at a time, must give the same two rows.
+// Each spelling promised in the README, one variation at a time, must give the same two rows.
 TEST(EdgeLog, ReadsEverySpellingThatItPromises) {
   for (const std::string text : {
            "t_s,count\n0.5,10\n0.625,11\n",
@@ -58,7 +58,7 @@ TEST(EdgeLog, ReadsEverySpellingThatItPromises) {
   }
 }
 
-// Every block size from one byte up: a line may be torn anywhere, between CR and LF as well.
+// Every block size from one byte up: a line may be split anywhere, even between CR and LF.
 TEST(EdgeLog, ReadsTheSameHoweverItComesInBlocks) {
   const std::string text = "# log\r\nt_s,count\r\n0.5,10\r\n0.625,11\r\n";
   for (std::size_t size = 1; size <= text.size(); ++size) {
@@ -72,7 +72,7 @@ TEST(EdgeLog, ReadsTheSameHoweverItComesInBlocks) {
   }
 }
 
-// 5101 goes on from 5050; 510 is a number cut off in the middle.
+// 5101 continues 5050; 510 is a truncated number.
 TEST(EdgeLog, KeepsALastRowWithoutLineEndThatGoesOnAsBefore) {
   EXPECT_EQ(parsed("t_s,count\n0,5000\n0.001,5050\n0.002,5101").rows.size(), 3U);
   EXPECT_EQ(parsed("t_s,count\n0,5000\n0.001,5050\n0.002,510").rows.size(), 2U);
@@ -104,7 +104,7 @@ TEST(EdgeLog, ReportsWhatIsFasterThanTheAxis) {
   EXPECT_THAT(log.findings[0].what, HasSubstr("faster than the axis"));
 }
 
-// All are counted, twenty are told, and the fault that ends the log always comes along.
+// All are counted, twenty are reported, and the fault that ends the log is always included.
 TEST(EdgeLog, CountsAllFindingsButKeepsTheFirst) {
   std::string text = "t_s,count\n";
   for (int i = 0; i < 100; ++i) {
@@ -118,7 +118,7 @@ TEST(EdgeLog, CountsAllFindingsButKeepsTheFirst) {
   EXPECT_EQ(log.findings.back().line, 102U);
 }
 
-// A file without line ends must not be gathered in memory.
+// A file without line ends must not be collected in memory.
 TEST(EdgeLog, EndsAtALineThatNeverEnds) {
   const std::string endless(100000, '1');
   EXPECT_FALSE(parse_edge_log(endless, "log.csv"));
@@ -162,7 +162,7 @@ struct Promise {
 };
 
 Promise promise_of(const fs::path& file) {
-  // Files that have no room for a comment.
+  // Files with no room for a comment.
   static const std::map<std::string, Promise> kBare{
       {"empty.csv", {"refuse", 0, 0, "is empty"}},
       {"compressed.csv.gz", {"refuse", 0, 0, "is gzip-compressed; unpack it: zcat"}},
@@ -188,7 +188,7 @@ Promise promise_of(const fs::path& file) {
   return out;
 }
 
-// A corpus of files, each naming in its first line what must be said of it and where.
+// A corpus of files, each naming in its first line the expected report and its place.
 TEST(RefusedLogs, AreJudgedAtTheLineAndForTheFaultThatTheirFirstLineNames) {
   std::vector<fs::path> files;
   for (const auto& entry :

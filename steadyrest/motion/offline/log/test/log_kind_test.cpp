@@ -12,8 +12,7 @@
 
 #include <steadyrest/motion/offline/log/log_record.hpp>
 
-// Logs of motions that are known: a row for each edge, for the last edge of each cycle, for each
-// cycle.
+// Logs of known motions: a row for each edge, for the last edge of each cycle, for each cycle.
 namespace steadyrest::motion::offline {
 namespace {
 
@@ -98,7 +97,7 @@ TEST(LogKind, ARowForEachCycleIsNoLogOfEdges) {
   }
 }
 
-// Edges at exactly one a cycle look like ticks and must not be refused.
+// Edges at exactly one per cycle look like ticks and must not be refused.
 TEST(LogKind, ARowForEachEdgeIsOne) {
   for (const auto& [name, log] : {std::pair{"even", edges(steady(5000.0), true)},
                                   std::pair{"slow", edges(steady(700.0), true)},

@@ -20,7 +20,7 @@ struct DifferenceError {
   double acceleration_mm_s2 = 0.0;
 };
 
-/// RMS of differences over the nominal period, bias taken off, against the truth of the scene.
+/// RMS error of differences over the nominal period, without bias, against the scene's truth.
 DifferenceError difference_errors(const Record& record, bool counts) {
   const double period_s = 1.0 / record.how.cycle_hz;
   const auto x = [&](std::size_t k) {
@@ -60,7 +60,7 @@ TEST(JitterLaw, TheErrorOfDifferencesIsTheFormulasInSimulation) {
 }
 
 TEST(JitterLaw, AccelerationTakesItsShareFromTheSpeed) {
-  // From 0.5 mm/s at 1000 mm/s²: v/T equals a at 1 mm/s, so the error must all but vanish there.
+  // From 0.5 mm/s at 1000 mm/s²: v/T equals a at 1 mm/s, so the error must nearly vanish there.
   const auto profile = jerk_pieces("ramp", {0.0, 0.5, 1000.0}, {{2e-3, 0.0}});
   constexpr double kJitter = 5e-6;
   double squares = 0.0;
@@ -72,7 +72,7 @@ TEST(JitterLaw, AccelerationTakesItsShareFromTheSpeed) {
         profile,
         {.count_mm = 0.01, .tick_jitter_s = kJitter, .seed = static_cast<std::uint64_t>(seed)});
     const double v_hat = (record.truth[1].position_mm - record.truth[0].position_mm) / 1e-3;
-    // Tick 0 cannot look before the motion starts: its jitter is the positive half.
+    // Tick 0 cannot lie before the motion starts: its jitter is the positive half.
     const double j0 = record.ticks[0].t_s;
     const double j1 = record.ticks[1].t_s - 1e-3;
     const double error = v_hat - record.truth[1].velocity_mm_s + 0.5;
@@ -90,8 +90,8 @@ TEST(JitterLaw, AccelerationTakesItsShareFromTheSpeed) {
 }
 
 TEST(JitterLaw, QuantisationAddsAsTheRootOfTheSumOfSquares) {
-  // A speed whose counts per tick are no simple fraction: the mean over phases is q²/6 … as f(1 −
-  // f).
+  // A speed whose counts per tick are not a simple fraction: the mean over phases is q²/6 … as f(1
+  // − f).
   constexpr double kSpeed = 21.61803398875;
   const Record record =
       offline::record(constant_speed(kSpeed, 8.0), {.count_mm = 0.001, .tick_jitter_s = 20e-6});

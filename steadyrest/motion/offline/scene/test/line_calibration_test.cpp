@@ -17,7 +17,7 @@ Score kalman_score(const Record& record, double max_jerk_mm_s3 = online::kNoBoun
   return test::scored<MotionEstimator>({.max_jerk_mm_s3 = max_jerk_mm_s3}, record);
 }
 
-// The target of the requirement: half of what the errors cost before, with and without limits.
+// The required target: half of the error before, with and without limits.
 TEST(LineCalibration, BringsTheEstimatorBelowTheTarget) {
   const auto calibration = calibrate_lines(long_sine(), {});
   ASSERT_TRUE(calibration);

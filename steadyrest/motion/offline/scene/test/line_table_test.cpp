@@ -19,7 +19,7 @@ namespace {
 using online::LineTable;
 using online::MotionEstimator;
 
-/// RMS over lines from … to of table − truth, in counts, what they have in common taken off.
+/// RMS over lines from … to of table − truth, in counts, without the common part.
 double table_error(const LineTable& table, const Record& record, int from = 100, int to = 600) {
   double sum = 0.0;
   double sum2 = 0.0;
@@ -44,7 +44,7 @@ TEST(LineTable, LearnsTheLinesOfASineInOnePass) {
   EXPECT_LT(table_error(table, long_sine()), 0.0038);
 }
 
-// The fits err in the same way on each pass; a table that only adds up grows without end.
+// The fits err alike on each pass; a table that only adds up would grow without end.
 TEST(LineTable, DoesNotDriftOverHundredsOfPasses) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 30);
@@ -54,8 +54,8 @@ TEST(LineTable, DoesNotDriftOverHundredsOfPasses) {
   EXPECT_LT(table_error(table, long_sine()), 0.005);
 }
 
-// The ripple repeats with time, not with the revolution, so it must average out. Newton's steps
-// find when each true line is passed.
+// The ripple repeats with time, not with the revolution, so it must average out. Newton steps find
+// when each true line is passed.
 TEST(LineTable, DoesNotDriftOnARotaryAxis) {
   // 1000 counts per revolution, 20 counts/ms with a ripple of ±1.5 %.
   std::vector<double> error(1000);
@@ -95,7 +95,7 @@ TEST(LineTable, DoesNotDriftOnARotaryAxis) {
   EXPECT_NEAR(table.position_mm(5) - 0.005, table.position_mm(-995) + 0.995, 1e-15);
 }
 
-// The truth is the mean of the lines that were drawn, so the random part's mean counts, too.
+// The truth is the mean of the lines drawn, so the random part's mean counts too.
 TEST(LineTable, PhasesSumToZeroAndAreThoseOfTheEncoder) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 8);
@@ -114,7 +114,7 @@ TEST(LineTable, PhasesSumToZeroAndAreThoseOfTheEncoder) {
   }
 }
 
-// What moves from the lines to the phases must leave each line where it was.
+// Moving error from the lines to the phases must leave each line where it was.
 TEST(LineTable, SettlingChangesNoLineThatWasLearntButByWhatAllHaveInCommon) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine(), 2);
@@ -126,7 +126,7 @@ TEST(LineTable, SettlingChangesNoLineThatWasLearntButByWhatAllHaveInCommon) {
   }
 }
 
-// A line that nobody passed is off by more than a learnt one, and says so in its σ.
+// A line never passed has a larger error than a learnt one, and its σ shows it.
 TEST(LineTable, LinesThatWereNeverPassedHaveThePhaseAlone) {
   LineTable table = table_of(-10, 4000);
   learn(table, long_sine(), 4);
@@ -145,8 +145,8 @@ TEST(LineTable, LinesThatWereNeverPassedHaveThePhaseAlone) {
   EXPECT_DOUBLE_EQ(restored.position_mm(1000), table.position_mm(1000));
 }
 
-// 0 in the file means "not learnt": a line that was learnt to be exact is stored as a
-// hundred-thousandth of a count.
+// 0 in the file means "not learnt": a line learnt to be exact is stored as a hundred-thousandth of
+// a count.
 TEST(LineTable, ALineThatIsLearntToStandRightIsNotStoredAsUnknown) {
   LineTable table = table_of(0, 4);
   table.restore({}, std::vector<double>{2e-5, 1e-12, 0.0, -2e-5});
@@ -173,7 +173,7 @@ TEST(LineTable, DoesNotAllocateWhileItLearns) {
   table.settle();
 }
 
-// 1002 is no multiple of four: the phases would not close around the revolution.
+// 1002 is not a multiple of four: the phases would not close around the revolution.
 TEST(LineTable, RefusesWhatCannotWork) {
   EXPECT_FALSE(LineTable::make({.count_mm = 0.0}).has_value());
   EXPECT_FALSE(LineTable::make({.lines = LineTable::kMaxLines + 1}).has_value());

@@ -23,7 +23,8 @@ double largest(const std::vector<double>& values) {
   return out;
 }
 
-// A hundred passes over ideal lines: what is learnt is the fits' own error and is not applied.
+// A hundred passes over ideal lines: the table learns only the fits' own error, which is not
+// applied.
 TEST(LineTable, AnIdealScaleStaysAsItIs) {
   LineTable table = table_of(-10, 2100);
   learn(table, long_sine_ideal(), 100);
@@ -53,7 +54,7 @@ TEST(LineTable, ASmoothErrorOfScaleIsNotInvented) {
 
 // The fit's RMS must stop it, not the test's patience.
 TEST(LineTable, RoughMotionTeachesNothing) {
-  // Stamps with a noise of 2 counts of way: no fit is good enough.
+  // Stamps with noise of 2 counts of travel: no fit is good enough.
   LineTable table = table_of(0, 1000);
   for (int line = 0; line < 900; ++line) {
     table.learn(line * 1e-4 + (line * 7919 % 13) * 1.5e-5, line, 1, false);

@@ -82,8 +82,8 @@ TEST(JerkRamp, ALineThatDoesNotComeWithdrawsIt) {
   EXPECT_EQ(ramp.at(1.0, 1.0).share, 0.0);
 }
 
-/// The way to the first line is even in 0 … 1: at it the mean is right and the spread is the
-/// prior's, 0.262·∛(4.5·J); the second line leaves none.
+/// The way to the first line is evenly distributed over 0 … 1: there the mean is right and the
+/// spread is the prior's, 0.262·∛(4.5·J); after the second line there is none.
 TEST(JerkRamp, StartIsRightInTheMeanAtTheFirstLineAndExactAtTheSecond) {
   constexpr int kStarts = 1000;
   double mean = 0.0;
@@ -116,7 +116,7 @@ TEST(JerkRamp, AfterAStopTheStartIsExactAtItsFirstLine) {
   EXPECT_NEAR(ramp.at(t, t).v, -3.0 * kC * (t - 1.1) * (t - 1.1), 0.5);
 }
 
-// Trust is earned by how often a start came as foretold on this axis.
+// Trust is earned by how often starts on this axis came as predicted.
 TEST(JerkRamp, StartsThatDoNotUseTheLimitAreBelievedLess) {
   JerkRamp ramp({.jerk = kJerk});
   const double c = 0.2 * kC;

@@ -72,7 +72,7 @@ TEST(ModelBank, UpdatesAsThePlainKalmanFilter) {
   }
 }
 
-// Mixing expands and factors each model again and again: no drift may come of it.
+// Mixing expands and factors each model again and again: that must not cause drift.
 TEST(ModelBank, MomentsGoInAndOutUnchanged) {
   const ModelBank bank = with(kSome);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -80,7 +80,7 @@ TEST(ModelBank, MomentsGoInAndOutUnchanged) {
   }
 }
 
-// The plain form loses its positive definiteness here by rounding; the factored one may not.
+// Here rounding costs the plain form its positive definiteness; the factored one must keep it.
 TEST(ModelBank, StaysPositiveThroughAMillionSharpMeasurements) {
   ModelBank bank = with(kSome);
   std::mt19937 random(1);
@@ -98,7 +98,7 @@ TEST(ModelBank, StaysPositiveThroughAMillionSharpMeasurements) {
   }
 }
 
-/// Mean and variance of N(0, 1) cut to [a, b] by summing up.
+/// Mean and variance of N(0, 1) cut to [a, b] by summation.
 std::array<double, 3> cut_normal(double a, double b) {
   double mass = 0.0;
   double first = 0.0;

@@ -66,7 +66,7 @@ TEST(CycleMonitor, TellsPeriodsThatAddUpFromTicksOnAGrid) {
   EXPECT_LT(r.deviation_p999_s, 1.001e-4);
 }
 
-// 3 ms miss two cycles, 1.999 ms one, 20 ms are a gap; 999 − 3 periods are left.
+// 3 ms miss two cycles, 1.999 ms one, 20 ms are a gap; 999 − 3 periods remain.
 TEST(CycleMonitor, CountsMissedCyclesAndGapsAndKeepsThemOutOfTheSpread) {
   std::vector<double> stamps;
   double t = 5.0;
@@ -102,7 +102,7 @@ TEST(CycleMonitor, TimeThatRunsBackOrIsNoNumberIsCountedAndNotUsed) {
   EXPECT_LT(r.period_rms_s, 1e-15);
 }
 
-// Three stamps in the past are a clock that was set, one or two are bad stamps.
+// Three stamps in the past mean that the clock was set; one or two are bad stamps.
 TEST(CycleMonitor, GoesOnAfterTheClockWasSetBack) {
   std::vector<double> stamps;
   for (int k = 0; k < 100; ++k) {
@@ -168,7 +168,7 @@ TEST(CycleMonitor, AgreesWithAnotherProgramOnTheRecordedServoAxis) {
     const std::vector<double> stamps =
         stamps_of(is_whole ? whole : kernel::file::testing::excerpt(known.name));
     if (stamps.empty()) {
-      continue;  // a whole log that is not here
+      continue;  // a complete log that is not here
     }
     ++seen;
     const auto r = report_of(stamps);

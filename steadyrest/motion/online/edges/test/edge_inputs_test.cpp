@@ -27,7 +27,7 @@ TEST(Hostmot2, AnEdgeBetweenTheTwoRegistersStillComesBeforeItsTick) {
 
 /// Capture ticks of 1.28 µs (100 MHz / 128), cycle 1 ms = 781.25 of them: the timer is full after
 /// 84 ms.
-/// At 200 the timer is full and stays so, at 350 it has run over; both times the next edge must
+/// At 200 the timer is full and stays so, at 350 it has overflowed; both times the next edge must
 /// have its true instant.
 TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
   LatchedDecoder decoder(eqep_config());
@@ -43,7 +43,7 @@ TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
       ++position;
     }
     const std::uint64_t age = clock - edge;
-    // k < 300: the timer stops when full; after that it runs over and tells by COEF.
+    // k < 300: the timer stops when full; after that it overflows and sets COEF.
     const bool runs_over = k >= 300;
     const auto timer = static_cast<std::uint16_t>(
         runs_over ? age & 0xFFFFU : std::min<std::uint64_t>(age, 0xFFFFU));
@@ -64,7 +64,7 @@ TEST(Eqep, AFullOrOverrunTimerGivesNoEdgeAndTheNextOneItsRightTime) {
   EXPECT_EQ(decoder.count(), 7);
 }
 
-// COEF and CDEF as the manual has them: after a turn the sign of three counts is no direction.
+// COEF and CDEF as in the manual: after a turn the sign of three counts is not a direction.
 TEST(Eqep, TheFlagOfATurnMakesTheLineAGuessUnlessTheDirectionIsKnown) {
   for (const int direction : {0, -1}) {
     LatchedDecoder decoder(eqep_config());
@@ -97,7 +97,7 @@ TEST(LinuxCounter, EveryEventIsAnEdgeWithItsOwnStamp) {
   EXPECT_EQ(event.direction, -1);
   EXPECT_EQ(event.ticks, kNow + 2900);
   EXPECT_EQ(event.uncertain, 0);
-  // An event whose time runs back is an edge without a time.
+  // An event whose time goes back is an edge without a time.
   ASSERT_TRUE(decoder.update(linux_counter_read(0xFFFFFE, kNow + 100), event));
   EXPECT_EQ(event.uncertain, kTimeUnknown);
 }

@@ -13,7 +13,7 @@ namespace {
 using test::in_cell;
 using test::Sample;
 
-// Nine events into four places: five are pushed out, one of which had lost five itself.
+// Nine events into four places: five are dropped, one of which had itself lost five.
 TEST(EdgeRing, WhenItOverflowsTheNextEventSaysHowManyAreMissing) {
   EdgeRing<4> ring;
   EdgeEvent event;
@@ -27,7 +27,7 @@ TEST(EdgeRing, WhenItOverflowsTheNextEventSaysHowManyAreMissing) {
   EXPECT_EQ(ring.size(), 4U);
   ASSERT_TRUE(ring.pop(event));
   EXPECT_EQ(event.line, 6);
-  EXPECT_EQ(event.lost, 10U);  // five pushed out, five that one of them had lost
+  EXPECT_EQ(event.lost, 10U);  // five dropped, five that one of them had lost
   ASSERT_TRUE(ring.pop(event));
   EXPECT_EQ(event.line, 7);
   EXPECT_EQ(event.lost, 0U);

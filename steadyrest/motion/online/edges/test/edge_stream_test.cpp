@@ -21,7 +21,7 @@ EdgeEvent event_at(std::int64_t line, std::uint64_t ticks, std::uint8_t uncertai
   return out;
 }
 
-// Nanoseconds since 1970 as a double resolve 0.2 µs: the zero must come off as integers.
+// Nanoseconds since 1970 as a double resolve 0.2 µs: the zero must be subtracted as integers.
 TEST(EdgeStream, KeepsTheClocksResolutionHalfACenturyAfterItsZero) {
   auto stream = EdgeStream::make({.count_mm = 0.001, .clock_hz = 1e9}).value();
   constexpr std::uint64_t kNow = 1'760'000'000'000'000'000;

@@ -14,8 +14,8 @@ using test::Input;
 using test::kCycle;
 using test::random_cycle;
 
-// After more than half of the clock's range nobody can tell how often the stamp wrapped: no time
-// then, rather than a wrong one.
+// After more than half of the clock's range it is unknown how often the stamp wrapped: no time
+// rather than a wrong one.
 RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   Input input(16, 16, 0, random() % 65'536);
@@ -50,7 +50,7 @@ RC_GTEST_PROP(LatchedDecoder, DroppedCyclesNeverGiveAFalseTime, ()) {
   RC_ASSERT(start < 65'536U);
 }
 
-// 500 counts a cycle wrap 16 bits after 131 cycles; 65 are still safe for half of the range.
+// 500 counts per cycle wrap 16 bits after 131 cycles; 65 are still safe for half of the range.
 TEST(LatchedDecoder, ACountThatMayHaveWrappedUnseenSaysSo) {
   LatchedDecoder decoder({.count_bits = 16, .clock_bits = 64, .counts_per_cycle = 500});
   EdgeEvent event;
@@ -62,7 +62,7 @@ TEST(LatchedDecoder, ACountThatMayHaveWrappedUnseenSaysSo) {
   EXPECT_EQ(event.uncertain, kCountUncertain);
 }
 
-// A stamp before the last read belongs to an edge that was there already: the registers disagree.
+// A stamp before the last read belongs to an edge already reported: the registers disagree.
 TEST(LatchedDecoder, AStampOlderThanTheLastReadIsNoTime) {
   LatchedDecoder decoder(hostmot2_config(kCycle, 0));
   EdgeEvent event;
@@ -73,7 +73,7 @@ TEST(LatchedDecoder, AStampOlderThanTheLastReadIsNoTime) {
   EXPECT_EQ(event.line, 1);
   EXPECT_EQ(event.ticks, 7000U);
   EXPECT_EQ(decoder.state().impossible, 1U);
-  // A stamp that jumps without an edge is none.
+  // A stamp that jumps without a count change is not an edge.
   EXPECT_FALSE(decoder.update({.count = 1, .stamp = 300, .clock = 9000, .cycle = 2}, event));
 }
 

@@ -15,8 +15,8 @@ using test::Input;
 using test::kCycle;
 using test::random_cycle;
 
-// Counts and clocks of 16 to 64 bits, both about to wrap. `certain_from` of 1000 makes every sign
-// a guess where the hardware gives no direction, so the test asks for the mark there.
+// Counts and clocks of 16 to 64 bits, both about to wrap. `certain_from` of 1000 makes every sign a
+// guess where the hardware gives no direction, so the test expects the mark there.
 RC_GTEST_PROP(LatchedDecoder, GivesTheLastEdgeOfEachCycleWhereverCountAndClockWrap,
               (bool tells_direction)) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
@@ -59,8 +59,8 @@ RC_GTEST_PROP(LatchedDecoder, GivesTheLastEdgeOfEachCycleWhereverCountAndClockWr
 }
 
 /// Reads x(t) = A·t²/2 turned about `phase`, in counts and cycles; counts wrong events.
-/// The parabola turns at `phase` of a cycle: the case in which the last edge may be against the
-/// sign of the change. Forty places within a count, both signs.
+/// The parabola turns at `phase` of a cycle: there the last edge may go against the sign of the
+/// change. Forty places within a count, both signs.
 int wrong_lines(double acceleration, double phase, std::uint64_t certain_from) {
   LatchedDecoder decoder({.clock_bits = 16, .cycle_ticks = 1000, .certain_from = certain_from});
   EdgeEvent event;
@@ -94,7 +94,7 @@ int wrong_lines(double acceleration, double phase, std::uint64_t certain_from) {
 }
 
 // From both sides: just below |a| = 2n no certain line may be wrong, above it some must be, or the
-// limit would be put too low.
+// limit would be too low.
 TEST(LatchedDecoder, TheSignOfTheChangeIsCertainUpToTheAccelerationThatTheHeaderNames) {
   for (const std::uint64_t n : {1U, 2U, 4U}) {
     int below = 0;
@@ -105,7 +105,7 @@ TEST(LatchedDecoder, TheSignOfTheChangeIsCertainUpToTheAccelerationThatTheHeader
       above += wrong_lines(1.25 * limit, 0.05 * i, n);
     }
     EXPECT_EQ(below, 0) << n;
-    EXPECT_GT(above, 0) << n;  // the limit is not put too low
+    EXPECT_GT(above, 0) << n;  // the limit is not too low
   }
 }
 

@@ -8,8 +8,8 @@
 /// A board that latches count and clock at the edges of random cycles.
 namespace steadyrest::motion::online::test {
 
-/// An encoder input with a latch, and what truly happened: the brute-force reference.
-/// Keeps every edge, the decoder sees one read a cycle: whatever it says can be checked.
+/// An encoder input with a latch, and the truth: the brute-force reference. It keeps every edge
+/// while the decoder sees one read per cycle, so every answer can be checked.
 class Input {
  public:
   Input(unsigned count_bits, unsigned clock_bits, std::int64_t cell, std::uint64_t now)

@@ -28,7 +28,7 @@ std::vector<EdgeEvent> decode(const std::vector<Sample>& samples, QuadratureDeco
   return out;
 }
 
-/// A walk over cells that holds each cell some samples, and the passages that it truly made.
+/// A walk over cells that stays in each cell for some samples, and its true passages.
 struct Walk {
   std::vector<Sample> samples;
   std::vector<EdgeEvent> truth;
@@ -111,7 +111,7 @@ RC_GTEST_PROP(QuadratureDecoder, EveryEdgeOfAWalkComesOutWhereverTheClockWraps, 
 RC_GTEST_PROP(QuadratureDecoder, GlitchesShorterThanTheFilterChangeNothing, ()) {
   std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
   const auto hold = *rc::gen::inRange<std::uint16_t>(2, 9);
-  // Every cell is held long enough to take a glitch and to settle again.
+  // Every cell lasts long enough for a glitch and settling.
   Walk w = walk(random, 200, 3 * hold, 0, 5);
   const std::vector<Sample> clean = w.samples;
   std::uniform_int_distribution<int> length(1, hold - 1);
@@ -133,7 +133,7 @@ RC_GTEST_PROP(QuadratureDecoder, GlitchesShorterThanTheFilterChangeNothing, ()) 
   RC_ASSERT(decoder.state().glitches > 0U);
 }
 
-/// The levels after the filter by its definition: the last level that held n samples.
+/// The levels after the filter by definition: the last level that lasted n samples.
 std::vector<bool> filtered(const std::vector<bool>& raw, std::size_t n) {
   std::vector<bool> out(raw.size(), raw[0]);
   for (std::size_t i = 1; i < raw.size(); ++i) {
@@ -222,7 +222,7 @@ TEST(QuadratureDecoder, AMillionSamplesOfDitherDoNotMoveTheCount) {
     const Sample s = in_cell(cell, (i * 3) & 0xFFFFU);
     if (decoder.update(s.a, s.b, s.t, event)) {
       ++edges;
-      // The decoder's zero is the cell that it began in: 100 or 99.
+      // The decoder's zero is its first cell: 100 or 99.
       ASSERT_LE(std::abs(decoder.count()), 1);
       ASSERT_EQ(event.line,
                 edges == 1 ? event.line : decoder.state().count + (event.direction > 0 ? 0 : 1));

@@ -3,7 +3,7 @@
 
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-// Expected values are those that LinuxCNC 2.9's rs274 prints for the same lines.
+// Expected values are rs274's output (LinuxCNC 2.9) for the same lines.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -54,7 +54,7 @@ TEST(Interpreter, TakesFBeforeTheUnitsOfItsBlock) {
 }
 
 TEST(Interpreter, RefusesSpiralsExactlyWhereRs274Does) {
-  // The bounds of README.md on both sides, to the last digit that rs274 takes: 0.02828 mm on a
+  // The bounds of README.md from both sides, to the last digit that rs274 accepts: 0.02828 mm on a
   // small radius, 0.1 % on a large one, R short by 0.00127 mm.
   EXPECT_EQ(reason_of("F10 G2 X10.02828 I5\nM2\n"), "");
   EXPECT_EQ(reason_of("F10 G2 X10.02829 I5\nM2\n"), "arc_does_not_close");
@@ -78,7 +78,7 @@ TEST(Interpreter, OrientsArcsOfAllPlanesRightHanded) {
 
 TEST(Interpreter, PutsTheCentreOfARadiusArcOnTheRightSide) {
   const auto moves = moves_of("F10 G2 X1 Y0 R0.6\nG0 X0\nG2 X1 R-0.6\nM2\n");
-  // The centre is √(R² − (c/2)²) off the chord, on either side by the sign of R.
+  // The centre is √(R² − (c/2)²) off the chord; the sign of R decides the side.
   const double height = std::sqrt(0.6 * 0.6 - 0.25);
   EXPECT_NEAR(moves.at(0).centre_mm[1], -height, 1e-12);
   EXPECT_NEAR(moves.at(2).centre_mm[1], height, 1e-12);
@@ -97,8 +97,8 @@ TEST(Interpreter, CarriesTheWorkPositionThroughOffsetChanges) {
 
 TEST(Interpreter, RetractsToTheInitialLevelOrTheRPlane) {
   const auto low = moves_of("F100 G0 Z3\nG99 G81 X5 Z-1 R1\nX7\nM2\n");
-  // Over the hole, down to R, drill, out: the second hole comes in at R, so it needs no second
-  // rapid.
+  // Over the hole, down to R, drill, out: the tool reaches the second hole at R, so it needs no
+  // second rapid.
   ASSERT_EQ(low.size(), 8U);
   EXPECT_EQ(low[4].end[2], 1.0);
   EXPECT_EQ(low[5].end[2], 1.0);

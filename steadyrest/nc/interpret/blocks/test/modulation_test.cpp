@@ -25,7 +25,7 @@ TEST(SpeedModulation, TravelsWithTheMovesFromItsBlockOn) {
   for (const auto dialect : kDialects) {
     const auto moves = moves_of(kProgram, with_modulation(dialect));
     ASSERT_EQ(moves.size(), 4U);
-    // M words act before the move of their block, so M39 beside X3 switches X3 off already.
+    // M words act before the move of their block, so M39 in the block of X3 already applies to X3.
     EXPECT_FALSE(moves[0].speed_modulation);
     EXPECT_TRUE(moves[1].speed_modulation);
     EXPECT_FALSE(moves[2].speed_modulation);

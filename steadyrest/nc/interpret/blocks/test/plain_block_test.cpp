@@ -8,8 +8,8 @@
 
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-// Random programs, executed as they are and with G40 behind every block: compensation is off, so
-// the word does nothing but keep the block from the short way.
+// Random programs, executed as they are and with G40 in every block: compensation is off, so the
+// word only keeps the block off the fast path.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -62,7 +62,7 @@ std::string other() {
       "G98", "G99");
 }
 
-// A contour that leaves the tool beside it when the plain blocks resume.
+// A contour that leaves the tool offset from it when the plain blocks resume.
 void compensated(Texts& texts) {
   texts.plain("G0 X0 Y0");
   texts.other(*rc::gen::element<std::string>("G93", "G94"));
@@ -77,7 +77,7 @@ void compensated(Texts& texts) {
   texts.other("G2 X8 Y5 R8 F100");
 }
 
-// A second cubic spline goes on from the first, but not past another move.
+// A second cubic spline continues the first, but not after another move.
 void splines(Texts& texts) {
   texts.other("G5 X1 Y1 I1 J1 P-1 Q0");
   if (*rc::gen::arbitrary<bool>()) {
@@ -158,8 +158,7 @@ void expect_same(Report one, Report other) {
 }
 
 TEST(PlainBlock, MovesAsTheLongWayDoes) {
-  // The property: state, moves and events are equal bit for bit after every line, whichever way it
-  // took.
+  // State, moves and events are equal bit for bit after every line, on either path.
   EXPECT_TRUE(rc::check([] {
     Config config;
     config.axes = "XYZABCUVW";

@@ -18,7 +18,7 @@ struct Note {
   std::string_view text;
 };
 
-// The texts name FANUC's function of a code where LinuxCNC's differs.
+// The texts name FANUC's function of a code where it differs from LinuxCNC's.
 constexpr std::array kNotes = {
     Note{g::kCubicSpline, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
     Note{g::kQuadraticSpline, "g_code_not_interpreted",
@@ -87,7 +87,7 @@ bool FanucDecoder::block(const Block& block) {
   if (block.words().empty()) {
     return true;
   }
-  // The codes first: G4 decides what X and P are, G20/G21 what an increment is.
+  // Codes first: G4 decides what X and P mean, G20/G21 what an increment is.
   for (const Word& word : block.words()) {
     if (word.letter == 'G' ? !g_word(word) : word.letter == 'M' && !m_word(word)) {
       return false;
@@ -146,7 +146,7 @@ bool FanucDecoder::g_word(const Word& word) {
 // M50 to M53, M60 and M61 are the machine builder's on these controls, though LinuxCNC defines
 // them.
 bool FanucDecoder::m_word(const Word& word) {
-  // First, since the words of [chatter] are often taken from the machine builder's numbers.
+  // First, since the words of [chatter] often use the machine builder's numbers.
   if (is_modulation(word)) {
     return take_m(word);
   }
@@ -163,7 +163,7 @@ bool FanucDecoder::letter_word(const Word& word) {
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
   char letter = word.letter;
   double value = word.value;
-  // On a mill U V W are increments at a reference point only; elsewhere it is a lathe's program.
+  // On a mill U V W are increments only at a reference point; otherwise it is a lathe program.
   if (letter == 'U' || letter == 'V' || letter == 'W') {
     if (step_.code(GGroup::non_modal) != g::kHome &&
         step_.code(GGroup::non_modal) != g::kSecondHome) {
@@ -174,7 +174,7 @@ bool FanucDecoder::letter_word(const Word& word) {
     step_.incremental |= Step::bit(letter);
   }
   if (letter == 'D') {
-    // A radius or length number without G41/G42/G43 is a preparation that moves nothing.
+    // A radius or length number without G41/G42/G43 only prepares and moves nothing.
     return refuse(word, "unused_word",
                   "a D word, but cutter radius compensation is not interpreted");
   }
@@ -192,7 +192,7 @@ bool FanucDecoder::letter_word(const Word& word) {
   }
   if (letter == 'P') {
     if (step_.code(GGroup::non_modal) == g::kSetData) {
-      return put_letter(word, 'P', value);  // which work offset
+      return put_letter(word, 'P', value);  // selects the work offset
     }
     // P is a time only where a dwell or a cycle takes one.
     const bool with_time = dwell || is_cycle(step_.code(GGroup::motion)) ||
@@ -202,7 +202,7 @@ bool FanucDecoder::letter_word(const Word& word) {
     }
     return put_letter(word, 'P', value * 1e-3);  // milliseconds
   }
-  // IS-B: 0.001 mm, 0.0001 in, 0.001°. The units of this very block count, on FANUC they act first.
+  // IS-B: 0.001 mm, 0.0001 in, 0.001°. The units of this same block count: on FANUC they act first.
   if (!word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment) {
     const int units = step_.code(GGroup::units);
     const bool inch = units == kNoCode ? in_.state.unit_mm != 1.0 : units == g::kInch;
@@ -241,7 +241,7 @@ bool FanucDecoder::program_call() {
   return true;
 }
 
-// Where these controls do otherwise than LinuxCNC.
+// Where these controls differ from LinuxCNC.
 bool FanucDecoder::finish() {
   if (step_.code(GGroup::units) != kNoCode) {
     // Calculated values were rounded to the unit before this block, while it was read.
@@ -260,7 +260,7 @@ bool FanucDecoder::finish() {
   if (non_modal == g::kMachineFrame) {
     step_.machine_frame = true;
   }
-  // G28 in one block with G0/G1: the motion word is modal only, the axis words belong to G28.
+  // G28 in a block with G0/G1: the motion word only sets the mode, the axis words belong to G28.
   if ((non_modal == g::kHome || non_modal == g::kSecondHome) &&
       step_.code(GGroup::motion) != kNoCode) {
     const std::int16_t motion = step_.code(GGroup::motion);
@@ -279,7 +279,7 @@ bool FanucDecoder::finish() {
     return in_.refusals.g_word(step_, g::kToolLength, "tool_missing",
                                "G43 without its offset number (H)");
   }
-  // What one leaves of the other differs between controls, so a program may use either.
+  // Controls differ in what one leaves of the other, so a program may use only one of them.
   if ((non_modal == g::kShift && in_.state.g92_used) ||
       (non_modal == g::kSetOrigin && in_.state.g52_used)) {
     return in_.refusals.g_word(
@@ -297,7 +297,7 @@ bool decode_fanuc(const Decoding& in, const Block& block, Step& step) {
 
 const DialectRules& fanuc_rules() noexcept {
   // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
-  // be left out, no lift before going across.
+  // be omitted, no lift before moving across.
   static constexpr DialectRules kRules{.decode = decode_fanuc,
                                        .starts_with_g98 = true,
                                        .g10_adds = true,

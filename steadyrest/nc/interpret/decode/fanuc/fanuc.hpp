@@ -6,7 +6,7 @@
 namespace steadyrest::nc::interpret {
 
 /// FANUC-style milling programs: G code system of the machining-centre controls, also Haas and
-/// Mazak EIA. Codes that lathes give another meaning are refused, not guessed.
+/// Mazak EIA. Codes that mean something else on lathes are refused, not guessed.
 [[nodiscard]] const DialectRules& fanuc_rules() noexcept;
 
 }  // namespace steadyrest::nc::interpret

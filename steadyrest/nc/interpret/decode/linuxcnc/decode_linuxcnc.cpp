@@ -49,7 +49,7 @@ class LinuxcncDecoder final : public StepWriter {
   }
 
  private:
-  // @ is the radius, ^ the angle; NaN means that the word is left out.
+  // @ is the radius, ^ the angle; NaN means that the word is omitted.
   bool take_polar(const Word& word) {
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
     if (!std::isnan(place)) {
@@ -69,7 +69,7 @@ bool decode_linuxcnc(const Decoding& in, const Block& block, Step& step) {
   const std::uint32_t plain = in.axes | Step::bit('F');
   std::int16_t& motion = step.g[static_cast<std::size_t>(GGroup::motion)];
   for (const Word& word : block.words()) {
-    // What nearly all words are, without a call.
+    // Nearly all words, without a call.
     const std::uint32_t bit = Step::bit(word.letter);
     if ((bit & plain & ~step.mask) != 0) {
       step.set(word.letter, word.value);
@@ -89,8 +89,8 @@ bool decode_linuxcnc(const Decoding& in, const Block& block, Step& step) {
 }  // namespace
 
 const DialectRules& linuxcnc_rules() noexcept {
-  // LinuxCNC switches units after F has been read, clears the feed at every G94 and G95, and taps
-  // only in G17 as its 2.9 swaps the axes elsewhere.
+  // LinuxCNC switches units after reading F and clears the feed at every G94 and G95; it taps only
+  // in G17 because 2.9 swaps the axes in other planes.
   static constexpr DialectRules kRules{.decode = decode_linuxcnc,
                                        .units_first = false,
                                        .feed_mode_clears_feed = true,

@@ -21,7 +21,7 @@ struct Translation {
 };
 
 // Codes with the same meaning under the same or another number.
-// G505 to G509 are further settable offsets; here they are G58 and following of the common list.
+// G505 to G509 are further settable offsets; here they are G58 and up in the common list.
 constexpr std::array kTranslations = {
     Translation{0, g::kRapid},         Translation{1, g::kLinear},
     Translation{2, g::kArcClockwise},  Translation{3, g::kArcCounterClockwise},
@@ -43,7 +43,7 @@ constexpr std::array kTranslations = {
     Translation{96, g::kCuttingSpeed}, Translation{97, g::kSpindleSpeed},
 };
 
-// Known codes that are not interpreted: named for what they do, as a user would look for them.
+// Known codes that are not interpreted, named by their function, as a user would look for them.
 struct NotInterpreted {
   int code;
   std::string_view text;
@@ -69,14 +69,14 @@ constexpr std::array kNotInterpreted = {
     NotInterpreted{971, "G971 is not interpreted"},
 };
 
-// The names of the control are the same in small letters.
+// The control ignores case in names.
 bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   });
 }
 
-// Dynamics of the control, exact-stop criteria: no influence on the moves.
+// Dynamics, exact-stop criteria: no effect on the moves.
 constexpr std::array<std::string_view, 8> kWithoutEffect = {"STOPRE", "FNORM", "CFC",  "CFTCP",
                                                             "CFIN",   "FFWOF", "SOFT", "MSG"};
 
@@ -93,7 +93,7 @@ class SinumerikDecoder final : public StepWriter {
   bool finish();
 };
 
-// G words first: whether F and S are a dwell depends on G4, wherever it is in the block.
+// G words first: G4, wherever it is in the block, makes F and S a dwell.
 bool SinumerikDecoder::block(const Block& block) {
   for (const Word& word : block.words()) {
     if (word.letter == 'G' && !g_word(word)) {
@@ -140,7 +140,7 @@ bool SinumerikDecoder::g_word(const Word& word) {
   }
   for (const Translation& translation : kTranslations) {
     if (value == translation.theirs) {
-      // G70 and G71 are for geometry alone: feeds stay in the control's basic unit, mm.
+      // G70 and G71 apply only to geometry: feeds stay in the control's basic unit, mm.
       step_.work_feed = step_.work_feed && translation.theirs != 70 && translation.theirs != 71;
       return put_g(word, translation.ours);
     }
@@ -154,7 +154,7 @@ bool SinumerikDecoder::m_word(const Word& word) {
   }
   // The M words that SINUMERIK defines; all others belong to the machine builder.
   constexpr std::array kKnown = {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 30.0};
-  // M17 and RET both end a subprogram: one word from here on.
+  // M17 and RET both end a subprogram: treated as one word from here on.
   if (word.value == 17.0) {
     step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
@@ -165,8 +165,8 @@ bool SinumerikDecoder::m_word(const Word& word) {
   return take_m(word);
 }
 
-// Letters mean what they do in the other dialects, except in a G4 block, and except D and those
-// that the language does not have.
+// Letters mean the same as in the other dialects, except in a G4 block, D, and those that the
+// language lacks.
 bool SinumerikDecoder::letter_word(const Word& word) {
   const char letter = word.letter;
   const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
@@ -192,7 +192,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
     // S in a G4 block counts revolutions at the programmed speed.
     return put_letter(word, 'P', word.value / in_.state.spindle_speed_rev_s);
   }
-  if (letter == 'D') {  // D0 takes the tool's length off, D1 puts it on
+  if (letter == 'D') {  // D0 cancels the tool length, D1 applies it
     if (word.value != std::floor(word.value) || word.value < 0.0 ||
         (in_.config.tools && word.value > 1.0)) {
       return refuse(word, "no_such_tool", "a cutting edge that is not in the tool table");
@@ -204,7 +204,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
     place = word.value == 0.0 ? g::kToolLengthOff : g::kToolLength;
     return true;
   }
-  // These letters are other functions in ISO dialects; sinumerik has names for them.
+  // In ISO dialects these letters have functions that sinumerik writes as names.
   if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
     return refuse(word, "unknown_word",
                   letter == 'L' ? "a subprogram call (L)"
@@ -223,8 +223,8 @@ bool SinumerikDecoder::letter_word(const Word& word) {
   return put_letter(word, letter, word.value);
 }
 
-// Words of two or more letters. Frames and SUPA change how the axis words of the block are meant;
-// the others mean a letter of the common vocabulary or have no effect.
+// Words of two or more letters. Frames and SUPA change the meaning of the block's axis words; the
+// others map to a letter of the common vocabulary or have no effect.
 bool SinumerikDecoder::name_word(const Word& word) {
   const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
   if (equal(word.name, "RET")) {
@@ -267,7 +267,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
     step_.frame_angle_deg = word.value;
     return true;
   }
-  // CR= is R of the other dialects, which is a parameter here.
+  // CR= is the R of other dialects; R itself is a parameter here.
   if (equal(word.name, "CR")) {
     return put_letter(word, 'R', word.value);
   }
@@ -276,7 +276,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
       return refuse(word, "arc_turns",
                     "the further turns are out of range; allowed: whole numbers from 0 to 999");
     }
-    // TURN counts the further turns, P all of them.
+    // TURN counts the additional turns, P all of them.
     return put_letter(word, 'P', word.value + 1.0);
   }
   // ADIS, ADISPOS: how far before a corner the rounding may begin.
@@ -301,7 +301,7 @@ bool SinumerikDecoder::finish() {
         step_, g::kDwell, "g4_with_motion",
         "a dwell (G4) together with axis words; write it in a separate block");
   }
-  // Constant cutting speed brings feed per revolution with it.
+  // Constant cutting speed implies feed per revolution.
   std::int16_t& feed_mode = step_.g[static_cast<std::size_t>(GGroup::feed_mode)];
   if (step_.code(GGroup::spindle_mode) == g::kCuttingSpeed) {
     if (feed_mode != kNoCode) {
@@ -324,7 +324,7 @@ bool decode_sinumerik(const Decoding& in, const Block& block, Step& step) {
 }  // namespace
 
 const DialectRules& sinumerik_rules() noexcept {
-  // SUPA may be alone in a block and keeps the tool's length; the rounding distance (ADIS) stays in
+  // SUPA may be alone in a block and keeps the tool length; the rounding distance (ADIS) stays in
   // force from block to block.
   static constexpr DialectRules kRules{.decode = decode_sinumerik,
                                        .machine_frame_alone = true,

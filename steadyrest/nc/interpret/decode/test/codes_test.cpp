@@ -13,7 +13,8 @@ namespace {
 
 using read::Dialect;
 
-// Found with rs274 2.9, one program for each: all for which it does not say "Unknown g code used".
+// Found with rs274 2.9, one program per code: all that it does not reject with "Unknown g code
+// used".
 const std::vector<double> kOfRs274 = {
     0,    1,    2,    3,    4,    5,    5.1,  5.2,  5.3,  7,  8,    10,   17,   17.1, 18,
     18.1, 19,   19.1, 20,   21,   28,   28.1, 30,   30.1, 33, 33.1, 38.2, 38.3, 38.4, 38.5,
@@ -32,7 +33,7 @@ const std::vector<double> kOfFanuc = {
 const std::vector<double> kOfSinumerik = {0,  1,  2,  3,  4,  9,  17, 18, 19, 40, 53, 54, 55,
                                           56, 57, 60, 64, 70, 71, 90, 91, 93, 94, 95, 96, 97};
 
-/// Whether the decoder knows the word; what the block lacks is found later.
+/// Whether the decoder knows the word; anything missing in the block is found later.
 bool is_word(const std::string& word, Dialect dialect) {
   Config config;
   config.dialect = dialect;
@@ -75,7 +76,7 @@ TEST(Codes, OfADialectAreThoseOfItsListToTheTenth) {
   }
 }
 
-// A tenth of a tenth is no code either; RS274/NGC lets 0.0001 pass.
+// Hundredths are not codes either; RS274/NGC tolerates 0.0001.
 TEST(Codes, HaveNothingBelowTheTenth) {
   for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik}) {
     for (const char* word : {"G0.05", "G1.01", "G7.95", "G17.999", "G53.98", "G54.04", "G59.14",

@@ -4,7 +4,7 @@
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-// No dialect has both G9 and cutter compensation; the stages are given both here.
+// No dialect has both G9 and cutter compensation; here the stages get both.
 namespace steadyrest::nc::interpret {
 namespace {
 

@@ -11,7 +11,7 @@
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-// Expected values are those that LinuxCNC 2.9's rs274 prints for the same tool table and program.
+// Expected values are rs274's output (LinuxCNC 2.9) for the same tool table and program.
 namespace steadyrest::nc::interpret {
 namespace {
 
@@ -22,7 +22,7 @@ kernel::outcome::Result<std::vector<Tool>> table_of(const std::string& text, dou
   return read_tool_table(folder.file("tool.tbl", text), unit_mm);
 }
 
-// #5411, #5412 and #5413 of rs274 with these lines.
+// #5411, #5412 and #5413 from rs274 with these lines.
 TEST(ToolTable, HasTheAnglesAndTheEdgeOfALatheTool) {
   const auto tools = table_of(
       "T1 P1 Z1 D0.04 I95 J155 Q2 ;turning\nT6 P6 D0.04 I-10.5 J+3.25 Q02\nT7 P7 D1\n", 25.4);
@@ -40,7 +40,7 @@ TEST(ToolTable, HasTheAnglesAndTheEdgeOfALatheTool) {
   EXPECT_EQ((*tools)[2].orientation, 0);
 }
 
-// LinuxCNC has nine edges and takes the first digits of anything else.
+// LinuxCNC has nine orientations and reads only the leading digits of anything else.
 TEST(ToolTable, RefusesAnOrientationThatIsNone) {
   for (const char* word : {"Q2.5", "Q10", "Q-1"}) {
     const auto tools = table_of(fmt::format("T1 P1 D1\nT2 P2 {} D1\n", word));
@@ -50,7 +50,7 @@ TEST(ToolTable, RefusesAnOrientationThatIsNone) {
   }
 }
 
-// What a line of the table can say about a tool comes back, whatever the order of its words.
+// Everything a line of the table can say about a tool comes back, in any word order.
 TEST(ToolTable, LosesNothing) {
   for (std::int32_t edge = 0; edge <= 9; ++edge) {
     Tool tool{.number = edge + 3,
@@ -71,7 +71,7 @@ TEST(ToolTable, LosesNothing) {
   }
 }
 
-// The edge's own point is one radius beside the centre of its nose.
+// The tool point is one radius off the centre of its nose.
 TEST(ToolTable, TheEdgeMovesACompensatedTool) {
   Config config;
   config.tools = table_of("T1 P1 D1.016 I95 J155 Q2\n").value();

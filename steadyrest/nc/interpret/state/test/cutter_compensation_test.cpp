@@ -4,8 +4,8 @@
 
 #include <steadyrest/nc/interpret/test/moves.hpp>
 
-// Expected values are those that LinuxCNC 2.9's rs274 prints for the same lines.
-// The closed forms behind some of them:
+// Expected values are rs274's output (LinuxCNC 2.9) for the same lines. The closed forms behind
+// some of them:
 // - arcs that meet: circles of radius 7 about (25, 20) and (35, 20) meet at X30, 20 + √(49 − 25);
 // the line Y22 meets the second at 35 + √(49 − 4).
 // - entry on an arc: the centre on Y10 that is as far from (0, 0) as from (12, 10): 100/24 less
@@ -98,7 +98,7 @@ TEST(CutterCompensation, KeepsLineFeedAndSpindleOfTheBlockThatAMoveComesFrom) {
   }
 }
 
-/// What `what` is behind the given line of a compensated contour; nothing where it is refused.
+/// The value of `what` after the given line of a compensated contour; nothing where it is refused.
 std::vector<double> held(const std::string& line, const std::string& what) {
   std::string text =
       "G21 G17 G90 G64\nG92 X1 Y2\nG10 L2 P1 X100 Y200 R30\nF100\nG0 X0 Y0\n"
@@ -109,7 +109,7 @@ std::vector<double> held(const std::string& line, const std::string& what) {
   return moves.empty() ? std::vector<double>{} : std::vector{moves.back().end[0]};
 }
 
-// Both #<_x> and #<_abs_x> are the tool's centre, as (DEBUG,#<_x> #<_abs_x>) of rs274 shows.
+// Both #<_x> and #<_abs_x> are the tool centre, as rs274 shows with (DEBUG,#<_x> #<_abs_x>).
 TEST(CutterCompensation, NamesShowTheToolsCentreInWorkAndMachineCoordinates) {
   const struct {
     const char* behind;
@@ -132,7 +132,7 @@ TEST(CutterCompensation, NamesShowTheToolsCentreInWorkAndMachineCoordinates) {
   }
 }
 
-// The numbers exist all the while, but cannot be read from G41 to G40.
+// The numbers always exist but cannot be read from G41 to G40.
 TEST(CutterCompensation, NumbersOfThePositionExistButAreNotRead) {
   EXPECT_EQ(held("G40\n", "#5421"), std::vector{20.0});
   for (const char* number : {"#5420", "#[5419+1]", "#5428"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a step of the feed override changes nothing, by segments whose speeds are known beforehand.
+// When a step of the feed override changes nothing, on segments of known speed.
 #include <string>
 #include <vector>
 
@@ -13,8 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Segments of 10 mm that are passed at `reached` of a feed of 100 mm/s and never slow down
-/// between.
+/// Segments of 10 mm that run at `reached` under a feed of 100 mm/s and never slow down in between.
 PlannedPath reaching(const std::vector<double>& reached_mm_s) {
   PlannedPath path;
   for (const double mm_s : reached_mm_s) {
@@ -38,15 +37,15 @@ kernel::machine::OverrideTable switch_of(std::vector<double> ratio) {
 
 const auto kSwitch = switch_of({0.0, 0.5, 0.9, 1.0, 1.2});
 
-// The next step below 100 % is 90 %: a segment that reaches 91 mm/s of 100 feels it, one that
-// reaches 90 does not.
+// The next step below 100 % is 90 %: it acts on a segment that reaches 91 mm/s of 100, not on one
+// that reaches 90.
 TEST(IdleOverride, BeginsWhereTheNextStepIsNotFelt) {
   EXPECT_FALSE(idle_override(reaching({91.0}), kSwitch));
   EXPECT_TRUE(idle_override(reaching({90.0}), kSwitch));
-  EXPECT_FALSE(idle_override(reaching({90.0}), switch_of({0.5, 0.85, 1.0}))) << "85 % is felt";
+  EXPECT_FALSE(idle_override(reaching({90.0}), switch_of({0.5, 0.85, 1.0}))) << "85 % acts";
 }
 
-// Weighed by time, not by number: 10 mm at 20 mm/s last as long as four at 80.
+// Weighted by time, not by number: 10 mm at 20 mm/s last as long as four at 80.
 TEST(IdleOverride, CountsTheTimeAndNotTheMoves) {
   const auto felt = switch_of({0.3, 1.0});
   EXPECT_FALSE(idle_override(reaching({20.0, 80.0, 80.0, 80.0, 80.0}), felt)) << "just half of it";
@@ -63,7 +62,7 @@ TEST(IdleOverride, NamesTheFirstLineTheShareAndWhereItBeginsToAct) {
   EXPECT_THAT(warning->text, HasSubstr("begins to act at about 20 %"));
 }
 
-// Only moves whose feed the switch scales have a say.
+// Only moves whose feed the switch scales count.
 TEST(IdleOverride, LooksAtFeedMovesAlone) {
   for (bool SegmentPlan::* kind :
        {&SegmentPlan::rapid, &SegmentPlan::locked, &SegmentPlan::per_revolution}) {

@@ -44,7 +44,7 @@ void run(const std::string& text, interpret::Sink& sink, const interpret::Config
   ASSERT_THAT(report->refused, IsEmpty());
 }
 
-/// `LINE: text` of each warning; work offset 0 where it is known.
+/// `LINE: text` of each warning; where the work offset is known, it is 0.
 std::vector<std::string> warned(const std::string& text, const Known& known = {}) {
   const auto machine = limited_mill();
   MachineCheck check(machine, known);
@@ -123,13 +123,13 @@ TEST(MachineCheck, ReadsInches) {
 }
 
 TEST(MachineCheck, KnowsByTheExtentWhatNoOffsetCanMend) {
-  EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nX290\nM2\n"), IsEmpty()) << "590 mm fit somewhere";
+  EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nX290\nM2\n"), IsEmpty()) << "590 mm fits somewhere";
   EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nX310\nX320\nM2\n"),
               ElementsAre(HasSubstr("5: the program covers 620.000 mm of X, from -300.000 to "
                                     "320.000 mm; its travel is only 600 mm")));
   EXPECT_THAT(warned(kHead + "G1 X20 F1000\nG0 X900\nM2\n"),
               ElementsAre(HasSubstr("5: the program covers 880.000 mm of X")));
-  // A rapid in machine coordinates says nothing of the work offset, and needs none.
+  // A rapid in machine coordinates says nothing about the work offset and needs none.
   EXPECT_THAT(warned(kHead + "G1 X20 F1000\nG53 G0 X601 Z0\nX10\nM2\n"),
               ElementsAre(HasSubstr("5: a rapid takes X to 601.000 mm")));
   EXPECT_THAT(warned(kHead + "G1 X-300 F1000\nG53 G0 X600 Z0\nM2\n"), IsEmpty());
@@ -149,7 +149,7 @@ TEST(MachineCheck, KnowsWhatTheAxesCanDo) {
                             "6000 mm/min")));
   EXPECT_THAT(warned(kHead + "G1 X100 Y100 F16000\nX50 F20000\nX20\nM2\n"),
               ElementsAre(HasSubstr("5: the feed of 20000 mm/min")))
-      << "16.9 m/min along the diagonal are 12 of either axis";
+      << "16.9 m/min along the diagonal is 12 on either axis";
   EXPECT_THAT(warned(kHead + "G1 X100 F1000000\nX50\nX20 F1000\nX10 F1000000\nM2\n"),
               ElementsAre(HasSubstr("4: the feed of 1000000 mm/min")))
       << "F is modal: one warning for each new one";
@@ -176,7 +176,7 @@ TEST(MachineCheck, CountsWhatItDoesNotKeep) {
   const auto machine = limited_mill();
   MachineCheck check(machine, kAll);
   run(text + "M2\n", check);
-  // What is shown is bounded, what is counted is not.
+  // The number shown is bounded, the count is not.
   EXPECT_EQ(check.warnings().size(), MachineCheck::kMost);
   EXPECT_EQ(check.count(), 1500U);
 }
@@ -191,7 +191,7 @@ std::optional<Warning> idle(const std::string& text) {
 }
 
 TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
-  // F60000 is 1000 mm/s and the axes do 200: only below 20 % does the override begin to act.
+  // F60000 is 1000 mm/s and the axes do 200: the override acts only below 20 %.
   const auto far = idle(kHead + "G1 X500 F60000\nX10\nM2\n");
   ASSERT_TRUE(far);
   EXPECT_EQ(far->line, 4U);
@@ -199,7 +199,7 @@ TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
       far->text,
       HasSubstr("next step of the feed override, 90 %, changes nothing for 100 % of the cut"));
   EXPECT_THAT(far->text, HasSubstr("begins to act at about 20 %"));
-  // 1 mm lines under exact stop: the axes never come to 6 m/min.
+  // 1 mm lines under exact stop: the axes never reach 6 m/min.
   // From stop to stop over 1 mm at 1000 mm/s² the peak is √(1·1000) = 31.6 mm/s, 32 % of F6000.
   std::string stairs = kHead + "G61.1\nF6000\n";
   for (int i = 0; i < 50; ++i) {

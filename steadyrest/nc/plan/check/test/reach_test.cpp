@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a move reaches, against its points: a thousand along the whole of each arc.
+// How far a move reaches, checked against a thousand points along each arc.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,7 +80,7 @@ ArcByAngles any_arc() {
   return arc;
 }
 
-// Of 1000 points none is further than 14/1000 rad from an extreme: r·0.007²/2 is lost at most.
+// With 1000 points, one is always within 0.007 rad of an extreme: at most r·0.007²/2 is lost.
 RC_GTEST_PROP(Reach, OfACircleIsThatOfItsPointsInEveryPlaneAndRotation, ()) {
   const ArcByAngles arc = any_arc();
   const Move move =
@@ -95,8 +95,8 @@ RC_GTEST_PROP(Reach, OfACircleIsThatOfItsPointsInEveryPlaneAndRotation, ()) {
   }
 }
 
-// The bound of a spiral or helix takes its larger radius and its whole rise: it holds every point,
-// and is off by no more than what radius and height change.
+// The bound of a spiral or helix uses its larger radius and its whole rise: it contains every point
+// and is off by at most the change of radius and height.
 RC_GTEST_PROP(Reach, OfASpiralOrHelixHoldsAllItsPoints, ()) {
   ArcByAngles arc = any_arc();
   arc.radius_end_mm = tenths(1, 40);
@@ -126,7 +126,7 @@ TEST(Reach, OfAQuarterKnowsWhichWayRound) {
   EXPECT_NEAR(reach_of(rest, 1).high_mm, -40.0, 1e-9);
 }
 
-// Rotary axes and U V W turn with no plane: their ends say all.
+// Rotary axes and U V W belong to no plane: their ends suffice.
 TEST(Reach, OfFurtherAxesIsThatOfTheirEnds) {
   Move move = move_of({.sweep_rad = 3.0}, {0, 0, 0}, 30.0);
   move.start[3] = 5.0;

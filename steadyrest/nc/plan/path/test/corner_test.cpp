@@ -55,8 +55,8 @@ struct Corner {
   CornerRequest request;
 };
 
-/// The one circle that touches the leg before `back_mm` ahead of the corner and is tangent to the
-/// leg after, both on their left: its radius, if it keeps what was asked.
+/// The radius of the one circle that touches the first leg `back_mm` before the corner and is
+/// tangent to the second, on the left of both, if it meets the request.
 std::optional<double> radius_at(const Corner& corner, double back_mm) {
   const Leg& a = corner.before;
   const Leg& b = corner.after;
@@ -69,7 +69,7 @@ std::optional<double> radius_at(const Corner& corner, double back_mm) {
     tangent = {std::cos(angle), -a.turn * std::sin(angle)};
   }
   const Vec normal{-tangent.y, tangent.x};
-  // 1 − cos of the angle between the tangents, without a difference of near numbers.
+  // 1 − cos of the angle between the tangents, without cancellation.
   const Vec between{b.tangent.x - tangent.x, b.tangent.y - tangent.y};
   const double apart = 0.5 * along(between, between);
   const auto centre_of = [&](double r) {
@@ -78,7 +78,7 @@ std::optional<double> radius_at(const Corner& corner, double back_mm) {
   double r = 0.0;
   double taken = 0.0;
   if (b.arc) {
-    // |touch + r·normal − c|² = (R − o·r)² with |c| = R: neither R² nor r² remains.
+    // |touch + r·normal − c|² = (R − o·r)² with |c| = R: R² and r² cancel.
     const Vec c = b.centre();
     r = (2.0 * along(touch, c) - along(touch, touch)) /
         (2.0 * (along(touch, normal) + b.turn * b.radius * apart));
@@ -101,8 +101,8 @@ std::optional<double> radius_at(const Corner& corner, double back_mm) {
   return fits ? std::optional(r) : std::nullopt;
 }
 
-/// From the corner backwards to where it no longer fits. Legs that bend towards each other meet
-/// again, so the radius may have a peak on the way.
+/// Marches back from the corner until nothing fits. Legs that bend towards each other meet again,
+/// so the radius may peak on the way.
 double largest_by_marching(const Corner& corner) {
   double good = 0.0;
   double bad = corner.request.room_before_mm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The limits of a path against what the axes then do: every axis, all along the path.
+// The limits of a path against the motion of every axis, all along the path.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -100,8 +100,8 @@ PathSegment random_circle(double radius_mm) {
   return arc;
 }
 
-// All round a circle in any plane: no axis beyond its limits, and what binds is really reached:
-// the speed of an axis, or the share of the acceleration across the path.
+// All round a circle in any plane no axis exceeds its limits, and the binding limit is reached: an
+// axis' speed, or the share of the acceleration across the path.
 RC_GTEST_PROP(PathLimitsLaw, OnACircleNoAxisIsBeyondItsLimits, ()) {
   const auto axes = random_axes();
   const kernel::machine::Control control;
@@ -163,8 +163,8 @@ RC_GTEST_PROP(PathLimitsLaw, OnAHelixOrSpiralNoAxisIsBeyondItsLimits, ()) {
   }
 }
 
-// Without a deviation an axis jumps by one period of its share of the acceleration, no more, and
-// where no curve is meant (long lines) one axis does just that.
+// Without a deviation an axis jumps by at most one period of its share of the acceleration; where
+// no curve is approximated (long lines) one axis jumps by exactly that.
 RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
   const auto axes = random_axes();
   kernel::machine::Control control;
@@ -189,8 +189,8 @@ RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
             (control.junction_share < 1.0 ? control.junction_share : 0.0));
 }
 
-// The averaging time is the longest of A/J, of the axes and of the path (√3 times the largest
-// linear axis along a space diagonal, or what the path itself may do).
+// The averaging time is the longest A/J of the axes and of the path (√3 times the largest linear
+// axis along a space diagonal, or the path's own limit).
 TEST(PathLimitsLaw, TheJerkTimeIsTheLongestOfAll) {
   std::vector<kernel::machine::Axis> axes(4);
   axes[3].rotary = true;

@@ -17,7 +17,7 @@ PathLimits limits_of(const kernel::machine::Machine& machine) {
 }
 
 TEST(PathLimits, ADiagonalUsesBothAxes) {
-  // Along 45° each axis has 1/√2 of the path's speed, so the path may have √2 of the axis'.
+  // Along 45° each axis has 1/√2 of the path's speed, so the path may have √2 of the axis' limit.
   const PathLimits limits = limits_of(test::mill());
   const double r = std::numbers::sqrt2;
   const auto l = limits.line(AxisValues{1 / r, 1 / r});
@@ -39,8 +39,8 @@ TEST(PathLimits, TheSlowestAxisDecides) {
 TEST(PathLimits, ACircleKeepsItsCentripetalAcceleration) {
   const auto m = test::mill();
   test::Program p;
-  // R = 1 mm with a feed no limit of an axis hinders: v²/R must come out at κ_n·A exactly, and the
-  // tangential rest by Pythagoras.
+  // R = 1 mm and no axis limits the speed: v²/R must be exactly κ_n·A, and the tangential rest by
+  // Pythagoras.
   p.at = {1, 0, 0};
   p.arc(1, 0, 0, 0, 1, 1000.0);
   const auto path = test::plan_of(m, p);
@@ -50,7 +50,7 @@ TEST(PathLimits, ACircleKeepsItsCentripetalAcceleration) {
 }
 
 TEST(PathLimits, ARightAngleWithoutDeviationJumpsByOnePeriodOfAcceleration) {
-  // δ = 0 leaves the jump alone: Δt_x = Δt_y = 1, so v = A·T = 2000·0.001.
+  // δ = 0 leaves only the jump: Δt_x = Δt_y = 1, so v = A·T = 2000·0.001.
   auto m = test::mill();
   m.control.junction_deviation_mm = 0.0;
   const PathLimits limits = limits_of(m);
@@ -85,7 +85,7 @@ TEST(PathLimits, AReversalOnTheSpotNearlyStops) {
 
 TEST(PathLimits, NoTurnIsNoLimit) {
   const PathLimits limits = limits_of(test::mill());
-  // Catches a division by a change of direction of zero.
+  // Catches a division by a zero change of direction.
   EXPECT_EQ(limits.junction_mm_s({1, 0, 0}, {1, 0, 0}, 1, 1), kernel::machine::kUnlimited);
 }
 

@@ -65,7 +65,8 @@ TEST(PathBuilder, ARightAngleIsRoundedWithinTheTolerance) {
   ASSERT_EQ(path.segments.size(), 3U);
   const auto& arc = path.segments[1];
   ASSERT_EQ(arc.geometry, Geometry::arc);
-  // R·(√2 − 1) = tolerance at a right angle; the arc's middle is then the tolerance off the corner.
+  // R·(√2 − 1) = tolerance at a right angle; the arc's middle is then off the corner by the
+  // tolerance.
   const double radius = 0.1 / (std::numbers::sqrt2 - 1.0);
   EXPECT_NEAR(arc.radius_mm, radius, 1e-9);
   EXPECT_NEAR(arc.speed_limit_mm_s, std::sqrt(0.866 * 2000 * radius), 1e-6);
@@ -114,7 +115,7 @@ TEST(PathBuilder, ExactPathKeepsTheCornerAndExactStopStops) {
   p.line(50, 50, 100);
   auto path = plan_of(mill(), p);
   ASSERT_EQ(path.segments.size(), 2U);
-  // G61 keeps the corner on the path and may pass it slowly; only G61.1 stops there.
+  // G61 keeps the corner exact and may pass it slowly; only G61.1 stops there.
   EXPECT_GT(path.segments[0].exit_speed_limit_mm_s, 0.0);
   for (auto& move : p.moves) {
     move.path_mode = interpret::PathMode::exact_stop;
@@ -192,7 +193,7 @@ TEST(PathBuilder, ConstantCuttingSpeedTurnsTheSpindleByTheRadius) {
     move.feed_mode = interpret::FeedMode::per_revolution;
     move.surface_speed_mm_s = -2000.0;
     const auto path = plan_of(m, p);
-    // The cutting speed over the circumference, bounded by the spindle's largest speed at the small
+    // Cutting speed divided by circumference, limited to the spindle's largest speed at the small
     // radius.
     const double spindle = std::min(50.0, 2000.0 / (2 * std::numbers::pi * radius));
     EXPECT_NEAR(path.plans[0].spindle_rev_s, -spindle, 1e-9);

@@ -22,7 +22,7 @@ TEST(PathBuilder, LinesWithinTheMergeToleranceBecomeOne) {
   Program p;
   p.mode = interpret::PathMode::continuous;
   p.tolerance_mm = 0.01;
-  // A zigzag 5 µm high in a tolerance of 10 µm: one line. The turn into Y is no part of it.
+  // A zigzag 5 µm high in a tolerance of 10 µm: one line. The turn into Y is not part of it.
   for (int i = 1; i <= 20; ++i) {
     p.line(i, (i % 2) * 0.005, 50);
   }

@@ -16,8 +16,8 @@ namespace {
 using interpret::Move;
 using interpret::SplinePoint;
 
-// Weight cos 45° in the middle makes the quadratic an exact circle: the curve is known without
-// splines.
+// Weight cos 45° in the middle makes the quadratic an exact circle: the curve is known
+// independently.
 const std::array kQuarterCircle = {SplinePoint{10, 0, 1}, SplinePoint{10, 10, std::sqrt(0.5)},
                                    SplinePoint{0, 10, 1}};
 
@@ -75,7 +75,7 @@ TEST(SplineLines, StayWithinTheToleranceAndMeet) {
     length += std::hypot(line.end[0] - line.start[0], line.end[1] - line.start[1]);
   }
   EXPECT_EQ(at, spline.end);
-  // The circle's length 10·π/2; chords are shorter by far less than the bound.
+  // The circle's length 10·π/2; the chords are shorter by much less than the bound.
   EXPECT_NEAR(length, 5.0 * std::numbers::pi, 3e-3);
 }
 

@@ -75,8 +75,8 @@ TEST(Interpolator, WaitsForSpindleAndToolChange) {
 TEST(Interpolator, WaitsForTheSpindleSpeedThatTheOverrideLeaves) {
   auto m = mill();
   m.spindle.max_rev_s = 60.0;
-  // 0.1 rev/s per period: 95 % of 25 rev/s after 237.5 ms, 95 % of 60 (the most, not 100) after
-  // 570.
+  // 0.1 rev/s per period: 95 % of 25 rev/s after 237.5 ms, 95 % of 60 (the largest speed, not 100)
+  // after 570.
   // programmed, override, actual at 1 rev/s for each 10 ms from 0, expected wait to 95 % in s
   const struct {
     double programmed, ratio, sign, wait_s;

@@ -64,7 +64,7 @@ TEST(ProgramTimer, TheMovingWindowGivesTheTimeOfTheWholePath) {
     for (const auto& move : p.moves) {
       timer.on_move(move);
     }
-    // The same path in memory at once: the window may change nothing.
+    // The same path all in memory: the window must not change anything.
     const double whole_s = static_cast<double>(test::run(m, test::plan_of(m, p)).size()) * 0.001;
     EXPECT_NEAR(timer.take().value().total_s, whole_s, 1e-6);
   }
@@ -152,7 +152,7 @@ TEST(ProgramTimer, RefusesWhatThePlannerRefusesAndWhatNeverEnds) {
   EXPECT_FALSE(timer.take().has_value());
 }
 
-// By length over feed, before a single period is run; the same for feeds per revolution and dwells.
+// By length over feed, before a single period is run; likewise for feeds per revolution and dwells.
 TEST(ProgramTimer, RefusesAMoveOfMonthsAtOnceWithItsLine) {
   const auto m = mill();
   const auto refusal_of = [&m](const auto& change) {

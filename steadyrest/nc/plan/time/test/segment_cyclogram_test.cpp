@@ -73,11 +73,11 @@ struct Flow {
   std::string_view what;
   read::Dialect dialect;
   std::string_view program;
-  std::vector<bool> coolant;  ///< of the transitions in which the spindle turns
+  std::vector<bool> coolant;  ///< of the transitions with the spindle turning
 };
 
-// From the controls' manuals: M7 and M8 open, M9 closes. On LinuxCNC mist and flood may flow
-// together, and M9 closes both; saved modes (M70, M72) bring the coolant back.
+// From the controls' manuals: M7 and M8 switch on, M9 switches off. On LinuxCNC mist and flood may
+// run together, and M9 switches both off; saved modes (M70, M72) restore the coolant.
 TEST(Cyclogram, CoolantBeginsATransitionInEveryDialect) {
   using read::Dialect;
   const std::vector<Flow> flows = {

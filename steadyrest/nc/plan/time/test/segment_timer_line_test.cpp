@@ -27,14 +27,14 @@ double closed_s(const Machine& m, const Program& p) {
 
 TEST(SegmentTimer, ALineTakesItsLengthOverTheSpeedAndTheSpeedOverTheAcceleration) {
   const auto m = mill();  // 200 mm/s, 2000 mm/s²
-  // From a feed whose ramps vanish to one where they take a tenth of the time.
+  // From a feed with negligible ramps to one where they take a tenth of the time.
   for (const double feed : {0.5, 10.0, 50.0, 150.0}) {
-    // L/V + V/A, from stop to stop; the end may wait for its period.
+    // L/V + V/A, from stop to stop; the end is rounded up to a period.
     Program p;
     p.line(100, 0, feed);
     const double law_s = 100.0 / feed + feed / 2000.0;
     EXPECT_GE(closed_s(m, p), law_s - 1e-6);
-    EXPECT_LE(closed_s(m, p), law_s + 0.001);  // it ends with a period
+    EXPECT_LE(closed_s(m, p), law_s + 0.001);  // it ends on a period
   }
   Program triangle;
   triangle.line(2, 0, 150.0);

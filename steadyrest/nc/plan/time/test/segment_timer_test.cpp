@@ -18,8 +18,8 @@
 #include <steadyrest/nc/plan/time/program_timer.hpp>
 #include <steadyrest/nc/plan/time/segment_timer.hpp>
 
-// The truth is the interpolator, period by period; it is held against closed forms and LinuxCNC
-// elsewhere (interpolator_test, tests/linuxcnc).
+// The truth is the interpolator, period by period, itself checked against closed forms and LinuxCNC
+// (interpolator_test, tests/linuxcnc).
 namespace steadyrest::nc::plan {
 namespace {
 
@@ -44,7 +44,7 @@ Machine linuxcnc_mill() {
   return m;
 }
 
-/// A control that looks ahead over few blocks, in long periods.
+/// A control with a short look-ahead and a long period.
 Machine short_sighted() {
   Machine m = mill();
   m.control.look_ahead_blocks = 8;
@@ -92,7 +92,7 @@ class Both final : public interpret::Sink {
   }
 
  private:
-  // What has no time of its own is reached with what follows it.
+  // An item without duration is reached together with the next one.
   static void note(std::vector<double>& to, std::uint32_t n, double t_s) {
     if (n >= to.size()) {
       to.resize(n + 1U, t_s);
@@ -118,7 +118,7 @@ std::vector<std::string> shared_programs() {
   return found;
 }
 
-/// `share` of the total, but no less than `least_s`, on the whole and on the way.
+/// Within `share` of the total, but at least `least_s`, for the total and every arrival.
 void expect_near(const Both::Difference& d, double share, double least_s, const std::string& what) {
   const double bound_s = std::max(share * d.total_s, least_s);
   EXPECT_LE(std::abs(d.of_total_s), bound_s) << what << " of " << d.total_s;
@@ -127,7 +127,7 @@ void expect_near(const Both::Difference& d, double share, double least_s, const 
 
 TEST(SegmentTimer, AgreesWithTheInterpolatorOnRealProgramsWithinAThousandth) {
   double longest_s = 0.0;
-  // Each program begins with another machine, so that a sanitized build has them all, too.
+  // Each program begins with another machine, so that a sanitized build covers them all too.
   std::vector<Machine> machines{linuxcnc_mill(), mill(), short_sighted()};
   for (const auto& file : shared_programs()) {
     std::ifstream in(file, std::ios::binary);
@@ -152,7 +152,7 @@ TEST(SegmentTimer, AgreesWithTheInterpolatorOnRealProgramsWithinAThousandth) {
   EXPECT_GT(longest_s, 1000.0);
 }
 
-/// What the interpolator's periods cost at a corner, at most: 0.65 of one.
+/// The most that the interpolator's periods cost at a corner: 0.65 of one.
 constexpr double kPerMove = 0.65 * 0.001;
 
 TEST(SegmentTimer, SlowsDownBeforeWhatTheLookAheadShows) {

@@ -27,10 +27,10 @@ TEST(Target, IsWhatTheSegmentsOwnOverrideMakesOfItsFeed) {
   EXPECT_EQ(target_mm_s(thread, kTurned), 40.0);
   SegmentPlan locked_rapid = rapid;
   locked_rapid.locked = true;
-  EXPECT_EQ(target_mm_s(locked_rapid, kTurned), 10.0) << "a thread locks the feed override alone";
+  EXPECT_EQ(target_mm_s(locked_rapid, kTurned), 10.0) << "a thread locks only the feed override";
 }
 
-// 0.3 mm/rev at 20 rev/s, whichever way it turns; the spindle's override is in its speed already.
+// 0.3 mm/rev at 20 rev/s in either direction; the actual speed already includes the override.
 TEST(Target, OfAFeedPerRevolutionFollowsTheActualSpindle) {
   SegmentPlan turning{.feed_mm_s = 0.3, .speed_limit_mm_s = 100.0, .per_revolution = true};
   EXPECT_NEAR(target_mm_s(turning, kTurned), 3.0, 1e-12);
@@ -47,8 +47,8 @@ kernel::machine::Spindle spindle_of(double most_rev_s, double acceleration_rev_s
   return spindle;
 }
 
-// By stepping until the speed is within 5 % of what was commanded, from any speed to any other,
-// through standstill too.
+// Checked by stepping until the speed is within 5 % of the command, from any speed to any other,
+// also through standstill.
 RC_GTEST_PROP(SpindleClock, SaysHowLongItTakesToBeAtSpeed, ()) {
   const double rate = *rc::gen::inRange(1, 100);
   SpindleClock clock(spindle_of(100.0, rate));
@@ -90,7 +90,7 @@ TEST(SpindleClock, StandingStillIsAtSpeedAtOnce) {
   EXPECT_TRUE(clock.ramps());
 }
 
-// Commanded beyond the machine's largest speed it is at speed near that one, from either side.
+// A command beyond the machine's largest speed is reached near that speed, from either side.
 TEST(SpindleClock, BeyondTheLargestSpeedThatOneCounts) {
   for (const double way : {1.0, -1.0}) {
     SpindleClock clock(spindle_of(100.0, 10.0));

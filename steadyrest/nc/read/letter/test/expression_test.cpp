@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions. The values were asked of rs274 (LinuxCNC 2.9).
+// Expressions. The expected values come from rs274 (LinuxCNC 2.9).
 #include <map>
 #include <string>
 

@@ -30,8 +30,8 @@ TEST(Number, IsTheDoubleThatTheCLibraryGives) {
   }));
 }
 
-// Bit for bit, −0 included, against the long way. Text in front of the number and behind it shows a
-// read beyond either end.
+// Bit for bit, −0 included, against the long way. Text before and after the number shows a read
+// beyond either end.
 TEST(Number, IsTheSameTheShortWay) {
   EXPECT_TRUE(rc::check([] {
     const std::string signs = *rc::gen::element<std::string>("", "-", "+", "--", "X");
@@ -59,7 +59,7 @@ TEST(Number, IsTheSameTheShortWay) {
   }));
 }
 
-// Seven digits and a point are what eight bytes hold.
+// Eight bytes hold seven digits and a point.
 TEST(Number, IsShortWithSevenDigitsOnEitherSideAtMost) {
   const auto is_short = [](std::string_view text) {
     Number number;

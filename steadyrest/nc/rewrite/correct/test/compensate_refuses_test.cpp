@@ -57,12 +57,12 @@ TEST(Compensate, LeavesTheOldFileWhenItRefuses) {
   EXPECT_EQ(text_of_file(shop.changed()), "old");
   // The folder holds the program and the old output, and no third file.
   const auto files = std::filesystem::directory_iterator(shop.folder());
-  EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "nothing half-written lies about";
+  EXPECT_EQ(std::distance(begin(files), end(files)), 2) << "a half-written file is left";
 }
 
 TEST(Compensate, RefusesAnAxisOfWhichTheMachineHasNoRoomForANote) {
   Workshop shop;
-  shop.settings.axes = shop.config.axes = "XYZAC";  // B U V W are left: Z and Y
+  shop.settings.axes = shop.config.axes = "XYZAC";  // leaves B U V W: Z and Y
   EXPECT_TRUE(shop.compensate(kPasses, kGrowth));
   const auto refused = shop.compensate(kPasses, replaced(kGrowth, "{", R"({"axis": "X", )"));
   ASSERT_FALSE(refused);

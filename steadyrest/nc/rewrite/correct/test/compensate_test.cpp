@@ -74,7 +74,7 @@ TEST(Compensate, MovesTheAxisAgainstTheDisplacement) {
 TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   Workshop shop;
   shop.settings.window_s = 20.0;
-  // Here no line programs Z near 60 s: only the clearance between two rapids is left.
+  // No line programs Z near 60 s: only the clearance between two rapids remains.
   const std::string program =
       "G21 G90 G94 G54\nG0 Z5\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nG0 Z20\nM2\n";
   const auto done = shop.compensate(program, one_step(1.0, 1.05, 10)).value();
@@ -84,7 +84,7 @@ TEST(Compensate, RestatesTheAxisAtAClearanceWhereItIsNotProgrammed) {
   EXPECT_THAT(text_of_file(shop.changed()), HasSubstr("G0 Z5.0000 (STEADYREST restated)\nG0 X0"));
 }
 
-// The axis' position is not known there: a number in its place would move it by the work offset.
+// The axis' position is unknown there: any number would move it by the work offset.
 TEST(Compensate, RestatesNoAxisThatTheProgramHasNotSentToItsPlace) {
   const Case cases[] = {
       {"never moved", "G21 G90 G94 G54\nG0 X0\nG1 X100 F100\nG0 Y10\nG0 X0\nG1 X100\nM2\n"},
@@ -135,7 +135,7 @@ TEST(Compensate, NeverWritesWhereAShiftWouldNotBeSafe) {
   for (const Case& one : kCases) {
     Workshop shop;
     shop.settings.window_s = 20.0;
-    // A window so narrow that only the line in question would be in it.
+    // The window is so narrow that only the line in question is in it.
     shop.machine.control.tool_change_s = 0.5;
     const double minutes = std::string(one.unsafe) == "arcs" ? 0.52 : 1.0;
     const double total = std::string(one.unsafe) == "loop" ? 3.0 : minutes;
@@ -175,11 +175,11 @@ TEST(Compensate, FollowsAnOffsetThatTheProgramSetsItself) {
     EXPECT_THAT(text_of_file(shop.changed()), HasSubstr(" (STEADYREST Z noted)\nG0 Z6")) << line;
   }
   const std::string in_loop = "o1 repeat [2]\nG92 Z4\no1 endrepeat\nG0 Z6\n";
-  // In a loop the line is executed twice, so nothing may be written around it.
+  // A loop executes the line twice, so nothing may be written around it.
   EXPECT_FALSE(shop.compensate(replaced(kPasses, "G0 X0 Y20\n", "G0 X0 Y20\n" + in_loop), kGrowth));
 }
 
-// The control's offsets leave a rounding in the correction that is found.
+// The control's offsets leave a rounding error in the correction found.
 TEST(Compensate, ProvesCorrectionsThatCancelWhateverTheOffsetsAre) {
   Workshop shop;
   shop.settings.window_s = 30.0;

@@ -25,7 +25,7 @@ TEST(Compensate, WritesMillimetresIntoAProgramInInches) {
 
 TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
   const Workshop shop;
-  // +10 and −10 um within 0.6 s fall on one place; only the 7 um that follow show.
+  // +10 and −10 um within 0.6 s share a place; only the following 7 um show.
   const auto done = shop.compensate(
       kPasses,
       R"({"transitions": [{"n": 4, "t_min": [1, 0.01, 1, 2.19], "delta_um": [0, 10, -10, 7]}]})");
@@ -34,7 +34,7 @@ TEST(Compensate, StepsThatCancelAtOnePlaceLeaveNoText) {
   EXPECT_NEAR(done->insertions[0].total_um, -7.0, 1e-9);
 }
 
-// The lines hold whatever unit the control is in when the program does not say it.
+// The lines work in either unit when the program does not say which one is in force.
 TEST(Compensate, WritesForEitherUnitWhereTheProgramSaysNone) {
   for (const bool inch : {false, true}) {
     Workshop shop;

@@ -37,7 +37,7 @@ TEST_F(PlanMatch, EveryStepHasItsChangeWithinTheWindow) {
 }
 
 TEST_F(PlanMatch, StepsThatMeetAtOnePlaceMayCancelThere) {
-  // Both windows hold 55 to 70 s, so the two may cancel there unseen.
+  // Both windows include 55 to 70 s, so the two may cancel there unseen.
   plan({{60, 10}, {65, 0}});
   EXPECT_EQ(fault({}), "");
   EXPECT_EQ(fault({{58, -10}, {66, 0}}), "");
@@ -48,8 +48,8 @@ TEST_F(PlanMatch, StepsThatMeetAtOnePlaceMayCancelThere) {
 }
 
 TEST_F(PlanMatch, TheSameSumMayComeAgain) {
-  // Which of the two steps of 10 um a change answers must be found out, not guessed: the first may
-  // cancel with the second.
+  // Which of the two 10 um steps a change answers must be found, not guessed: the first may cancel
+  // with the second.
   plan({{60, 10}, {62, 0}, {200, 10}});
   EXPECT_EQ(fault({{200, -10}}), "");
   EXPECT_EQ(fault({{60, -10}, {62, 0}, {200, -10}}), "");
@@ -67,7 +67,7 @@ TEST_F(PlanMatch, WhatTheControlCannotTakeIsNotMissing) {
 }
 
 TEST_F(PlanMatch, NoStepIsPassedOverBehindALaterChange) {
-  // A sum of 5 um is planned at 302 s alone: taken at 60 s it would pass over the steps at 300 s.
+  // A sum of 5 um is planned only at 302 s: taken at 60 s it would skip the steps at 300 s.
   plan({{60, 10}, {61, 0}, {300, 10}, {301, 0}, {302, 5}});
   EXPECT_EQ(fault({{302, -5}}), "");
   EXPECT_THAT(fault({{60, -5}}), HasSubstr("acts at 60.0 s"));

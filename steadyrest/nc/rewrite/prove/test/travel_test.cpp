@@ -31,9 +31,9 @@ Move arc(double end_x, double end_y, int turns) {
   return move;
 }
 
-// Circle of radius 10 about the origin, begun at 0°; offsets 100, 200, 300.
+// Circle of radius 10 about the origin, from 0°; offsets 100, 200, 300.
 TEST(Travel, CountsTheBulgeOfAnArcOnlyWhereItPasses) {
-  // The quarter passes no axis direction between its ends: its reach is theirs.
+  // The quarter passes no axis direction between its ends, so they are its reach.
   const Move quarter = arc(0.0, 10.0, 1);
   EXPECT_NEAR(reach_of(quarter, 0).low_mm, 100.0, 1e-9);
   EXPECT_NEAR(reach_of(quarter, 0).high_mm, 110.0, 1e-9);
@@ -58,7 +58,7 @@ TEST(Travel, TurnsArcsWithTheWorkCoordinates) {
   EXPECT_NEAR(reach_of(quarter, 1).high_mm, 210.0, 1e-9);
 }
 
-/// The passes go down to Z-1; from 2 min on the correction is -20 um, from 3 min on -15 um.
+/// The passes go down to Z-1; the correction is -20 um from 2 min on and -15 um from 3 min on.
 class TravelOfAProgram : public ::testing::Test {
  protected:
   TravelOfAProgram() {
@@ -71,8 +71,8 @@ class TravelOfAProgram : public ::testing::Test {
 };
 
 TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
-  // Z−1 in an offset of −50 with −0.020 of correction: −51.020 is just allowed, a tenth of a
-  // micrometre less is not.
+  // Z−1 with an offset of −50 and a correction of −0.020: −51.020 is just allowed, 0.1 um less is
+  // not.
   to(-51.020);
   EXPECT_TRUE(shop_.compensate(kPasses, kGrowth));
   to(-51.0199);
@@ -89,7 +89,7 @@ TEST_F(TravelOfAProgram, IsKeptToTheMicrometre) {
 
 TEST_F(TravelOfAProgram, IsTheProgramsOwnAffairWhereItIsOverWithoutACorrection) {
   to(-50.5);
-  // Half a millimetre too far without any correction: the control's affair.
+  // Half a millimetre too far without any correction: the control deals with that.
   EXPECT_TRUE(shop_.compensate(kPasses, kGrowth));
 }
 
@@ -102,14 +102,14 @@ TEST_F(TravelOfAProgram, IsNotWatchedWhereTheOffsetsAreNotKnown) {
 TEST_F(TravelOfAProgram, IsKeptByCorrectionsBesideTheProgram) {
   shop_.config.dialect = read::Dialect::sinumerik;
   shop_.settings.method = Method::r_parameter;
-  // The PLC's shift is invisible in the program, but it takes the axis as far.
+  // The PLC's shift is invisible in the program but takes the axis just as far.
   const std::string program = replaced(replaced(kPasses, "%\nG21", "G71"), "M30\n%\n", "M30\n");
   to(-51.020);
   EXPECT_TRUE(shop_.compensate(program, kGrowth));
   to(-51.0199);
   const auto refused = shop_.compensate(program, kGrowth);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().line, 11U);  // from where the machine stands when the PLC moves it
+  EXPECT_EQ(refused.error().line, 11U);  // from where the machine is when the PLC moves it
   EXPECT_THAT(refused.error().what, HasSubstr("takes Z to -51.0200 mm"));
 }
 

@@ -4,7 +4,7 @@
 
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 
-// Each test spoils a right pair of programs in one way.
+// Each test spoils a correct pair of programs in one way.
 namespace steadyrest::nc::rewrite {
 namespace {
 
@@ -27,7 +27,7 @@ class Verify : public ::testing::Test {
   [[nodiscard]] std::string fault(const std::string& text) const {
     return shop_.fault(kGrowth, text);
   }
-  /// The first correction taken from where it stands and put before the first `line`.
+  /// Moves the first correction to before the first `line`.
   [[nodiscard]] std::string moved_before(const std::string& line) const {
     return replaced(replaced(text_, kFirst, ""), line, kFirst + line);
   }
@@ -54,7 +54,7 @@ TEST_F(Verify, CatchesAWrongAmount) {
 }
 
 TEST_F(Verify, CatchesAnAbsoluteValueInTheWorkOffset) {
-  // An absolute L2 agrees with the right value only while the work offset is 0.
+  // An absolute L2 matches the right value only while the work offset is 0.
   EXPECT_NE(fault(replaced(text_, kFirst, replaced(kFirst, "L20 P0", "L2 P0"))), "");
 }
 
@@ -68,7 +68,7 @@ TEST_F(Verify, CatchesAShiftBeforeAnArc) {
 
 TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
   EXPECT_THAT(fault(moved_before("G0 X0 Y10")), HasSubstr("has no effect"));
-  // In G91 a shift would act nowhere.
+  // In G91 a shift would never act.
   const std::string program = replaced(kPasses, "G0 X0 Y10\n", "G91\nG0 X0 Z1\nG90\nG0 X0 Y10\n");
   ASSERT_TRUE(shop_.compensate(program, kGrowth));
   text_ = text_of_file(shop_.changed());
@@ -77,7 +77,7 @@ TEST_F(Verify, CatchesAShiftThatNeverTakesEffect) {
 }
 
 TEST_F(Verify, CatchesAMissingReset) {
-  // The last change is the one that takes the correction off.
+  // The last change takes the correction off.
   const auto at = text_.rfind("G10 L20");
   const auto end = text_.find('\n', at) + 1;
   EXPECT_THAT(fault(text_.substr(0, at) + text_.substr(end)), HasSubstr("leaves a different"));
@@ -92,7 +92,7 @@ TEST_F(Verify, CatchesACorrectionBeyondTheWindow) {
 }
 
 TEST_F(Verify, CatchesOneDigitElsewhere) {
-  // Text outside the inserted lines: a digit, a line end, a line more, a byte less.
+  // Text outside the inserted lines: a digit, a line end, an extra line, a missing byte.
   EXPECT_THAT(fault(replaced(text_, "G0 X0 Y30", "G0 X0 Y31")),
               HasSubstr("outside the inserted lines"));
   EXPECT_THAT(fault(replaced(text_, "G1 X100 F100\n", "G1 X100 F100\r\n")),
@@ -110,7 +110,7 @@ TEST_F(Verify, CatchesAnInsertedLineThatDoesMore) {
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst + "G1 Z5 (STEADYREST Z)\n")), "");
 }
 
-// The next word of the axis would bring it back, so its own move alone shows it.
+// The next word of the axis would bring it back, so only its own move reveals it.
 TEST_F(Verify, CatchesAnInsertedRapidOfThePlannedAxisToWhereThePlanDoesNotWantIt) {
   for (const std::string by : {"+0.005", "-0.005"}) {
     const std::string line = "G0 Z[#<_z>" + by + "] (STEADYREST Z)\n";
@@ -125,9 +125,9 @@ TEST_F(Verify, CatchesAHeadThatWouldUndoTheWrongWay) {
               HasSubstr("head"));
 }
 
-// They do nothing in a run from the beginning to the end.
+// They do nothing in an uninterrupted run.
 TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
-  // Their absence shows after an abort alone, so only comparing the text can find it.
+  // Their absence shows only after an abort, so only comparing the text finds it.
   const auto check = kFirst.find('\n') + 1;
   const auto note = kFirst.find('\n', check) + 1;
   EXPECT_NE(fault(replaced(text_, kFirst, kFirst.substr(check))), "");
@@ -136,7 +136,7 @@ TEST_F(Verify, CatchesAMissingCheckAndAMissingNote) {
               HasSubstr("do not belong here"));
 }
 
-// They would do nothing, or nothing today.
+// They would do nothing, or nothing yet.
 TEST_F(Verify, CatchesLinesThatDoNotBelongHere) {
   const std::string check = kFirst.substr(0, kFirst.find('\n') + 1);
   for (const std::string& line :
@@ -153,7 +153,7 @@ TEST_F(Verify, CatchesLinesThatDoNotBelongHere) {
 
 TEST_F(Verify, CatchesAHeadElsewhereThanBeforeTheFirstBlock) {
   const auto first = text_.find("#<");
-  // Behind the first block, and before the %.
+  // After the first block, and before the %.
   const auto block = text_.find("G21 G90");
   const auto next = text_.find('\n', block) + 1;
   EXPECT_THAT(fault(text_.substr(0, first) + text_.substr(block, next - block) +
@@ -197,7 +197,7 @@ TEST(VerifyWithKnownTimes, TakesThemForTheLinesThatHaveOneAlone) {
     return proof ? "" : proof.error().what;
   };
   EXPECT_EQ(fault(known), "");
-  // The proof may not fill in for a time that it was not given.
+  // The proof may not make up a time that it was not given.
   KnownTimes one_less = known;
   one_less.line_s.erase(one_less.line_s.begin());
   EXPECT_NE(fault(one_less).find("was not found before"), std::string::npos);

@@ -12,8 +12,8 @@ using ::testing::HasSubstr;
 
 TEST(Mark, IsReadAsItWasWrittenInEveryDialect) {
   const test::Workshop shop;
-  // Blanks, brackets, a semicolon, bytes beyond ASCII, an empty value and a long one: all that a
-  // comment may not hold must be encoded.
+  // Blanks, brackets, a semicolon, bytes beyond ASCII, an empty value and a long one: anything that
+  // a comment may not hold must be encoded.
   const std::vector<Told> told = {{"window-s", "6"},
                                   {"variables", "a folder/with (brackets); and \xc3\xbc%.var"},
                                   {"block-delete", ""},
@@ -50,7 +50,7 @@ TEST(Mark, IsProvedWithTheHead) {
 
 TEST(Mark, IsRefusedWhereItWasChanged) {
   const test::Workshop shop;
-  // A digit, a word less, the sum's name, the mark's name, an empty mark.
+  // A digit, a missing word, the sum's name, the mark's name, an empty mark.
   const std::string mark = mark_text(Way{}, {{"dialect", "fanuc"}, {"window-s", "60"}}, "\n");
   for (const std::string& text :
        {test::replaced(mark, "60", "61"), test::replaced(mark, " --window-s 60", ""),

@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // The example of the paper (Marusich 2012): R = {3;{18,27,15};{0,10,10}}, {3;{15,40,5};{0,10,10}},
-// three stages without corrections. The residual is carried over the border of the stages.
+// three stages without corrections. The residual carries over from stage to stage.
 TEST(PlanFile, ReadsThePapersExample) {
   // Sums of the paper's table: 10, 20, 30, 40 um at 18, 18 + 27, 60 + 15 and 60 + 55 minutes.
   const auto plan = parse_plan(R"({"axis": "Z", "transitions": [
@@ -47,7 +47,7 @@ TEST(PlanFile, ReadsSeveralAxes) {
   ASSERT_EQ(plan->axes.size(), 2U);
 }
 
-// Each file names its fault on its first line, behind //.
+// Each file names its fault on its first line, after //.
 TEST(PlanFile, RefusesEveryFileOfTheCorpus) {
   // The corpus is the truth; each file's first line is a piece of the refusal.
   std::size_t seen = 0;
@@ -56,7 +56,7 @@ TEST(PlanFile, RefusesEveryFileOfTheCorpus) {
     const std::string text = test::text_of_file(entry.path().string());
     const auto head = text.find('\n');
     ASSERT_EQ(text.substr(0, 3), "// ") << entry.path();
-    // The fault's line is kept empty, so that line numbers stay.
+    // The fault's line is left empty to keep the line numbers.
     const auto plan = parse_plan("\n" + text.substr(head + 1), "plan.json");
     ASSERT_FALSE(plan) << entry.path();
     EXPECT_THAT(kernel::outcome::text(plan.error()), HasSubstr(text.substr(3, head - 3)))

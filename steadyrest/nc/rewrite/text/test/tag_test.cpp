@@ -38,7 +38,7 @@ TEST(Tag, TheHeadIsToldFromTheCorrections) {
   EXPECT_FALSE(is_head("R50=0 ;STEADYREST Z headroom"));
 }
 
-// Spread by blanks and in any letters LinuxCNC reads the same name.
+// LinuxCNC reads the same name with blanks in it and in any case.
 RC_GTEST_PROP(OwnNames, AreFoundInAnyLettersAndWithBlanks, ()) {
   std::string name;
   for (const char c : std::string(kOwnNames) + "_z>") {
@@ -47,7 +47,7 @@ RC_GTEST_PROP(OwnNames, AreFoundInAnyLettersAndWithBlanks, ()) {
   }
   RC_ASSERT(uses_own_names("#1 = [" + name + " + 2]"));
   RC_ASSERT(uses_own_names("##" + name));
-  // Any letter of it changed is another name.
+  // Changing any letter makes another name.
   const auto letters = name.find_first_of("sS");
   name[letters] = 'x';
   RC_ASSERT(!uses_own_names("#1 = [" + name + " + 2]"));
@@ -73,7 +73,7 @@ RC_GTEST_PROP(Parameter, IsFoundByItsNumberAlone, ()) {
   RC_ASSERT(!uses_parameter(fmt::format("CR={}", number), number));
   RC_ASSERT(!uses_parameter(fmt::format("_R{}=1", number), number));
   RC_ASSERT(!uses_parameter(fmt::format("X1 ; R{}", number), number));
-  RC_ASSERT(uses_parameter("R[12+3]=1", number));  // which one that is nobody knows
+  RC_ASSERT(uses_parameter("R[12+3]=1", number));  // it could be any
 }
 
 // 2³² + 50 is not 50, and leading zeros change nothing.
@@ -85,7 +85,7 @@ TEST(Parameter, ANumberOfManyDigitsIsNoOther) {
   EXPECT_FALSE(uses_parameter("R = 50", 50));
 }
 
-// Comments begin at a semicolon, but for one in a text.
+// Comments begin at a semicolon, except one in a string.
 TEST(Variable, IsNamedOutsideOfComments) {
   EXPECT_TRUE(names_variable("$p_uifr[1]=0", "$P_UIFR"));
   EXPECT_TRUE(names_variable("MSG(\"a;b\") $P_UIFR[1]=0", "$P_UIFR"));

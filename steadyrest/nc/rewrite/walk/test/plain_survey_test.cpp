@@ -30,7 +30,7 @@ bool is_plain(const std::string& line) {
 }
 
 TEST(PlainSurvey, WhatMayRepeatOrBranchIsNotPlain) {
-  // Near misses included: M97.9999 rounds to M98, G42.9999 to G43, Cyrillic О is no letter O.
+  // Near misses included: M97.9999 rounds to M98, G42.9999 to G43, Cyrillic О is not the letter O.
   for (const char* line : {"O100 sub",   "o<cut> call", "N10 O1 repeat [3]",
                            "M98 P100",   "m 9 8 P100",  "M99",
                            "M97 P1",     "M098P1",      "/G0 X1",
@@ -63,7 +63,6 @@ TEST(PlainSurvey, OtherDialectsAreRun) {
   }
 }
 
-/// The run sees no more than the text does.
 /// The survey by text may find more intervals without a length than the run, never fewer: too many
 /// cost places, too few cost parts.
 void expect_as_run(const std::string& path, const interpret::Config& config, int& compared) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of places with six kept for each step, against the choice with all of them at hand.
+// The choice from six places per step, against the choice from all of them.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kWindow_s = 60.0;
 
-/// Places in the order of the program, of every kind, some seconds apart.
+/// Places of every kind in program order, some seconds apart.
 std::vector<Place> random_places(double until_s) {
   std::vector<Place> places;
   double time_s = 0.0;
@@ -29,7 +29,7 @@ std::vector<Place> random_places(double until_s) {
   return places;
 }
 
-/// Steps `gap_s` apart at least; `.5`, so that no place is as near before as behind.
+/// Steps at least `gap_s` apart; `.5`, so that no two places are equally near.
 AxisPlan random_plan(double until_s, int gap_s) {
   AxisPlan plan;
   for (double time_s = *rc::gen::inRange(0, 100); time_s < until_s;
@@ -52,7 +52,7 @@ bool in_window(const Place& place, const PlannedStep& step) {
   return std::abs(place.time_s - step.time_s) <= kWindow_s;
 }
 
-// With a place in every window the steps always find some in order: the earliest of each would do.
+// With a place in every window a choice in order always exists: the earliest of each would do.
 RC_GTEST_PROP(Schedule, RefusesOnlyWhereAWindowHoldsNoPlace, ()) {
   const auto places = random_places(600.0);
   const auto plan = random_plan(600.0, 5);
@@ -63,7 +63,7 @@ RC_GTEST_PROP(Schedule, RefusesOnlyWhereAWindowHoldsNoPlace, ()) {
   RC_ASSERT(made.has_value() == possible);
 }
 
-// Each of the plan's steps once, in its window, none before the one that comes before.
+// Each of the plan's steps once, in its window, none before its predecessor.
 RC_GTEST_PROP(Schedule, KeepsTheWindowAndTheOrder, ()) {
   const auto plan = random_plan(600.0, 5);
   const auto made = chosen(plan, random_places(600.0));
@@ -78,8 +78,8 @@ RC_GTEST_PROP(Schedule, KeepsTheWindowAndTheOrder, ()) {
   }
 }
 
-// Steps further apart than two windows have nothing to do with one another: for each the best kind,
-// of that kind the nearest.
+// Steps more than two windows apart are independent: each takes the best kind, and of that the
+// nearest.
 RC_GTEST_PROP(Schedule, TakesTheBestKindAndOfItTheNearest, ()) {
   const auto places = random_places(1500.0);
   const auto plan = random_plan(1500.0, 130);
@@ -103,7 +103,7 @@ RC_GTEST_PROP(Schedule, TakesTheBestKindAndOfItTheNearest, ()) {
   }
 }
 
-// The end of the window belongs to it, on both sides.
+// Both ends belong to the window.
 TEST(Schedule, AWindowHoldsItsEnds) {
   AxisPlan plan;
   plan.steps = {{.time_s = 100.0, .displacement_um = 5.0}};
@@ -120,7 +120,7 @@ TEST(Schedule, AWindowHoldsItsEnds) {
             "no safe place for the correction of Z planned at 100.0 s within 60 s of it");
 }
 
-// The first step's best place lies behind all of the second's: both act there.
+// The first step's best place lies after all of the second's: both act there.
 TEST(Schedule, TwoStepsMayShareAPlace) {
   AxisPlan plan;
   plan.steps = {{.time_s = 100.0, .displacement_um = 5.0},
