@@ -21,7 +21,7 @@ enum class GGroup : std::uint8_t {
   arc_centre,     ///< G90.1 G91.1
   feed_mode,      ///< G93–G95
   units,          ///< G20 G21
-  cutter,         ///< G40
+  cutter,         ///< G40 G41 G42 G41.1 G42.1
   tool_length,    ///< G43 G43.1 G43.2 G49
   retract,        ///< G98 G99
   work_offset,    ///< G54–G59.3

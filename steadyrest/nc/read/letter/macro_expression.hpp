@@ -18,7 +18,7 @@ namespace steadyrest::nc::read {
 /// whole numbers; FIX goes towards zero, FUP away from it; ROUND goes to the nearest whole number,
 /// or within an address to its least increment. ASIN gives 270° … 90°, ATAN[y]/[x]
 /// 0° … 360°, ATAN[a] −90° … 90°: parameter 6004#0 = 0. A vacant variable is refused, because its
-/// effect depends on the word; so are BIN, BCD, ADP and PRM. Never allocates.
+/// effect depends on the word; so are BIN, BCD, ADP and POW. Never allocates.
 class MacroExpression : public Climber<MacroExpression> {
  public:
   static constexpr int kDeepest = 5;
