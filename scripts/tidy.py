@@ -5,8 +5,8 @@
     scripts/tidy.py [--tests] [--changed] [PATTERN]
 
 --tests takes the tests too; PATTERN (a regular expression) only files whose path matches. --changed takes
-the sources that differ from the commit in scripts/tidy-base, at which the full run was clean, and for each
-header that differs one source that includes it; the full run where history does not reach back that far.
+the sources whose code differs from that of the commit in scripts/tidy-base, at which the full run was clean,
+and for each such header one source that includes it; the full run where history does not reach back that far.
 A file whose preprocessed text, flags and checks are those of an earlier clean run is not examined again.
 """
 
@@ -47,6 +47,13 @@ def commands(tests, pattern):
         yield name, entry
 
 
+def code_of(text):
+    """The text without comments and spacing; what a comment says to clang-tidy stays."""
+    token = r'"(?:\\.|[^"\\\n])*"|//[^\n]*|/\*.*?\*/'
+    keep = lambda found: found[0] if found[0].startswith('"') or "NOLINT" in found[0] else ""
+    return re.sub(r"\s+", "", re.sub(token, keep, text, flags=re.S))
+
+
 def changed_since_base():
     """Paths that differ from the commit in scripts/tidy-base; None where git does not know it, or where
     the checks themselves differ."""
@@ -54,7 +61,17 @@ def changed_since_base():
     done = subprocess.run(["git", "diff", "--name-only", "--diff-filter=d", base], cwd=ROOT,
                           capture_output=True, text=True, check=False)
     paths = set(done.stdout.split())
-    return None if done.returncode or ".clang-tidy" in paths else paths
+    if done.returncode or ".clang-tidy" in paths:
+        return None
+    return {path for path in paths if not has_same_code(base, path)}
+
+
+def has_same_code(base, path):
+    if not path.endswith((".cpp", ".hpp")):
+        return False
+    before = subprocess.run(["git", "show", f"{base}:{path}"], cwd=ROOT, capture_output=True, check=False)
+    now = (ROOT / path).read_text(errors="replace")
+    return before.returncode == 0 and code_of(before.stdout.decode(errors="replace")) == code_of(now)
 
 
 def sees(header, names, includes):
