@@ -97,6 +97,21 @@ TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   EXPECT_EQ(out.request.reason, Reason::none);
 }
 
+// What rounding an S word in rpm changes is the same cut; the steps of a switch are 5 % apart.
+TEST(BetterSpeed, KeepsTheAnswerWhereTheProgrammedSpeedChangesByLessThanAPercent) {
+  auto better = BetterSpeed::make(config(1.2));
+  ASSERT_TRUE(better);
+  const double ratio = last_output(*better, slot_signal(0.6), kProgrammed).request.ratio;
+  ASSERT_NE(ratio, 1.0);
+  const auto ratio_at = [&](double change) {
+    return better
+        ->update({.speed_rev_s = kProgrammed, .programmed_rev_s = (1.0 + change) * kProgrammed})
+        .request.ratio;
+  };
+  EXPECT_EQ(ratio_at(0.007), ratio);
+  EXPECT_EQ(ratio_at(0.014), 1.0);
+}
+
 // Its own setting, the detector's and the table's: each must come through make().
 TEST(BetterSpeed, RefusesWhatIsOutOfRange) {
   BetterSpeed::Config bad = config(1.2);

@@ -49,6 +49,18 @@ TEST(SpeedTable, TakesTheNearestStepThatCarriesTheDepth) {
   EXPECT_GE(advice.limit_depth_mm, 1.1 * 0.6);
 }
 
+// A millionth is what the rounding of a percentage makes. Beyond it the step is another, and 110 %
+// is the deepest.
+TEST(SpeedTable, AStepWithinAMillionthOfTheRatioInForceIsThePresentOne) {
+  const auto table = SpeedTable::make(slot());
+  ASSERT_TRUE(table);
+  const auto reason_at = [&](double ratio) {
+    return table->ask({.programmed_rev_s = 5000 / 60.0, .ratio = ratio}).reason;
+  };
+  EXPECT_EQ(reason_at(1.1 + 0.7e-6), Reason::chatter_no_better_speed);
+  EXPECT_EQ(reason_at(1.1 + 1.4e-6), Reason::chatter_better_speed);
+}
+
 // All speeds allow 1 mm, none 2, so a change would be pointless.
 TEST(SpeedTable, IsNeutralWhereNothingIsBetter) {
   SpeedTable::Config config = slot();
