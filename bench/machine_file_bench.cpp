@@ -15,9 +15,9 @@ namespace {
 
 std::string file_with(std::int64_t lines) {
   kernel::machine::Encoder encoder;
-  encoder.phase_error_mm = {3e-5, -5e-5, 4e-5, -2e-5};
+  encoder.phase_error_au = {3e-5, -5e-5, 4e-5, -2e-5};
   for (std::int64_t i = 0; i < lines; ++i) {
-    encoder.line_table_mm.push_back(2e-5 * std::sin(static_cast<double>(i * i)));
+    encoder.line_table_au.push_back(2e-5 * std::sin(static_cast<double>(i * i)));
   }
   return "[control]\ndialect = \"linuxcnc\"\n[[axis]]\nname = \"X\"\nservo_gain_1_s = 50\n"
          "max_feed_mm_min = 12000\nmax_acceleration_mm_s2 = 2000\n[axis.encoder]\ncount_um = 1\n" +
@@ -34,7 +34,7 @@ void ReadWithLines(benchmark::State& state) {
       state.SkipWithError("refused");
       break;
     }
-    benchmark::DoNotOptimize(machine->axes.front().encoder.line_table_mm.data());
+    benchmark::DoNotOptimize(machine->axes.front().encoder.line_table_au.data());
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }

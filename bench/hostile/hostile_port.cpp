@@ -28,7 +28,7 @@ HostilePort::HostilePort(const kernel::machine::Machine& machine,
   frame.axis_count = static_cast<std::uint8_t>(machine.axes.size());
   for (std::size_t i = 0; i < machine.axes.size(); ++i) {
     const auto& axis = machine.axes[i];
-    const double middle = axis.rotary ? 0.0 : 0.5 * (axis.min_mm + axis.max_mm);
+    const double middle = axis.rotary ? 0.0 : 0.5 * (axis.min_au + axis.max_au);
     frame.axis[i].command_mm = frame.axis[i].actual_mm = middle;
   }
   // The control's clock need not start at 0, and it may start below.

@@ -161,7 +161,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
   const double rms_mm = config.machine.simulation.position_noise_mm;
   for (const kernel::machine::Axis& axis : config.machine.axes) {
     counters_.push_back(
-        {.shown = axis.present && axis.encoder.count_mm > 0.0, .clock_s = axis.encoder.clock_s});
+        {.shown = axis.present && axis.encoder.count_au > 0.0, .clock_s = axis.encoder.clock_s});
     rotary_.push_back(axis.rotary);
     disturbed_.push_back(rms_mm > 0.0 && axis.present && !axis.rotary);
     noise_.emplace_back(rms_mm, period_s_, config.noise_correlation_s);

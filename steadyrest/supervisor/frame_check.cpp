@@ -27,8 +27,8 @@ FrameCheck::FrameCheck(std::span<const kernel::machine::Axis> axes, double stale
   for (std::size_t i = 0; i < std::min(axes.size(), range_.size()); ++i) {
     const auto& axis = axes[i];
     if (!axis.rotary) {
-      const double travel_mm = axis.max_mm - axis.min_mm;
-      range_[i] = {.min = axis.min_mm - travel_mm, .max = axis.max_mm + travel_mm};
+      const double travel_mm = axis.max_au - axis.min_au;
+      range_[i] = {.min = axis.min_au - travel_mm, .max = axis.max_au + travel_mm};
     }
   }
 }

@@ -33,14 +33,14 @@ constexpr double kFits = 0.004;
 /// leaves some lines at their raw error, shifted by the phases of the learnt lines.
 double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) {
   if (!lines.in_use()) {
-    return axis.encoder.line_error_mm;
+    return axis.encoder.line_error_au;
   }
   const LineTable::Config& table = lines.config();
   std::int64_t from = table.first_line;
   std::int64_t to = from + static_cast<std::int64_t>(table.lines) - 1;
   if (!table.periodic) {  // the lines just before and after represent all that it lacks
-    const double first = std::floor(axis.min_mm / table.count_mm);
-    const double last = std::ceil(axis.max_mm / table.count_mm) + 1.0;
+    const double first = std::floor(axis.min_au / table.count_mm);
+    const double last = std::ceil(axis.max_au / table.count_mm) + 1.0;
     from = static_cast<std::int64_t>(std::max(first, static_cast<double>(from - 1)));
     to = static_cast<std::int64_t>(std::min(last, static_cast<double>(to + 1)));
   }
@@ -56,7 +56,7 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
   }
   // The table's own error adds to the spread of what it did not learn, independent of it.
   const double left_mm = kSigmas * std::hypot(sigma_mm, kFits * table.count_mm);
-  return all_learnt ? left_mm : std::max(axis.encoder.line_error_mm + phase_mm, left_mm);
+  return all_learnt ? left_mm : std::max(axis.encoder.line_error_au + phase_mm, left_mm);
 }
 
 // An axis brakes harder than its drive pulls, since friction helps. So |a| ≤ drive + Coulomb (or
@@ -65,17 +65,17 @@ double line_error_mm(const LineTable& lines, const kernel::machine::Axis& axis) 
 MotionEstimator::Config config_of(const kernel::machine::Axis& axis, double cycle_s,
                                   double error_mm) {
   const kernel::machine::Friction& friction = axis.friction;
-  const double drive_mm_s2 = std::isfinite(axis.drive_acceleration_mm_s2)
-                                 ? axis.drive_acceleration_mm_s2
-                                 : axis.max_acceleration_mm_s2;
-  const double braking_mm_s2 = std::max(friction.coulomb_mm_s2, friction.breakaway_mm_s2) +
-                               friction.viscous_1_s * axis.max_speed_mm_s;
-  return {.count_mm = axis.encoder.count_mm,
+  const double drive_mm_s2 = std::isfinite(axis.drive_acceleration_au_s2)
+                                 ? axis.drive_acceleration_au_s2
+                                 : axis.max_acceleration_au_s2;
+  const double braking_mm_s2 = std::max(friction.coulomb_au_s2, friction.breakaway_au_s2) +
+                               friction.viscous_1_s * axis.max_speed_au_s;
+  return {.count_mm = axis.encoder.count_au,
           .cycle_s = cycle_s,
           .clock_s = std::min(axis.encoder.clock_s, cycle_s),
           // A line that may be off by more than a count could be its neighbour: then no bound.
-          .line_error_mm = error_mm <= axis.encoder.count_mm ? error_mm : -1.0,
-          .max_speed_mm_s = axis.max_speed_mm_s,
+          .line_error_mm = error_mm <= axis.encoder.count_au ? error_mm : -1.0,
+          .max_speed_mm_s = axis.max_speed_au_s,
           .max_acceleration_mm_s2 = drive_mm_s2 + braking_mm_s2,
           .max_jerk_mm_s3 = motion::online::kNoBound};
 }
@@ -93,7 +93,7 @@ Result<MotionStage> MotionStage::make(const Config& config) {
   stage.gap_s_ = kGapCycles * config.cycle_s;
   for (std::size_t i = 0; i < std::min(config.axes.size(), kernel::signal::kMaxAxes); ++i) {
     const kernel::machine::Axis& axis = config.axes[i];
-    if (!axis.present || !(axis.encoder.count_mm > 0.0)) {
+    if (!axis.present || !(axis.encoder.count_au > 0.0)) {
       continue;
     }
     auto lines = motion::online::stored_lines(axis.encoder);
@@ -108,7 +108,7 @@ Result<MotionStage> MotionStage::make(const Config& config) {
     }
     stage.axes_.push_back({.index = i,
                            .line_error_mm = std::max(limits.line_error_mm, 0.0),
-                           .max_steps_s = kImpossibleSpeed * axis.max_speed_mm_s / limits.count_mm,
+                           .max_steps_s = kImpossibleSpeed * axis.max_speed_au_s / limits.count_mm,
                            .clock_s = limits.clock_s < limits.cycle_s ? limits.clock_s : 0.0,
                            .bounded = limits.line_error_mm >= 0.0,
                            .lines = std::move(*lines),

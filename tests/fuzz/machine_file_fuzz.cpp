@@ -26,7 +26,7 @@ void must_be_fit(const machine::Machine& machine) {
   must(machine.axes[0].name == "X" && machine.axes[1].name == "Y" && machine.axes[2].name == "Z");
   for (const machine::Axis& axis : machine.axes) {
     must(std::isfinite(axis.servo_gain_1_s) && axis.servo_gain_1_s > 0.0);
-    must(axis.min_mm <= axis.max_mm);
+    must(axis.min_au <= axis.max_au);
   }
   for (const auto* table :
        {&machine.feed_override, &machine.rapid_override, &machine.spindle_override}) {

@@ -151,7 +151,7 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   const Point across = tangential_error_mm(residual, error.tangent);
   double quantisation = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
-    const double count = config_.axes[i].encoder.count_mm;
+    const double count = config_.axes[i].encoder.count_au;
     quantisation = std::max(quantisation, count * count / 6.0);
   }
   const double excess = std::max(0.0, geometry::norm_squared(across) - quantisation);
@@ -221,7 +221,7 @@ void FeedGovernor::extrapolate(const Frame& frame) noexcept {
   const double length = std::max(fine, (back + ahead) / 400.0);
   double a = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
-    a = std::min(a, config_.axes[i].max_acceleration_mm_s2);
+    a = std::min(a, config_.axes[i].max_acceleration_au_s2);
   }
   for (double s = -back; s < ahead; s += length) {
     Cell cell;

@@ -68,8 +68,8 @@ double longest_lag(Axes axes) noexcept {
 double jerk_time(Axes axes) noexcept {
   double time = 0.0;
   for (const Axis& axis : path_axes(axes)) {
-    if (std::isfinite(axis.max_jerk_mm_s3) && axis.max_jerk_mm_s3 > 0.0) {
-      time = std::max(time, axis.max_acceleration_mm_s2 / axis.max_jerk_mm_s3);
+    if (std::isfinite(axis.max_jerk_au_s3) && axis.max_jerk_au_s3 > 0.0) {
+      time = std::max(time, axis.max_acceleration_au_s2 / axis.max_jerk_au_s3);
     }
   }
   return std::min(time, 0.5);
@@ -104,7 +104,7 @@ double walking_1_s(const kernel::machine::OverrideTable& table,
 double unseen_by_encoders_mm(Axes axes) noexcept {
   double backlash_mm = 0.0;
   for (const Axis& axis : path_axes(axes)) {
-    backlash_mm = std::max(backlash_mm, axis.backlash_mm);
+    backlash_mm = std::max(backlash_mm, axis.backlash_au);
   }
   return 0.5 * backlash_mm;
 }

@@ -54,7 +54,7 @@ LookAhead::LookAhead(std::span<const kernel::machine::Axis> axes,
     : path_mm_s2_(max_path_acceleration_mm_s2),
       ring_(std::make_unique<std::array<Cell, kCells>>()) {
   for (std::size_t i = 0; i < 3; ++i) {
-    axis_mm_s2_[i] = i < axes.size() ? axes[i].max_acceleration_mm_s2 : kInfinite;
+    axis_mm_s2_[i] = i < axes.size() ? axes[i].max_acceleration_au_s2 : kInfinite;
   }
 }
 LookAhead::~LookAhead() = default;

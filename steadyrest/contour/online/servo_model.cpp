@@ -78,9 +78,9 @@ kernel::outcome::Result<ServoModel> ServoModel::make(std::span<const kernel::mac
   for (std::size_t i = 0; i < config.axes; ++i) {
     const kernel::machine::Axis& axis = axes[i];
     config.prior[i] = {axis.servo_gain_1_s, axis.feed_forward, axis.velocity_lag_s};
-    config.count_mm[i] = axis.encoder.count_mm;
+    config.count_mm[i] = axis.encoder.count_au;
     config.drive_mm_s2[i] =
-        std::isfinite(axis.drive_acceleration_mm_s2) ? axis.drive_acceleration_mm_s2 : 0.0;
+        std::isfinite(axis.drive_acceleration_au_s2) ? axis.drive_acceleration_au_s2 : 0.0;
   }
   config.window_s = std::max(config.window_s, 10.0 * interpolator_period_s);
   return make(config);

@@ -69,15 +69,15 @@ std::vector<KeyValue> key_values(const Encoder& encoder, bool rotary) {
   const std::string suffix = rotary ? "_deg" : "_um";
   // The order here is the order in the file.
   std::vector<KeyValue> out;
-  if (!encoder.phase_error_mm.empty()) {
+  if (!encoder.phase_error_au.empty()) {
     out.push_back({"phase_error" + suffix,
-                   list(encoder.phase_error_mm, unit, kFineDigit * encoder.count_mm)});
+                   list(encoder.phase_error_au, unit, kFineDigit * encoder.count_au)});
   }
   out.push_back({"line_table_first", fmt::format("{}", encoder.line_table_first)});
   out.push_back({"line_table_periodic", encoder.line_table_periodic ? "true" : "false"});
-  if (!encoder.line_table_mm.empty()) {
+  if (!encoder.line_table_au.empty()) {
     out.push_back(
-        {"line_table" + suffix, list(encoder.line_table_mm, unit, kDigit * encoder.count_mm)});
+        {"line_table" + suffix, list(encoder.line_table_au, unit, kDigit * encoder.count_au)});
   }
   return out;
 }
@@ -247,10 +247,10 @@ kernel::outcome::Result<const Axis*> axis_in(const Machine& machine, const std::
     return refuse(file, fmt::format("has no axis {}", cut(name)),
                   "give --axis with the name of one of its axes");
   }
-  if (!(std::abs(found->encoder.count_mm - count_mm) <= kSameCount * count_mm)) {
+  if (!(std::abs(found->encoder.count_au - count_mm) <= kSameCount * count_mm)) {
     return refuse(file,
                   fmt::format("axis {} has a count of {} mm (rad), not of {}", found->name,
-                              shown(found->encoder.count_mm), shown(count_mm)),
+                              shown(found->encoder.count_au), shown(count_mm)),
                   "give the count from the machine file");
   }
   return &*found;
@@ -260,7 +260,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
                                           double count_mm) {
   Faults faults{file, {}};
   Encoder out;
-  out.count_mm = count_mm;
+  out.count_au = count_mm;
   try {
     const toml::table root = toml::parse(text);
     // The keys alone carry their unit; it tells a rotary axis from a linear one.
@@ -278,7 +278,7 @@ kernel::outcome::Result<Encoder> fragment(std::string_view text, const std::stri
   if (!faults.list.empty()) {
     return std::unexpected(std::move(faults.list.front()));
   }
-  if (std::abs(out.count_mm - count_mm) > kSameCount * count_mm) {
+  if (std::abs(out.count_au - count_mm) > kSameCount * count_mm) {
     return refuse(file, "is for another count", "give the count it was learnt with");
   }
   return out;
@@ -307,7 +307,7 @@ kernel::outcome::Result<std::string> with_calibration(std::string_view text,
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  const auto found = axis_in(*machine, file, axis, encoder.count_mm);
+  const auto found = axis_in(*machine, file, axis, encoder.count_au);
   if (!found) {
     return std::unexpected(found.error());
   }

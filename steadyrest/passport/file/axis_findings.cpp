@@ -60,14 +60,14 @@ void feed_forward(const Machine& machine, List& out) {
 /// 0.25, where overshoot begins, and 0.5 at kτ = 1.
 void drives(const Machine& machine, List& out) {
   for (const Axis& axis : machine.axes) {
-    if (axis.drive_acceleration_mm_s2 < axis.max_acceleration_mm_s2) {
+    if (axis.drive_acceleration_au_s2 < axis.max_acceleration_au_s2) {
       out.push_back(
           {Severity::warning, "drive_acceleration",
            fmt::format("axis {} plans with more acceleration than its drive delivers", axis.name),
            "lower max_acceleration below drive_acceleration, or the drive saturates"});
     }
     // Friction at least as strong as the drive: the axis never breaks away.
-    if (axis.friction.breakaway_mm_s2 >= axis.drive_acceleration_mm_s2) {
+    if (axis.friction.breakaway_au_s2 >= axis.drive_acceleration_au_s2) {
       out.push_back(
           {Severity::error, "friction",
            fmt::format(
@@ -98,8 +98,8 @@ void path_limits(const Machine& machine, List& out) {
   double speed2 = 0.0;
   double acceleration2 = 0.0;
   for (const Axis* axis : contouring(machine)) {
-    speed2 += axis->max_speed_mm_s * axis->max_speed_mm_s;
-    acceleration2 += axis->max_acceleration_mm_s2 * axis->max_acceleration_mm_s2;
+    speed2 += axis->max_speed_au_s * axis->max_speed_au_s;
+    acceleration2 += axis->max_acceleration_au_s2 * axis->max_acceleration_au_s2;
   }
   const auto beyond = [&out](std::string_view key, double value, double reach) {
     if (std::isfinite(value) && value > reach * (1.0 + 1e-9)) {

@@ -72,15 +72,15 @@ void contour_limit(const Machine& machine, List& out) {
     return;
   }
   for (const Axis* axis : contouring(machine)) {
-    if (machine.contour.limit_mm < 2.0 * axis->encoder.count_mm) {
+    if (machine.contour.limit_mm < 2.0 * axis->encoder.count_au) {
       out.push_back({Severity::error, "contour_limit",
                      fmt::format("the contour limit of {:.4g} µm is below the resolution of axis "
                                  "{}: one count is {:.4g} µm",
                                  kernel::units::um_from_mm(machine.contour.limit_mm), axis->name,
-                                 kernel::units::um_from_mm(axis->encoder.count_mm)),
+                                 kernel::units::um_from_mm(axis->encoder.count_au)),
                      "set limit_um to two counts or more"});
     }
-    if (machine.contour.limit_mm < 0.5 * axis->backlash_mm) {
+    if (machine.contour.limit_mm < 0.5 * axis->backlash_au) {
       out.push_back({Severity::warning, "contour_limit",
                      fmt::format("the contour limit of {:.4g} µm is below half the backlash of "
                                  "axis {}: no feed holds it at a reversal",

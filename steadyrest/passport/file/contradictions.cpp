@@ -46,7 +46,7 @@ void ordered(const Given& given, Faults& faults, std::string_view low_key, doubl
 void below_a_count(const Encoder& encoder, std::span<const double> errors, const Given& given,
                    Faults& faults, std::string_view um, std::string_view deg) {
   const auto worst = std::ranges::find_if(
-      errors, [&](double error) { return !(std::abs(error) < encoder.count_mm); });
+      errors, [&](double error) { return !(std::abs(error) < encoder.count_au); });
   if (worst != errors.end()) {
     const std::string_view key = given.has(um) ? um : deg;
     faults.add(given.at({key}),
@@ -60,9 +60,9 @@ void below_a_count(const Encoder& encoder, std::span<const double> errors, const
 /// common part would be an offset of the scale.
 void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
   constexpr double kRounding = 1e-6;  // of a count
-  const std::vector<double>& phase = encoder.phase_error_mm;
+  const std::vector<double>& phase = encoder.phase_error_au;
   const double sum = std::accumulate(phase.begin(), phase.end(), 0.0);
-  if (!phase.empty() && (phase.size() != 4 || std::abs(sum) > kRounding * encoder.count_mm)) {
+  if (!phase.empty() && (phase.size() != 4 || std::abs(sum) > kRounding * encoder.count_au)) {
     faults.add(
         given.at({"phase_error_um", "phase_error_deg"}),
         phase.size() != 4
@@ -72,9 +72,9 @@ void calibration(const Encoder& encoder, const Given& given, Faults& faults) {
     return;
   }
   below_a_count(encoder, phase, given, faults, "phase_error_um", "phase_error_deg");
-  below_a_count(encoder, encoder.line_table_mm, given, faults, "line_table_um", "line_table_deg");
+  below_a_count(encoder, encoder.line_table_au, given, faults, "line_table_um", "line_table_deg");
   // A quadrature encoder has four edges a line, so a revolution has a multiple of four.
-  const std::size_t lines = encoder.line_table_mm.size();
+  const std::size_t lines = encoder.line_table_au.size();
   if (encoder.line_table_periodic && (lines == 0 || lines % 4 != 0)) {
     faults.add(given.at({"line_table_periodic"}),
                fmt::format("{} has a periodic table of {} lines; a revolution has a multiple of 4",
@@ -102,11 +102,11 @@ void contradictions(const Control& control, const Given& given, Faults& faults) 
 /// Ends of travel that leave no travel.
 void contradictions(const Axis& axis, const Given& given, Faults& faults) {
   const bool rotary = axis.rotary;
-  if (axis.min_mm >= axis.max_mm) {
+  if (axis.min_au >= axis.max_au) {
     const Unit& unit = unit_of(rotary ? "deg" : "mm");
     faults.add(given.at({"min_mm", "min_deg", "max_mm", "max_deg"}),
                fmt::format("{} has no travel: from {} to {} {}", given.section,
-                           shown(unit.from_inner(axis.min_mm)), shown(unit.from_inner(axis.max_mm)),
+                           shown(unit.from_inner(axis.min_au)), shown(unit.from_inner(axis.max_au)),
                            unit.shown),
                "give a lower end below the upper end");
   }
@@ -114,7 +114,7 @@ void contradictions(const Axis& axis, const Given& given, Faults& faults) {
 
 /// ×4 decoding makes four counts of a line.
 void contradictions(const Encoder& encoder, const Given& given, Faults& faults) {
-  if (encoder.line_error_mm > 0.0 && encoder.line_period_mm < encoder.count_mm) {
+  if (encoder.line_error_au > 0.0 && encoder.line_period_au < encoder.count_au) {
     faults.add(given.at({"line_period_um", "line_period_deg", "count_um", "count_deg"}),
                fmt::format("{} has a line shorter than one count", given.section),
                "a line is four counts long with ×4 decoding");
@@ -124,7 +124,7 @@ void contradictions(const Encoder& encoder, const Given& given, Faults& faults) 
 
 /// The Stribeck curve falls from breakaway to sliding friction; the other way round it would rise.
 void contradictions(const Friction& friction, const Given& given, Faults& faults) {
-  if (friction.breakaway_mm_s2 < friction.coulomb_mm_s2) {
+  if (friction.breakaway_au_s2 < friction.coulomb_au_s2) {
     faults.add(given.at({"breakaway_mm_s2", "breakaway_deg_s2", "coulomb_mm_s2", "coulomb_deg_s2"}),
                fmt::format("{} has breakaway friction below its sliding friction", given.section),
                "give a breakaway value no lower than the coulomb value");

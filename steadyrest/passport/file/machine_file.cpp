@@ -212,9 +212,9 @@ class FileReader {
         axis.servo_gain_1_s = like.servo_gain_1_s;
         axis.feed_forward = like.feed_forward;
         axis.velocity_lag_s = like.velocity_lag_s;
-        axis.min_mm = 0.0;
-        axis.max_mm = 0.0;
-        axis.encoder.count_mm = 0.0;
+        axis.min_au = 0.0;
+        axis.max_au = 0.0;
+        axis.encoder.count_au = 0.0;
         machine_.axes.push_back(axis);
       }
     }

@@ -9,18 +9,18 @@
 namespace steadyrest::sim {
 
 Encoder::Encoder(const Config& config) noexcept
-    : count_mm_(config.count_mm),
-      counts_1_mm_(config.count_mm > 0.0 ? 1.0 / config.count_mm : 0.0),
-      line_error_mm_(config.line_error_mm),
-      lines_1_mm_(config.line_error_mm > 0.0 ? 1.0 / config.line_period_mm : 0.0) {}
+    : count_mm_(config.count_au),
+      counts_1_mm_(config.count_au > 0.0 ? 1.0 / config.count_au : 0.0),
+      line_error_mm_(config.line_error_au),
+      lines_1_mm_(config.line_error_au > 0.0 ? 1.0 / config.line_period_au : 0.0) {}
 
 kernel::outcome::Result<Encoder> Encoder::make(const Config& config) {
   constexpr double kMax = 1e3;
-  const bool has_lines = config.line_error_mm > 0.0;
+  const bool has_lines = config.line_error_au > 0.0;
   if (auto ok = in_range("encoder",
-                         {{"count_mm", config.count_mm, 0.0, kMax},
-                          {"line_error_mm", config.line_error_mm, 0.0, kMax},
-                          {"line_period_mm", has_lines ? config.line_period_mm : 1.0, 1e-9, kMax},
+                         {{"count_mm", config.count_au, 0.0, kMax},
+                          {"line_error_mm", config.line_error_au, 0.0, kMax},
+                          {"line_period_mm", has_lines ? config.line_period_au : 1.0, 1e-9, kMax},
                           {"clock_s", config.clock_s, 0.0, 1.0}});
       !ok) {
     return std::unexpected(ok.error());

@@ -28,9 +28,9 @@ class Friction {
  public:
   Friction(const kernel::machine::Friction& law, double h_s) noexcept
       : h_s_(h_s),
-        coulomb_mm_s2_(law.coulomb_mm_s2),
-        rise_mm_s2_(std::max(0.0, law.breakaway_mm_s2 - law.coulomb_mm_s2)),
-        stribeck_s_mm_(1.0 / law.stribeck_mm_s),
+        coulomb_mm_s2_(law.coulomb_au_s2),
+        rise_mm_s2_(std::max(0.0, law.breakaway_au_s2 - law.coulomb_au_s2)),
+        stribeck_s_mm_(1.0 / law.stribeck_au_s),
         viscous_share_(1.0 / (1.0 + h_s * law.viscous_1_s)),
         present_(dry() || law.viscous_1_s > 0.0) {}
 

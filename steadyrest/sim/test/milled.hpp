@@ -28,8 +28,8 @@ inline Machine mill() {
   for (const char* name : {"X", "Y", "Z"}) {
     kernel::machine::Axis axis;
     axis.name = name;
-    axis.encoder.count_mm = 0.0;
-    axis.max_acceleration_mm_s2 = 3000.0;
+    axis.encoder.count_au = 0.0;
+    axis.max_acceleration_au_s2 = 3000.0;
     machine.axes.push_back(axis);
   }
   for (std::uint32_t i = 0; i <= 12; ++i) {

@@ -106,11 +106,11 @@ TEST(SimulatedMachine, SameSeedSameBytes) {
   Machine machine = mill();
   for (auto& axis : machine.axes) {
     axis.velocity_lag_s = 0.002;
-    axis.backlash_mm = 0.004;
-    axis.friction = {.coulomb_mm_s2 = 150.0, .breakaway_mm_s2 = 250.0};
-    axis.encoder.count_mm = 0.001;
-    axis.encoder.line_error_mm = 0.0002;
-    axis.encoder.line_period_mm = 0.02;
+    axis.backlash_au = 0.004;
+    axis.friction = {.coulomb_au_s2 = 150.0, .breakaway_au_s2 = 250.0};
+    axis.encoder.count_au = 0.001;
+    axis.encoder.line_error_au = 0.0002;
+    axis.encoder.line_period_au = 0.02;
   }
   machine.simulation.position_noise_mm = 0.0003;
   const auto path = plan(machine, {line(0.0, 0.0, 10.0, 0.0), circle(2)}, 20.0);
@@ -151,8 +151,8 @@ TEST(SimulatedMachine, EveryExampleMachineArrivesAndComesToRest) {
     for (int i = 0; i < 2000; ++i) {
       ASSERT_TRUE(sim->read());
     }
-    const double slack_mm = machine->axes[0].backlash_mm / 2.0 + machine->axes[0].encoder.count_mm +
-                            machine->axes[0].encoder.line_error_mm +
+    const double slack_mm = machine->axes[0].backlash_au / 2.0 + machine->axes[0].encoder.count_au +
+                            machine->axes[0].encoder.line_error_au +
                             6.0 * machine->simulation.position_noise_mm + 1e-3;
     EXPECT_NEAR(sim->truth().tool_mm[0], 20.0, slack_mm) << file.path();
     if (!machine->axes[1].present) {

@@ -115,12 +115,12 @@ machine::Machine with_encoder() {
   machine::Machine machine;
   machine.axes.resize(1);
   auto& axis = machine.axes[0];
-  axis.max_speed_mm_s = 33.0;
-  axis.max_acceleration_mm_s2 = 160.0;
-  axis.encoder.count_mm = kCount_mm;
+  axis.max_speed_au_s = 33.0;
+  axis.max_acceleration_au_s2 = 160.0;
+  axis.encoder.count_au = kCount_mm;
   axis.encoder.clock_s = kClock_s;
   // The true bound, from the same generator: what a maker's test certificate would state.
-  axis.encoder.line_error_mm = Axis().largest_error_mm();
+  axis.encoder.line_error_au = Axis().largest_error_mm();
   return machine;
 }
 
@@ -205,7 +205,7 @@ TEST(CalibratedAxis, IsSeenFiveTimesFinerThanWithoutItsCalibration) {
 // error, and no bound may rest on hope.
 TEST(CalibratedAxis, BoundsRestOnTheUncalibratedErrorWhereALineWasNotLearnt) {
   auto machine = calibrated();
-  machine.axes[0].encoder.line_table_mm[5] = 0.0;
+  machine.axes[0].encoder.line_table_au[5] = 0.0;
   const Seen seen = watch(machine);
   const Seen without = watch(with_encoder());
   EXPECT_GT(seen.bound_rms_mm_s, without.bound_rms_mm_s);
@@ -219,8 +219,8 @@ TEST(CalibratedAxis, AScaleMustBeLearntOverItsWholeTravel) {
   auto machine = calibrated();
   auto& axis = machine.axes[0];
   axis.encoder.line_table_periodic = false;
-  axis.min_mm = 0.01;
-  axis.max_mm = 3.9;
+  axis.min_au = 0.01;
+  axis.max_au = 3.9;
   const auto bound_mm_s = [&] {  // the axis is then at 2.7 mm, still within the table
     auto stage = MotionStage::make(machine).value();
     Counter counter;
@@ -232,7 +232,7 @@ TEST(CalibratedAxis, AScaleMustBeLearntOverItsWholeTravel) {
     return frame.axis[0].velocity_bound_mm_s;
   };
   const double inside = bound_mm_s();
-  axis.max_mm = 5.0;
+  axis.max_au = 5.0;
   EXPECT_GT(bound_mm_s(), 1.5 * inside);
 }
 

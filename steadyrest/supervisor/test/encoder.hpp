@@ -22,10 +22,10 @@ inline machine::Machine two_axes() {
   machine::Machine machine;
   machine.axes.resize(2);
   for (auto& axis : machine.axes) {
-    axis.encoder.count_mm = kCount_mm;
-    axis.max_speed_mm_s = kAmplitude_mm * kRate_1_s;
-    axis.max_acceleration_mm_s2 = axis.max_speed_mm_s * kRate_1_s;
-    axis.max_jerk_mm_s3 = axis.max_acceleration_mm_s2 * kRate_1_s;
+    axis.encoder.count_au = kCount_mm;
+    axis.max_speed_au_s = kAmplitude_mm * kRate_1_s;
+    axis.max_acceleration_au_s2 = axis.max_speed_au_s * kRate_1_s;
+    axis.max_jerk_au_s3 = axis.max_acceleration_au_s2 * kRate_1_s;
   }
   return machine;
 }

@@ -50,7 +50,7 @@ ActingLayer::ActingLayer(const Machine& machine, supervisor::Supervisor layer)
   frame_.axis_count = static_cast<std::uint8_t>(std::min(machine.axes.size(), frame_.axis.size()));
   for (std::size_t i = 0; i < frame_.axis_count; ++i) {
     // Any place within the limits will do; the frame check needs one.
-    const double middle_mm = 0.5 * (machine.axes[i].min_mm + machine.axes[i].max_mm);
+    const double middle_mm = 0.5 * (machine.axes[i].min_au + machine.axes[i].max_au);
     frame_.axis[i].command_mm = frame_.axis[i].actual_mm =
         std::isfinite(middle_mm) ? middle_mm : 0.0;
   }

@@ -27,17 +27,17 @@ Result<MotionScore> MotionScore::make(std::span<const kernel::machine::Axis> axe
   MotionScore score;
   for (std::size_t i = 0; i < std::min(axes.size(), kernel::signal::kMaxAxes); ++i) {
     const kernel::machine::Axis& axis = axes[i];
-    if (!axis.present || !(axis.encoder.count_mm > 0.0)) {
+    if (!axis.present || !(axis.encoder.count_au > 0.0)) {
       continue;
     }
     auto difference =
-        BackwardDifference::make({.count_mm = axis.encoder.count_mm, .cycle_s = cycle_s});
+        BackwardDifference::make({.count_mm = axis.encoder.count_au, .cycle_s = cycle_s});
     if (!difference) {
       return std::unexpected(std::move(difference.error()));
     }
     score.axes_.push_back({.name = axis.name,
                            .index = i,
-                           .count_mm = axis.encoder.count_mm,
+                           .count_mm = axis.encoder.count_au,
                            .difference = *difference});
   }
   return score;

@@ -60,10 +60,10 @@ class Pen {
     fastest_mm_s_ = std::min(kFastest_mm_s, machine.control.max_feed_mm_s);
     for (std::size_t i = 0; i < 2; ++i) {
       const auto& axis = machine.axes[plane.axis[i]];
-      middle_mm_[i] = 0.5 * (axis.min_mm + axis.max_mm);
+      middle_mm_[i] = 0.5 * (axis.min_au + axis.max_au);
       // Scaled down where the machine is small: radii and chords shrink with it.
-      travel_mm = std::min(travel_mm, axis.max_mm - axis.min_mm);
-      fastest_mm_s_ = std::min(fastest_mm_s_, axis.max_speed_mm_s);
+      travel_mm = std::min(travel_mm, axis.max_au - axis.min_au);
+      fastest_mm_s_ = std::min(fastest_mm_s_, axis.max_speed_au_s);
     }
     scale_ = travel_mm / kExtent_mm;
     move_.end = place(0.0, 0.0);

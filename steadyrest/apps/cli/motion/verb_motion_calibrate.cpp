@@ -66,7 +66,7 @@ Result<Text> text_for(const Options& options, const Encoder& encoder) {
   const bool in_deg = options.count_deg.has_value();
   if (options.machine.empty()) {
     const std::string count = in_deg ? fmt::format("{:.10g}°", *options.count_deg)
-                                     : fmt::format("{:.10g} mm", encoder.count_mm);
+                                     : fmt::format("{:.10g} mm", encoder.count_au);
     return Text{
         fmt::format("# Calibration of an encoder, count {}: keys of [axis.encoder]\n", count) +
             passport::calibration_text(encoder, in_deg),
@@ -107,7 +107,7 @@ Answer answer_of(const offline::LineCalibration& calibration, const Encoder& enc
   const double before = shown(calibration.residual_before_mm);
   const double after = shown(calibration.residual_after_mm);
   Json phase = Json::array();
-  for (const double error_mm : encoder.phase_error_mm) {
+  for (const double error_mm : encoder.phase_error_au) {
     phase.push_back(shown(error_mm));
   }
   Answer answer;

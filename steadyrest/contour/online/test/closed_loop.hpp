@@ -43,7 +43,7 @@ inline Machine mill(double gain_1_s = 50.0) {
   for (std::size_t i = 0; i < 3; ++i) {
     machine.axes[i].name = names[i];
     machine.axes[i].servo_gain_1_s = gain_1_s;
-    machine.axes[i].encoder.count_mm = 0.0001;
+    machine.axes[i].encoder.count_au = 0.0001;
   }
   machine.feed_override.ratio = siemens_23();
   machine.feed_override.scan_period_s = 0.010;
@@ -185,7 +185,7 @@ class ClosedLoop {
   }
 
   void speed_step() {
-    const double a = machine_.axes[0].max_acceleration_mm_s2;
+    const double a = machine_.axes[0].max_acceleration_au_s2;
     const double goal = target_of(path_[index_]);
     double next =
         speed_ < goal ? std::min(goal, speed_ + a * period_) : std::max(goal, speed_ - a * period_);
@@ -245,7 +245,7 @@ class ClosedLoop {
     Frame frame;
     frame.time_s = time_;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double count = machine_.axes[i].encoder.count_mm;
+      const double count = machine_.axes[i].encoder.count_au;
       const double read = count > 0.0 ? std::round(x_[i] / count) * count : x_[i];
       frame.axis[i] = {command_[i], read, command_[i] - read};
     }

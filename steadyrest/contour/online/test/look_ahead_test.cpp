@@ -24,9 +24,9 @@ using test::PathSegment;
 /// X 1000, Y 2000, Z 4000 mm/s².
 LookAhead unequal(double path_mm_s2 = kUnlimited) {
   std::vector<kernel::machine::Axis> axes(3);
-  axes[0].max_acceleration_mm_s2 = 1000.0;
-  axes[1].max_acceleration_mm_s2 = 2000.0;
-  axes[2].max_acceleration_mm_s2 = 4000.0;
+  axes[0].max_acceleration_au_s2 = 1000.0;
+  axes[1].max_acceleration_au_s2 = 2000.0;
+  axes[2].max_acceleration_au_s2 = 4000.0;
   return {axes, path_mm_s2};
 }
 

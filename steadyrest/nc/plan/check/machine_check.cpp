@@ -69,7 +69,7 @@ MachineCheck::MachineCheck(const kernel::machine::Machine& machine, const Known&
       axis_[at] = &axis;
     }
     if (!axis.rotary && axis.present) {
-      always_mm_s_ = std::min(always_mm_s_, axis.max_speed_mm_s);
+      always_mm_s_ = std::min(always_mm_s_, axis.max_speed_au_s);
     }
     lathe_ = lathe_ || (axis.name == "Y" && !axis.present);
   }
@@ -110,16 +110,16 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
     return;
   }
   const bool over =
-      reach.high_mm > limits.max_mm + kRounding_mm || reach.low_mm < limits.min_mm - kRounding_mm;
+      reach.high_mm > limits.max_au + kRounding_mm || reach.low_mm < limits.min_au - kRounding_mm;
   if (placed(move, axis)) {
     if (over) {
       const double to_mm =
-          reach.high_mm > limits.max_mm + kRounding_mm ? reach.high_mm : reach.low_mm;
+          reach.high_mm > limits.max_au + kRounding_mm ? reach.high_mm : reach.low_mm;
       warn(
           move.line, What::travel, axis,
           fmt::format("{} {} to {:.3f} mm, outside its travel {:g} … {:g} mm (machine coordinates)",
                       move.kind == MoveKind::rapid ? "a rapid takes" : "the move takes",
-                      limits.name, to_mm, limits.min_mm, limits.max_mm));
+                      limits.name, to_mm, limits.min_au, limits.max_au));
     }
     return;
   }
@@ -132,7 +132,7 @@ void MachineCheck::check_travel(const Move& move, std::size_t axis) {
   extent.high_mm = std::max(extent.high_mm, reach.high_mm);
   // A range wider than the travel fits under no work offset, so the offset need not be known.
   if (extent.line == 0 &&
-      extent.high_mm - extent.low_mm > limits.max_mm - limits.min_mm + kRounding_mm) {
+      extent.high_mm - extent.low_mm > limits.max_au - limits.min_au + kRounding_mm) {
     extent.line = move.line;
     seen_.emplace(move.line, What::extent, axis);
   }
@@ -219,7 +219,7 @@ std::vector<Warning> MachineCheck::warnings() const {
                      fmt::format("the program covers {:.3f} mm of {}, from {:.3f} to {:.3f} mm; "
                                  "its travel is only {:g} mm, whatever the work offset",
                                  extent.high_mm - extent.low_mm, axis_[axis]->name, extent.low_mm,
-                                 extent.high_mm, axis_[axis]->max_mm - axis_[axis]->min_mm)});
+                                 extent.high_mm, axis_[axis]->max_au - axis_[axis]->min_au)});
     }
   }
   std::ranges::stable_sort(out, {}, &Warning::line);

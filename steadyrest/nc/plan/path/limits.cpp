@@ -28,9 +28,9 @@ PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
   double largest_linear = 0.0;
   for (std::size_t i = 0; i < std::min(axes.size(), kMaxAxes); ++i) {
     const auto& axis = axes[i];
-    speed_[i] = axis.max_speed_mm_s;
-    acceleration_[i] = axis.max_acceleration_mm_s2;
-    jerk_[i] = axis.max_jerk_mm_s3;
+    speed_[i] = axis.max_speed_au_s;
+    acceleration_[i] = axis.max_acceleration_au_s2;
+    jerk_[i] = axis.max_jerk_au_s3;
     // One averaging window serves all axes. A window of A_i/J_i makes a step of the acceleration to
     // A_i rise at J_i, so the longest window keeps every axis within its jerk.
     if (std::isfinite(jerk_[i])) {

@@ -17,7 +17,7 @@ inline kernel::machine::Machine mill(double jerk_mm_s3 = kernel::machine::kUnlim
   for (const char* name : {"X", "Y", "Z"}) {
     kernel::machine::Axis axis;
     axis.name = name;
-    axis.max_jerk_mm_s3 = jerk_mm_s3;
+    axis.max_jerk_au_s3 = jerk_mm_s3;
     m.axes.push_back(axis);
   }
   return m;

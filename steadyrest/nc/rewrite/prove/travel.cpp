@@ -28,13 +28,13 @@ std::string over_travel(std::span<const kernel::machine::Axis> axes, char letter
         letter, to_mm, end_mm, letter, own_mm);
   };
   // Exactly at the limit is allowed; positions are sums of rounded numbers.
-  if (corrected.high_mm > axis->max_mm + kRounding_mm &&
-      original.high_mm <= axis->max_mm + kRounding_mm) {
-    return fault(corrected.high_mm, axis->max_mm, original.high_mm);
+  if (corrected.high_mm > axis->max_au + kRounding_mm &&
+      original.high_mm <= axis->max_au + kRounding_mm) {
+    return fault(corrected.high_mm, axis->max_au, original.high_mm);
   }
-  if (corrected.low_mm < axis->min_mm - kRounding_mm &&
-      original.low_mm >= axis->min_mm - kRounding_mm) {
-    return fault(corrected.low_mm, axis->min_mm, original.low_mm);
+  if (corrected.low_mm < axis->min_au - kRounding_mm &&
+      original.low_mm >= axis->min_au - kRounding_mm) {
+    return fault(corrected.low_mm, axis->min_au, original.low_mm);
   }
   return {};
 }

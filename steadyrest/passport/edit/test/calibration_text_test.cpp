@@ -35,10 +35,10 @@ const std::string kTail = "\n[override.feed]\npercent = [0, 50, 100]";
 Encoder learnt(std::size_t lines) {
   Encoder out;
   // The four phase errors sum to 0: they are measured against their own mean.
-  out.phase_error_mm = {3.012e-5, -5e-5, 4.4e-5, -2.412e-5};
+  out.phase_error_au = {3.012e-5, -5e-5, 4.4e-5, -2.412e-5};
   out.line_table_first = -3;
   for (std::size_t i = 0; i < lines; ++i) {
-    out.line_table_mm.push_back(2e-5 * std::sin(static_cast<double>(i * i)));
+    out.line_table_au.push_back(2e-5 * std::sin(static_cast<double>(i * i)));
   }
   return out;
 }
@@ -59,12 +59,12 @@ void expect_put_in(const std::string& text, std::string_view axis, std::size_t i
   const auto machine = parse(*out, "m.toml");
   ASSERT_TRUE(machine);
   const Encoder& read = machine->axes[index].encoder;
-  ASSERT_EQ(read.line_table_mm.size(), encoder.line_table_mm.size());
-  for (std::size_t i = 0; i < read.line_table_mm.size(); ++i) {
-    EXPECT_NEAR(read.line_table_mm[i], encoder.line_table_mm[i], 0.5001e-5 * encoder.count_mm);
+  ASSERT_EQ(read.line_table_au.size(), encoder.line_table_au.size());
+  for (std::size_t i = 0; i < read.line_table_au.size(); ++i) {
+    EXPECT_NEAR(read.line_table_au[i], encoder.line_table_au[i], 0.5001e-5 * encoder.count_au);
   }
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(read.phase_error_mm.at(i), encoder.phase_error_mm[i], 1e-8 * encoder.count_mm);
+    EXPECT_NEAR(read.phase_error_au.at(i), encoder.phase_error_au[i], 1e-8 * encoder.count_au);
   }
   EXPECT_EQ(read.line_table_first, encoder.line_table_first);
   // Again: now all keys are there and only their values change, to the same ones.
@@ -100,13 +100,13 @@ TEST(CalibrationText, MakesTheSectionOfAnAxisThatHasNone) {
 TEST(CalibrationText, TakesARotaryAxisInDegrees) {
   const double kDegree = 3.14159265358979 / 180.0;
   Encoder encoder = learnt(8);
-  encoder.count_mm = 0.001 * kDegree;
+  encoder.count_au = 0.001 * kDegree;
   encoder.line_table_periodic = true;
   encoder.line_table_first = 0;
-  for (double& e : encoder.phase_error_mm) {
+  for (double& e : encoder.phase_error_au) {
     e *= kDegree;
   }
-  for (double& e : encoder.line_table_mm) {
+  for (double& e : encoder.line_table_au) {
     e *= kDegree;
   }
   const std::string b = kB + "[axis.encoder]\ncount_deg = 0.001\n";
@@ -132,10 +132,10 @@ TEST(CalibrationText, RefusesWhatItCannotDoSafely) {
   EXPECT_THAT(refusal_of(good, "Z", learnt(3)), HasSubstr("has no axis Z"));
   EXPECT_THAT(refusal_of(good + "\nnonsense", "X", learnt(3)), HasSubstr("m.toml:"));
   Encoder other = learnt(3);
-  other.count_mm = 0.002;
+  other.count_au = 0.002;
   EXPECT_THAT(refusal_of(good, "X", other), HasSubstr("has a count of 0.001 mm"));
   Encoder wild = learnt(3);
-  wild.line_table_mm[1] = 0.5;
+  wild.line_table_au[1] = 0.5;
   EXPECT_THAT(refusal_of(good, "X", wild), HasSubstr("line_table_um"));
 }
 
@@ -146,8 +146,8 @@ TEST(CalibrationText, AFragmentReadsBack) {
   const auto read =
       parse_calibration("# learnt\n" + calibration_text(encoder, false), "f.toml", "", 0.001);
   ASSERT_TRUE(read) << kernel::outcome::text(read.error());
-  EXPECT_EQ(read->line_table_mm.size(), 50U);
-  EXPECT_NEAR(read->line_table_mm[7], encoder.line_table_mm[7], 1e-8);
+  EXPECT_EQ(read->line_table_au.size(), 50U);
+  EXPECT_NEAR(read->line_table_au[7], encoder.line_table_au[7], 1e-8);
   EXPECT_FALSE(parse_calibration("line_table = [1]\n", "f.toml", "", 0.001));
   EXPECT_FALSE(parse_calibration("line_table_um = [1]\n", "f.toml", "", 0.001));
   EXPECT_FALSE(parse_calibration("line_table_um = [0.1\n", "f.toml", "", 0.001));
@@ -162,10 +162,10 @@ TEST(CalibrationText, AFileWithAHundredThousandLinesIsReadWhole) {
   const auto machine =
       parse(kHead + kX + kEncoder + calibration_text(encoder, false) + kTail + kB, "m.toml");
   ASSERT_TRUE(machine) << kernel::outcome::text(machine.error());
-  const auto& read = machine->axes[0].encoder.line_table_mm;
+  const auto& read = machine->axes[0].encoder.line_table_au;
   ASSERT_EQ(read.size(), 100'000U);
-  EXPECT_NEAR(read.front(), encoder.line_table_mm.front(), 0.5001e-5 * encoder.count_mm);
-  EXPECT_NEAR(read.back(), encoder.line_table_mm.back(), 0.5001e-5 * encoder.count_mm);
+  EXPECT_NEAR(read.front(), encoder.line_table_au.front(), 0.5001e-5 * encoder.count_au);
+  EXPECT_NEAR(read.back(), encoder.line_table_au.back(), 0.5001e-5 * encoder.count_au);
 }
 
 // The limit from both sides.

@@ -44,9 +44,9 @@ std::vector<Case> cases() {
       // kT = 50 · 0.1 = 5.
       {"unstable", [](Machine& m) { m.control.servo_period_s = 0.1; }, "servo_gain",
        Severity::error},
-      {"drive", [](Machine& m) { m.axes[0].drive_acceleration_mm_s2 = 1000; }, "drive_acceleration",
+      {"drive", [](Machine& m) { m.axes[0].drive_acceleration_au_s2 = 1000; }, "drive_acceleration",
        Severity::warning},
-      {"stuck", [](Machine& m) { m.axes[0].friction.breakaway_mm_s2 = 7000; }, "friction",
+      {"stuck", [](Machine& m) { m.axes[0].friction.breakaway_au_s2 = 7000; }, "friction",
        Severity::error},
       {"rapid", [](Machine& m) { m.control.rapid_mm_s = 5000; }, "path_limits", Severity::note},
       {"no100", [](Machine& m) { m.feed_override.ratio[18] = 0.99; }, "override_100",
@@ -58,10 +58,10 @@ std::vector<Case> cases() {
       {"steps_above_max", [](Machine& m) { m.feed_override.max_ratio = 1.1; }, "override_max",
        Severity::warning},
       // 6 µm a count against a limit of 10 µm: fewer than two counts.
-      {"blind", [](Machine& m) { m.axes[2].encoder.count_mm = 0.006; }, "contour_limit",
+      {"blind", [](Machine& m) { m.axes[2].encoder.count_au = 0.006; }, "contour_limit",
        Severity::error},
       // Half of 21 µm is above the limit of 10 µm.
-      {"backlash", [](Machine& m) { m.axes[2].backlash_mm = 0.021; }, "contour_limit",
+      {"backlash", [](Machine& m) { m.axes[2].backlash_au = 0.021; }, "contour_limit",
        Severity::warning},
       {"apart",
        [](Machine& m) {

@@ -59,11 +59,11 @@ TEST(MachineFile, ConvertsEveryValueOnceToTheInnerUnits) {
   const auto machine = parse(kSmall, "small.toml");
   ASSERT_TRUE(machine) << kernel::outcome::text(machine.error());
   const Axis& x = machine->axes[0];
-  EXPECT_DOUBLE_EQ(x.max_speed_mm_s, 100.0);
-  EXPECT_DOUBLE_EQ(x.backlash_mm, 0.012);
-  EXPECT_DOUBLE_EQ(x.encoder.count_mm, 0.0005);
+  EXPECT_DOUBLE_EQ(x.max_speed_au_s, 100.0);
+  EXPECT_DOUBLE_EQ(x.backlash_au, 0.012);
+  EXPECT_DOUBLE_EQ(x.encoder.count_au, 0.0005);
   EXPECT_DOUBLE_EQ(machine->axes[2].servo_gain_1_s, 50.0);
-  EXPECT_DOUBLE_EQ(machine->axes[3].max_speed_mm_s, std::numbers::pi);
+  EXPECT_DOUBLE_EQ(machine->axes[3].max_speed_au_s, std::numbers::pi);
   EXPECT_DOUBLE_EQ(machine->contour.limit_mm, 0.010);
   EXPECT_DOUBLE_EQ(machine->control.interpolator_period_s, 0.004);
   EXPECT_EQ(machine->file, "small.toml");
@@ -78,7 +78,7 @@ TEST(MachineFile, PutsAStandInWhereXYOrZIsMissing) {
   EXPECT_EQ(machine->axes[2].name, "Z");
   EXPECT_EQ(machine->axes[3].name, "C");
   EXPECT_FALSE(machine->axes[1].present);
-  EXPECT_EQ(machine->axes[1].min_mm, machine->axes[1].max_mm);
+  EXPECT_EQ(machine->axes[1].min_au, machine->axes[1].max_au);
   EXPECT_TRUE(machine->axes[3].rotary);
 }
 
@@ -146,11 +146,11 @@ TEST(ExampleMachines, VmcHasTheSwitchesOfThe840D) {
 TEST(ExampleMachines, LatheHasThePapersFiguresInCountsAndTicks) {
   const Machine lathe = example("lathe-16k20f3");
   const Axis& z = lathe.axes[2];
-  const double count_mm = z.encoder.count_mm;
+  const double count_mm = z.encoder.count_au;
   const double tick_s = lathe.control.servo_period_s;
-  EXPECT_NEAR(z.max_speed_mm_s * tick_s / count_mm, 150.0, 1e-9);
-  EXPECT_NEAR(z.max_acceleration_mm_s2 * tick_s * tick_s / count_mm, 0.9, 1e-12);
-  EXPECT_NEAR(z.drive_acceleration_mm_s2 * tick_s * tick_s / count_mm, 2.1, 1e-12);
+  EXPECT_NEAR(z.max_speed_au_s * tick_s / count_mm, 150.0, 1e-9);
+  EXPECT_NEAR(z.max_acceleration_au_s2 * tick_s * tick_s / count_mm, 0.9, 1e-12);
+  EXPECT_NEAR(z.drive_acceleration_au_s2 * tick_s * tick_s / count_mm, 2.1, 1e-12);
   EXPECT_FALSE(lathe.axes[1].present);
 }
 

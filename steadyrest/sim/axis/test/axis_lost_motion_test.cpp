@@ -21,7 +21,7 @@ using test::servo;
 // Half the width on either side of the motor; a reversal crosses the whole 12 µm.
 TEST(AxisServo, BacklashStepsByItsWidthOnReversal) {
   Axis axis = ideal_axis(50.0);
-  axis.backlash_mm = 0.012;
+  axis.backlash_au = 0.012;
   AxisServo x = servo(axis);
   double command = 0.0;
   const auto travel = [&](double velocity_mm_s) {
@@ -44,7 +44,7 @@ TEST(AxisServo, BacklashStepsByItsWidthOnReversal) {
 // 50 µm at 10 mm/s take 5 ms, plus the time in which the lagging motor reverses.
 TEST(AxisServo, TableStandsWhileTheBacklashIsCrossed) {
   Axis axis = ideal_axis(50.0);
-  axis.backlash_mm = 0.050;
+  axis.backlash_au = 0.050;
   AxisServo x = servo(axis);
   for (int i = 1; i <= 500; ++i) {
     x.update(0.01 * i, 10.0);
@@ -122,10 +122,10 @@ TEST(AxisServo, BreaksAwayOnlyAboveTheBreakawayForce) {
 TEST(AxisServo, RestsWithoutChatterAfterAnyMove) {
   EXPECT_TRUE(rc::check("comes to rest and stays there", [] {
     Axis axis = rubbing_axis();
-    axis.encoder.count_mm = *rc::gen::element(0.0, 0.0005, 0.001, 0.005);
+    axis.encoder.count_au = *rc::gen::element(0.0, 0.0005, 0.001, 0.005);
     axis.velocity_lag_s = *rc::gen::element(0.0, 0.002, 0.006);
-    axis.drive_acceleration_mm_s2 = *rc::gen::element(3000.0, kernel::machine::kUnlimited);
-    axis.friction.breakaway_mm_s2 = *rc::gen::inRange(300, 900);
+    axis.drive_acceleration_au_s2 = *rc::gen::element(3000.0, kernel::machine::kUnlimited);
+    axis.friction.breakaway_au_s2 = *rc::gen::inRange(300, 900);
     AxisServo x = servo(axis, *rc::gen::element(0.001, 0.002));
     const double end_mm = *rc::gen::inRange(-2000, 2000) * 1e-3;
     for (int i = 1; i <= 400; ++i) {
@@ -135,7 +135,7 @@ TEST(AxisServo, RestsWithoutChatterAfterAnyMove) {
       x.update(end_mm, 0.0);
     }
     const double rest_mm = x.state().motor_mm;
-    RC_ASSERT(std::abs(rest_mm - end_mm) <= std::max(axis.encoder.count_mm * 1.5, 5.5e-4));
+    RC_ASSERT(std::abs(rest_mm - end_mm) <= std::max(axis.encoder.count_au * 1.5, 5.5e-4));
     for (int i = 0; i < 1000; ++i) {
       x.update(end_mm, 0.0);
       RC_ASSERT(x.state().motor_mm == rest_mm);

@@ -158,9 +158,9 @@ TEST(AxisServo, DriveStepsKeepTheLawWhereTheLimitDoesNotHold) {
   Axis axis = ideal_axis(50.0);
   for (const double lag_s : {0.0, 0.005}) {
     axis.velocity_lag_s = lag_s;
-    axis.drive_acceleration_mm_s2 = kernel::machine::kUnlimited;
+    axis.drive_acceleration_au_s2 = kernel::machine::kUnlimited;
     const Circle exact = run_circle(axis, axis, 10.0, 4000.0);
-    axis.drive_acceleration_mm_s2 = 5000.0;
+    axis.drive_acceleration_au_s2 = 5000.0;
     const Circle stepped = run_circle(axis, axis, 10.0, 4000.0);
     EXPECT_NEAR(stepped.error_max_mm, exact.error_max_mm, 2e-5);
     EXPECT_NEAR(stepped.error_min_mm, exact.error_min_mm, 2e-5);

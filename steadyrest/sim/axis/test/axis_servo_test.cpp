@@ -58,7 +58,7 @@ TEST(AxisServo, NeverExceedsTheDriveLimit) {
   for (const double lag_s : {0.0, 0.003}) {
     Axis axis = ideal_axis(50.0);
     axis.velocity_lag_s = lag_s;
-    axis.drive_acceleration_mm_s2 = 400.0;
+    axis.drive_acceleration_au_s2 = 400.0;
     AxisServo x = servo(axis);
     double velocity = 0.0;
     double position = 0.0;
@@ -80,7 +80,7 @@ TEST(AxisServo, NeverExceedsTheDriveLimit) {
 // At the limit v = a·t and x = a·t²/2 to rounding.
 TEST(AxisServo, SaturatedStartFollowsConstantAcceleration) {
   Axis axis = ideal_axis(50.0);
-  axis.drive_acceleration_mm_s2 = 1000.0;
+  axis.drive_acceleration_au_s2 = 1000.0;
   AxisServo x = servo(axis);
   for (int i = 1; i <= 50; ++i) {
     x.update(100.0, 0.0);
@@ -93,8 +93,8 @@ TEST(AxisServo, SaturatedStartFollowsConstantAcceleration) {
 TEST(AxisServo, IsOddMirroredCommandGivesMirroredMotion) {
   EXPECT_TRUE(rc::check("x(−c) = −x(c), bit for bit", [] {
     Axis axis = rubbing_axis();
-    axis.backlash_mm = 0.004;
-    axis.drive_acceleration_mm_s2 = 2500.0;
+    axis.backlash_au = 0.004;
+    axis.drive_acceleration_au_s2 = 2500.0;
     AxisServo left = servo(axis);
     AxisServo right = servo(axis);
     const auto jumps = *rc::gen::container<std::vector<int>>(20, rc::gen::inRange(-300, 300));
@@ -118,13 +118,13 @@ TEST(AxisServo, RefusesAbsurdAxes) {
       [&](auto& c) { c.axis.servo_gain_1_s = nan; },
       [&](auto& c) { c.axis.feed_forward = -0.1; },
       [&](auto& c) { c.axis.velocity_lag_s = -1e-3; },
-      [&](auto& c) { c.axis.drive_acceleration_mm_s2 = 0.0; },
-      [&](auto& c) { c.axis.backlash_mm = nan; },
-      [&](auto& c) { c.axis.friction.stribeck_mm_s = 0.0; },
-      [&](auto& c) { c.axis.friction.coulomb_mm_s2 = -1.0; },
+      [&](auto& c) { c.axis.drive_acceleration_au_s2 = 0.0; },
+      [&](auto& c) { c.axis.backlash_au = nan; },
+      [&](auto& c) { c.axis.friction.stribeck_au_s = 0.0; },
+      [&](auto& c) { c.axis.friction.coulomb_au_s2 = -1.0; },
       [&](auto& c) { c.period_s = 0.0; },
       [&](auto& c) { c.drive_period_s = nan; },
-      [&](auto& c) { c.axis.encoder.count_mm = -1.0; },
+      [&](auto& c) { c.axis.encoder.count_au = -1.0; },
   };
   for (const auto& fault : faults) {
     AxisServo::Config config;

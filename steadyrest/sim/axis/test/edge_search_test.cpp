@@ -18,9 +18,9 @@ constexpr double kClock_s = 1e-7;
 
 Encoder encoder_of(double line_error_mm) {
   kernel::machine::Encoder scale;
-  scale.count_mm = kCount_mm;
-  scale.line_error_mm = line_error_mm;
-  scale.line_period_mm = 4.0 * kCount_mm;
+  scale.count_au = kCount_mm;
+  scale.line_error_au = line_error_mm;
+  scale.line_period_au = 4.0 * kCount_mm;
   return Encoder::make(scale).value();
 }
 
@@ -89,7 +89,7 @@ kernel::machine::Machine follower(double clock_s) {
   auto& axis = machine.axes[0];
   axis.servo_gain_1_s = 0.001;
   axis.feed_forward = 1.0;
-  axis.encoder.count_mm = kCount_mm;
+  axis.encoder.count_au = kCount_mm;
   axis.encoder.clock_s = clock_s;
   return machine;
 }
@@ -179,7 +179,7 @@ TEST(Counter, WithoutAClockItCountsAndWithoutCountsItIsNotShown) {
     last = frame.axis[0].count;
   });
   auto ideal = follower(kClock_s);
-  ideal.axes[0].encoder.count_mm = 0.0;
+  ideal.axes[0].encoder.count_au = 0.0;
   follow(ideal, straight, 100, [&](const kernel::signal::Frame& frame) {
     EXPECT_FALSE(frame.axis[0].encoder_shown);
     EXPECT_TRUE(std::isnan(frame.axis[0].edge_s));

@@ -14,9 +14,9 @@ namespace {
 kernel::machine::Encoder scale(double count_mm, double line_error_mm = 0.0,
                                double line_period_mm = 0.004) {
   kernel::machine::Encoder out;
-  out.count_mm = count_mm;
-  out.line_error_mm = line_error_mm;
-  out.line_period_mm = line_period_mm;
+  out.count_au = count_mm;
+  out.line_error_au = line_error_mm;
+  out.line_period_au = line_period_mm;
   return out;
 }
 

@@ -11,7 +11,7 @@ namespace steadyrest::sim::test {
 inline kernel::machine::Axis ideal_axis(double gain_1_s) {
   kernel::machine::Axis axis;
   axis.servo_gain_1_s = gain_1_s;
-  axis.encoder.count_mm = 0.0;
+  axis.encoder.count_au = 0.0;
   return axis;
 }
 
@@ -25,7 +25,7 @@ inline kernel::machine::Axis rubbing_axis() {
   kernel::machine::Axis axis = ideal_axis(50.0);
   axis.velocity_lag_s = 0.004;
   axis.friction = {
-      .coulomb_mm_s2 = 300.0, .breakaway_mm_s2 = 450.0, .stribeck_mm_s = 2.0, .viscous_1_s = 1.0};
+      .coulomb_au_s2 = 300.0, .breakaway_au_s2 = 450.0, .stribeck_au_s = 2.0, .viscous_1_s = 1.0};
   return axis;
 }
 

@@ -26,7 +26,7 @@ inline Machine ideal_machine() {
   for (const char* name : {"X", "Y", "Z"}) {
     kernel::machine::Axis axis;
     axis.name = name;
-    axis.encoder.count_mm = 0.0;
+    axis.encoder.count_au = 0.0;
     machine.axes.push_back(axis);
   }
   for (std::uint32_t i = 0; i <= 12; ++i) {

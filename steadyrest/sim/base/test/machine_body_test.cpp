@@ -29,13 +29,13 @@ Machine real_machine() {
   Machine machine = ideal_machine();
   for (kernel::machine::Axis& axis : machine.axes) {
     axis.velocity_lag_s = 0.003;
-    axis.drive_acceleration_mm_s2 = 4000.0;
-    axis.backlash_mm = 0.006;
+    axis.drive_acceleration_au_s2 = 4000.0;
+    axis.backlash_au = 0.006;
     axis.friction = {
-        .coulomb_mm_s2 = 200.0, .breakaway_mm_s2 = 350.0, .stribeck_mm_s = 1.5, .viscous_1_s = 0.5};
-    axis.encoder.count_mm = 0.001;
-    axis.encoder.line_error_mm = 0.0003;
-    axis.encoder.line_period_mm = 0.02;
+        .coulomb_au_s2 = 200.0, .breakaway_au_s2 = 350.0, .stribeck_au_s = 1.5, .viscous_1_s = 0.5};
+    axis.encoder.count_au = 0.001;
+    axis.encoder.line_error_au = 0.0003;
+    axis.encoder.line_period_au = 0.02;
   }
   machine.simulation.position_noise_mm = 0.0005;
   return machine;

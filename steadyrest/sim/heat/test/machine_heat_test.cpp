@@ -17,7 +17,7 @@ kernel::machine::Machine growing_machine() {
   for (const char* name : {"X", "Y", "Z"}) {
     kernel::machine::Axis axis;
     axis.name = name;
-    axis.encoder.count_mm = 0.0;
+    axis.encoder.count_au = 0.0;
     machine.axes.push_back(axis);
   }
   machine.spindle.acceleration_rev_s2 = 20.0;

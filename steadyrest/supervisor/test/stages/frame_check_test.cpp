@@ -21,13 +21,13 @@ constexpr double kStale_s = 0.1;
 /// X of −100 … 100 mm, a rotary axis, and one without limits.
 std::vector<kernel::machine::Axis> axes_of_a_lathe() {
   std::vector<kernel::machine::Axis> axes(3);
-  axes[0].min_mm = -100.0;
-  axes[0].max_mm = 100.0;
-  axes[1].min_mm = 0.0;
-  axes[1].max_mm = 0.0;
+  axes[0].min_au = -100.0;
+  axes[0].max_au = 100.0;
+  axes[1].min_au = 0.0;
+  axes[1].max_au = 0.0;
   axes[1].rotary = true;
-  axes[2].min_mm = -kernel::machine::kUnlimited;
-  axes[2].max_mm = kernel::machine::kUnlimited;
+  axes[2].min_au = -kernel::machine::kUnlimited;
+  axes[2].max_au = kernel::machine::kUnlimited;
   return axes;
 }
 

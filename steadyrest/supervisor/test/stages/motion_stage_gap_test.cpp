@@ -31,7 +31,7 @@ void expect_none(const signal::AxisSample& axis) {
 
 TEST(MotionStage, GivesNoEstimateWithoutAnEncoder) {
   auto ideal = two_axes();
-  ideal.axes[0].encoder.count_mm = 0.0;
+  ideal.axes[0].encoder.count_au = 0.0;
   auto absent = two_axes();
   absent.axes[0].present = false;
   for (const auto& machine : {ideal, absent}) {

@@ -153,7 +153,7 @@ TEST(MotionStage, GarbageFromTheCounterGivesNeitherNanNorABoundThatLies) {
 // Two counts of line error: any line could be its neighbour, so nothing is provable.
 TEST(MotionStage, LinesThatErrByMoreThanACountLeaveNoBound) {
   auto machine = two_axes();
-  machine.axes[0].encoder.line_error_mm = 2.0 * kCount_mm;
+  machine.axes[0].encoder.line_error_au = 2.0 * kCount_mm;
   auto stage = MotionStage::make(machine).value();
   Sine sine;
   for (int i = 0; i < 500; ++i) {

@@ -38,8 +38,8 @@ double fastest_cut_mm_s(const nc::plan::PlannedPath& path) {
 void expect_within_travel(const Machine& machine, const nc::plan::PlannedPath& path) {
   for (const PathSegment& segment : path.segments) {
     for (std::size_t i = 0; i < 3; ++i) {
-      ASSERT_GE(segment.end_mm[i], machine.axes[i].min_mm - 1e-9);
-      ASSERT_LE(segment.end_mm[i], machine.axes[i].max_mm + 1e-9);
+      ASSERT_GE(segment.end_mm[i], machine.axes[i].min_au - 1e-9);
+      ASSERT_LE(segment.end_mm[i], machine.axes[i].max_au + 1e-9);
     }
   }
 }
@@ -56,7 +56,7 @@ TEST(DemandingPath, OnEveryExampleMachineLastsAndStaysWithinItsTravelAndFeed) {
     const double limit = machine.control.max_feed_mm_s;
     const double fastest = fastest_cut_mm_s(*path);
     EXPECT_LE(fastest, limit + 1e-9);
-    EXPECT_GE(fastest, std::min(machine.axes[0].max_speed_mm_s, limit) - 1e-9);
+    EXPECT_GE(fastest, std::min(machine.axes[0].max_speed_au_s, limit) - 1e-9);
     const auto arcs = std::ranges::count(path->segments, Geometry::arc, &PathSegment::geometry);
     EXPECT_GE(arcs, 16);
   }
@@ -73,8 +73,8 @@ TEST(DemandingPath, OfALatheLiesInThePlaneOfXAndZ) {
 // 4 mm of X for a drawing of 104 mm.
 TEST(DemandingPath, ShrinksToTheTravel) {
   Machine machine = machine_of("linuxcnc-mill.toml");
-  machine.axes[0].min_mm = 100.0;
-  machine.axes[0].max_mm = 104.0;
+  machine.axes[0].min_au = 100.0;
+  machine.axes[0].max_au = 104.0;
   const auto path = demanding_path(machine, 1.0).value();
   expect_within_travel(machine, *path);
   EXPECT_GE(seconds_of(*path), 1.0);

@@ -152,7 +152,7 @@ TEST(LineTable, ALineThatIsLearntToStandRightIsNotStoredAsUnknown) {
   table.restore({}, std::vector<double>{2e-5, 1e-12, 0.0, -2e-5});
   kernel::machine::Encoder encoder;
   online::store_lines(table, encoder);
-  EXPECT_EQ(encoder.line_table_mm, (std::vector<double>{2e-5, 1e-8, 0.0, -2e-5}));
+  EXPECT_EQ(encoder.line_table_au, (std::vector<double>{2e-5, 1e-8, 0.0, -2e-5}));
 }
 
 // A lost edge breaks the window; a table that fitted across it would learn a step.

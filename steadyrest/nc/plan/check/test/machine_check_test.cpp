@@ -24,10 +24,10 @@ kernel::machine::Machine limited_mill() {
   const auto axis = [](const char* name, double min_mm, double max_mm, double speed_mm_min) {
     kernel::machine::Axis one;
     one.name = name;
-    one.min_mm = min_mm;
-    one.max_mm = max_mm;
-    one.max_speed_mm_s = speed_mm_min / 60.0;
-    one.max_acceleration_mm_s2 = 1000.0;
+    one.min_au = min_mm;
+    one.max_au = max_mm;
+    one.max_speed_au_s = speed_mm_min / 60.0;
+    one.max_acceleration_au_s2 = 1000.0;
     return one;
   };
   out.axes = {axis("X", 0, 600, 12000), axis("Y", 0, 400, 12000), axis("Z", -300, 0, 6000)};

@@ -30,12 +30,12 @@ double random_number(double low, double high) {
 std::vector<kernel::machine::Axis> random_axes() {
   std::vector<kernel::machine::Axis> axes(4);
   for (auto& axis : axes) {
-    axis.max_speed_mm_s = random_number(50.0, 400.0);
-    axis.max_acceleration_mm_s2 = random_number(300.0, 5000.0);
+    axis.max_speed_au_s = random_number(50.0, 400.0);
+    axis.max_acceleration_au_s2 = random_number(300.0, 5000.0);
   }
   axes[3].rotary = true;
-  axes[3].max_speed_mm_s = random_number(0.5, 5.0);
-  axes[3].max_acceleration_mm_s2 = random_number(2.0, 50.0);
+  axes[3].max_speed_au_s = random_number(0.5, 5.0);
+  axes[3].max_acceleration_au_s2 = random_number(2.0, 50.0);
   return axes;
 }
 
@@ -56,9 +56,9 @@ RC_GTEST_PROP(PathLimitsLaw, OnALineOneAxisIsAtItsLimitAndNoneBeyond, ()) {
   double acceleration = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double share = std::abs(direction[i]);
-    speed = std::max(speed, line.speed_mm_s * share / axes[i].max_speed_mm_s);
+    speed = std::max(speed, line.speed_mm_s * share / axes[i].max_speed_au_s);
     acceleration =
-        std::max(acceleration, line.acceleration_mm_s2 * share / axes[i].max_acceleration_mm_s2);
+        std::max(acceleration, line.acceleration_mm_s2 * share / axes[i].max_acceleration_au_s2);
   }
   RC_ASSERT(std::abs(speed - 1.0) <= 1e-12);
   RC_ASSERT(std::abs(acceleration - 1.0) <= 1e-12);
@@ -79,9 +79,9 @@ Use use_of(const PathSegment& arc, const std::vector<kernel::machine::Axis>& axe
       const double v = at.speed_mm_s * std::abs(here.tangent[i]);
       const double along = at.acceleration_mm_s2 * std::abs(here.tangent[i]);
       const double across = at.speed_mm_s * at.speed_mm_s * std::abs(here.curvature_1_mm[i]);
-      use.speed = std::max(use.speed, v / axes[i].max_speed_mm_s);
+      use.speed = std::max(use.speed, v / axes[i].max_speed_au_s);
       use.acceleration =
-          std::max(use.acceleration, (along + across) / axes[i].max_acceleration_mm_s2);
+          std::max(use.acceleration, (along + across) / axes[i].max_acceleration_au_s2);
     }
   }
   return use;
@@ -125,7 +125,7 @@ RC_GTEST_PROP(PathLimitsLaw, OnACircleNoAxisIsBeyondItsLimits, ()) {
 RC_GTEST_PROP(PathLimitsLaw, ACircleKeepsTheJerkOfItsPlane, ()) {
   auto axes = random_axes();
   for (auto& axis : axes) {
-    axis.max_jerk_mm_s3 = random_number(1e3, 1e5);
+    axis.max_jerk_au_s3 = random_number(1e3, 1e5);
   }
   const PathLimits limits(axes, {});
   const double radius_mm = random_number(0.2, 50.0);
@@ -133,7 +133,7 @@ RC_GTEST_PROP(PathLimitsLaw, ACircleKeepsTheJerkOfItsPlane, ()) {
   const double v = limits.arc(arc).speed_mm_s;
   for (std::size_t i = 0; i < 3; ++i) {
     const double share = std::sqrt(1.0 - arc.axis[i] * arc.axis[i]);
-    RC_ASSERT(v * v * v / (radius_mm * radius_mm) * share <= axes[i].max_jerk_mm_s3 * (1 + 1e-9));
+    RC_ASSERT(v * v * v / (radius_mm * radius_mm) * share <= axes[i].max_jerk_au_s3 * (1 + 1e-9));
   }
 }
 
@@ -180,7 +180,7 @@ RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
   double use = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     use = std::max(use, v * std::abs(after[i] - before[i]) /
-                            (axes[i].max_acceleration_mm_s2 * control.interpolator_period_s));
+                            (axes[i].max_acceleration_au_s2 * control.interpolator_period_s));
   }
   RC_ASSERT(std::abs(use - control.junction_share) <= 1e-9);
   const double kept = limits.junction_use(before, after, 0.5 * v);
@@ -194,10 +194,10 @@ RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
 TEST(PathLimitsLaw, TheJerkTimeIsTheLongestOfAll) {
   std::vector<kernel::machine::Axis> axes(4);
   axes[3].rotary = true;
-  axes[3].max_acceleration_mm_s2 = 1e6;
+  axes[3].max_acceleration_au_s2 = 1e6;
   kernel::machine::Control control;
   EXPECT_EQ(PathLimits(axes, control).jerk_time_s(), 0.0);
-  axes[1].max_jerk_mm_s3 = 40'000.0;
+  axes[1].max_jerk_au_s3 = 40'000.0;
   EXPECT_NEAR(PathLimits(axes, control).jerk_time_s(), 2000.0 / 40'000.0, 1e-15);
   control.max_path_jerk_mm_s3 = 20'000.0;
   EXPECT_NEAR(PathLimits(axes, control).jerk_time_s(), std::sqrt(3.0) * 2000.0 / 20'000.0, 1e-12);

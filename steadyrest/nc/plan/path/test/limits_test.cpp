@@ -27,8 +27,8 @@ TEST(PathLimits, ADiagonalUsesBothAxes) {
 
 TEST(PathLimits, TheSlowestAxisDecides) {
   auto m = test::mill();
-  m.axes[2].max_speed_mm_s = 20.0;
-  m.axes[2].max_acceleration_mm_s2 = 100.0;
+  m.axes[2].max_speed_au_s = 20.0;
+  m.axes[2].max_acceleration_au_s2 = 100.0;
   const PathLimits limits = limits_of(m);
   // Z takes 0.8 of the path: 20/0.8 = 25 mm/s and 100/0.8 = 125 mm/s².
   const auto l = limits.line(AxisValues{0.6, 0.0, 0.8});

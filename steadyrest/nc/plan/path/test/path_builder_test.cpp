@@ -158,8 +158,8 @@ TEST(PathBuilder, RotaryAxesAloneMoveInDegreesPerSecond) {
   kernel::machine::Axis a;
   a.name = "A";
   a.rotary = true;
-  a.max_speed_mm_s = std::numbers::pi;  // 180 °/s
-  a.max_acceleration_mm_s2 = 10.0;
+  a.max_speed_au_s = std::numbers::pi;  // 180 °/s
+  a.max_acceleration_au_s2 = 10.0;
   m.axes.push_back(a);
   Program p;
   p.add(interpret::MoveKind::linear, {0, 0, 0, 90}, 30.0);

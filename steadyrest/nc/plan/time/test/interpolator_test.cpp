@@ -50,7 +50,7 @@ TEST(Interpolator, LineTakesTheClosedFormTimeOfTheTrapezoid) {
     for (const double feed : {150.0, 50.0, 5.0}) {
       Program p;
       p.line(length, 0, feed);
-      const double a = m.axes[0].max_acceleration_mm_s2;
+      const double a = m.axes[0].max_acceleration_au_s2;
       // Trapezoid: L/V + V/A; if the feed is never reached, the triangle 2·√(L/A).
       const double full =
           length >= feed * feed / a ? length / feed + feed / a : 2 * std::sqrt(length / a);
@@ -64,7 +64,7 @@ TEST(Interpolator, LineTakesTheClosedFormTimeOfTheTrapezoid) {
 TEST(Interpolator, LineTakesTheClosedFormTimeOfTheSCurve) {
   const double jerk = 50000.0;
   const auto m = mill(jerk);
-  const double a = m.axes[0].max_acceleration_mm_s2;
+  const double a = m.axes[0].max_acceleration_au_s2;
   for (const double length : {200.0, 50.0, 20.0}) {
     Program p;
     const double feed = 150.0;

@@ -49,7 +49,7 @@ Machine short_sighted() {
   Machine m = mill();
   m.control.look_ahead_blocks = 8;
   m.control.interpolator_period_s = 0.004;
-  m.axes[2].max_acceleration_mm_s2 = 500.0;
+  m.axes[2].max_acceleration_au_s2 = 500.0;
   return m;
 }
 
@@ -157,7 +157,7 @@ constexpr double kPerMove = 0.65 * 0.001;
 
 TEST(SegmentTimer, SlowsDownBeforeWhatTheLookAheadShows) {
   auto m = mill();
-  m.axes[0].max_acceleration_mm_s2 = 100.0;
+  m.axes[0].max_acceleration_au_s2 = 100.0;
   // 0.05 mm segments: with one block of look-ahead every one must end as if it were the last.
   for (const std::uint32_t blocks : {1U, 2U, 5U, 50U, 500U}) {
     m.control.look_ahead_blocks = blocks;

@@ -66,7 +66,7 @@ class TravelOfAProgram : public ::testing::Test {
     shop_.config.start_known = true;
     shop_.config.work_offset[0][2] = -50.0;
   }
-  void to(double min_mm) { shop_.machine.axes[2].min_mm = min_mm; }
+  void to(double min_mm) { shop_.machine.axes[2].min_au = min_mm; }
   Workshop shop_;
 };
 
