@@ -12,13 +12,15 @@
 namespace steadyrest::bench::hostile {
 
 /// The machine's side of the axis offsets, from the design's safety section only: inside the clamp,
-/// by the slew over real time, frozen in the cut without a valid wish, towards 0 without any.
+/// by the slew over real time, frozen in the cut without a valid wish (unless they fade there),
+/// towards 0 without any.
 class OffsetWatch {
  public:
   struct Rules {
     kernel::signal::AxisValues max_mm{};  ///< 0: this axis takes none
     double slew_mm_s = 0.05;
     double slack_s = 0.0;  ///< a stamp may be late by this much
+    bool fades = false;    ///< without a wish it ramps out in the cut too
   };
 
   explicit OffsetWatch(const Rules& rules) : rules_(rules) {}
@@ -44,7 +46,7 @@ class OffsetWatch {
       if (moved_mm > rules_.slew_mm_s * credit_s_[axis] + 1e-9) {
         return fmt::format("offset slew: axis {} from {:g} to {:g} mm", axis, before_mm, now_mm);
       }
-      if (!wished && moved_mm > 0.0 && in_cut) {
+      if (!wished && moved_mm > 0.0 && in_cut && !rules_.fades) {
         return fmt::format("freeze: axis {} from {:g} to {:g} mm in the cut", axis, before_mm,
                            now_mm);
       }
@@ -56,6 +58,7 @@ class OffsetWatch {
     held_mm_ = offset_mm;
     return {};
   }
+  [[nodiscard]] const kernel::signal::AxisValues& held_mm() const { return held_mm_; }
   [[nodiscard]] bool at_zero() const { return held_mm_ == kernel::signal::AxisValues{}; }
 
  private:

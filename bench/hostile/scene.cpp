@@ -27,8 +27,7 @@ bool thread(Motion motion) {
   return motion == Motion::thread || motion == Motion::tap;
 }
 
-/// Makes another machine of the same kind: other wires, other rights, other rates. The contour room
-/// is off, because wishes are made here.
+/// Another machine of the same kind: other wires, rights and rates; wishes come without a room.
 void vary(machine::Machine& m, Dice& dice) {
   for (auto* table : {&m.feed_override, &m.spindle_override}) {
     table->layer_may_exceed_panel = dice.one_in(4);
@@ -45,6 +44,8 @@ void vary(machine::Machine& m, Dice& dice) {
     m.envelope.spindle_slew_1_s = dice.of({0.5, 2.0, 10.0});
     m.envelope.offset_slew_mm_s = dice.of({0.01, 0.05, 1.0});
   }
+  m.envelope.max_path_offset_mm = dice.of({0.0, 0.1, 0.5});
+  m.envelope.path_offset_slew_mm_s = dice.of({1.0, 50.0});
   m.mode = dice.of({Mode::observe, Mode::advise, Mode::act, Mode::act});
   m.contour.enabled = false;
 }
@@ -69,6 +70,7 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
   can_ = {.feed_override = !dice_.one_in(10),
           .spindle_override = !dice_.one_in(10),
           .axis_offset = !dice_.one_in(10),
+          .path_offset = !dice_.one_in(10),
           .latched_word = dice_.one_in(2)};
   auto made = supervisor::Supervisor::make(machine_, can_);
   if (!made) {  // a table that cannot be walked needs a port that latches
@@ -88,11 +90,17 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
     spindle_.emplace(rules(machine_.spindle_override, can_.latched_word, can_.spindle_override,
                            e.spindle_slew_1_s, e.spindle_slew_1_s, slack_s));
   }
-  OffsetWatch::Rules offset{.max_mm = {}, .slew_mm_s = e.offset_slew_mm_s, .slack_s = slack_s};
-  for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-    offset.max_mm[i] = can_.axis_offset && !machine_.axes[i].rotary ? e.max_offset_mm : 0.0;
-  }
-  offset_.emplace(offset);
+  const auto limits = [this](bool available, double max_mm) {
+    signal::AxisValues out{};
+    for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+      out[i] = available && !machine_.axes[i].rotary ? max_mm : 0.0;
+    }
+    return out;
+  };
+  offset_.emplace(
+      OffsetWatch::Rules{limits(can_.axis_offset, e.max_offset_mm), e.offset_slew_mm_s, slack_s});
+  path_offset_.emplace(OffsetWatch::Rules{limits(can_.path_offset, e.max_path_offset_mm),
+                                          e.path_offset_slew_mm_s, slack_s, true});
   port_.emplace(machine_, can_, cycle_s_, dice_);
   wanted_ = machine_.mode;
   may_write_ = wanted_ == Mode::act;
@@ -117,7 +125,6 @@ void Scene::wish() {
   };
   feed_wish_.clear();
   spindle_wish_.clear();
-  offset_wish_.clear();
   for (std::size_t n = dice_.below(3); n > 0; --n) {
     feed_wish_.push_back({signal::Room::contour, ratio(), reason()});
   }
@@ -125,12 +132,15 @@ void Scene::wish() {
     spindle_wish_.push_back(
         {dice_.of({signal::Room::chatter, signal::Room::motion}), ratio(), reason()});
   }
-  for (std::size_t n = dice_.below(3); n > 0; --n) {
-    signal::OffsetRequest wished{.reason = reason()};
-    for (double& mm : wished.offset_mm) {
-      mm = dice_.one_in(20) ? dice_.of({kNan, kInfinity, 1e9}) : dice_.within(-0.3, 0.3);
+  for (auto* wishes : {&offset_wish_, &path_offset_wish_}) {
+    wishes->clear();
+    for (std::size_t n = dice_.below(3); n > 0; --n) {
+      signal::OffsetRequest wished{.reason = reason()};
+      for (double& mm : wished.offset_mm) {
+        mm = dice_.one_in(20) ? dice_.of({kNan, kInfinity, 1e9}) : dice_.within(-0.3, 0.3);
+      }
+      wishes->push_back(wished);
     }
-    offset_wish_.push_back(wished);
   }
 }
 
@@ -145,6 +155,7 @@ void Scene::let_pass(double real_s) {
     }
   }
   offset_->pass(real_s);
+  path_offset_->pass(real_s);
   if (unheard_s_ > watchdog_s_) {
     for (auto* watch : {&feed_, &spindle_}) {
       if (*watch) {
@@ -152,6 +163,7 @@ void Scene::let_pass(double real_s) {
       }
     }
     offset_->drop();
+    path_offset_->drop();
     unsure_ = true;
   }
 }
@@ -197,10 +209,6 @@ bool Scene::in_thread() const {
   return !unsure_ && (thread(port_->frame.motion) || thread(shown_));
 }
 
-bool Scene::in_cut() const {
-  return cut_;
-}
-
 /// Each command that arrived is judged by the three watches.
 void Scene::check_write() {
   const signal::Command& c = port_->last;
@@ -223,7 +231,9 @@ void Scene::check_write() {
   }
   // An offset may move in the cut only while requested with valid input in mode act.
   const bool asks = !offset_wish_.empty() || machine_.thermal.enabled;
-  broken(offset_->write(c.offset_mm, asks && !port_->unfit && wanted_ == Mode::act, in_cut()));
+  const bool heard = !port_->unfit && wanted_ == Mode::act;
+  broken(offset_->write(c.offset_mm, asks && heard, cut_));
+  broken(path_offset_->write(c.path_offset_mm, !path_offset_wish_.empty() && heard, cut_));
 }
 
 /// observe and advise write nothing, but returning to neutral does: until that is done, a write
@@ -236,8 +246,8 @@ void Scene::check_mode(bool has_command, const signal::Command& command) {
     broken("heartbeat: not one more");
   }
   heartbeat_ = has_command ? command.heartbeat : layer_->state().heartbeat;
-  const bool nothing_left =
-      (!feed_ || !feed_->masked()) && (!spindle_ || !spindle_->masked()) && offset_->at_zero();
+  const bool nothing_left = (!feed_ || !feed_->masked()) && (!spindle_ || !spindle_->masked()) &&
+                            offset_->at_zero() && path_offset_->at_zero();
   if (has_command && !command.write && wanted_ != Mode::act && nothing_left &&
       layer_->mode_in_force() != Mode::act) {
     may_write_ = false;
@@ -248,8 +258,10 @@ void Scene::check_mode(bool has_command, const signal::Command& command) {
 /// judged.
 void Scene::cycle() {
   let_pass(cycle_s_);
-  const auto command =
-      layer_->cycle(*port_, {.feed = feed_wish_, .spindle = spindle_wish_, .offset = offset_wish_});
+  const auto command = layer_->cycle(*port_, {.feed = feed_wish_,
+                                              .spindle = spindle_wish_,
+                                              .offset = offset_wish_,
+                                              .path_offset = path_offset_wish_});
   ++tally_.cycles;
   if (!command && port_->reads_fail) {
     unsure_ = unsure_ || !thread(shown_);
@@ -328,6 +340,7 @@ void Scene::settle_on_a_wish() {
   may_write_ = true;
   spindle_wish_.clear();
   offset_wish_.clear();
+  path_offset_wish_.clear();
   const double wished = dice_.within(0.05, 0.9);
   feed_wish_ = {{signal::Room::contour, wished, Reason::contour_limit}};
   // Twice the longest way, 0.2 s for the neutral times after a fault, 40 cycles of slack.

@@ -35,7 +35,6 @@ class Scene {
   void check_mode(bool has_command, const kernel::signal::Command& command);
   void broken(const std::string& what);
   [[nodiscard]] bool in_thread() const;
-  [[nodiscard]] bool in_cut() const;
 
   Dice dice_;
   std::uint64_t seed_;
@@ -48,9 +47,11 @@ class Scene {
   std::optional<OverrideWatch> feed_;
   std::optional<OverrideWatch> spindle_;
   std::optional<OffsetWatch> offset_;
+  std::optional<OffsetWatch> path_offset_;
   std::vector<kernel::signal::FeedRequest> feed_wish_;
   std::vector<kernel::signal::SpindleRequest> spindle_wish_;
   std::vector<kernel::signal::OffsetRequest> offset_wish_;
+  std::vector<kernel::signal::OffsetRequest> path_offset_wish_;
   kernel::machine::Mode wanted_{};
   bool may_write_ = false;
   bool unsure_ = true;  ///< whether the layer knows of a thread

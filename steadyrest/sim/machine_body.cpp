@@ -39,7 +39,9 @@ Result<void> check(const Machine& machine) {
                   {{"position_noise_mm", machine.simulation.position_noise_mm, 0.0, 10.0},
                    {"stale_after_s", machine.envelope.stale_after_s, 1e-3, 1e6},
                    {"max_offset_mm", machine.envelope.max_offset_mm, 0.0, 1e6},
-                   {"offset_slew_mm_s", machine.envelope.offset_slew_mm_s, 0.0, 1e6}});
+                   {"offset_slew_mm_s", machine.envelope.offset_slew_mm_s, 0.0, 1e6},
+                   {"max_path_offset_mm", machine.envelope.max_path_offset_mm, 0.0, 1e6},
+                   {"path_offset_slew_mm_s", machine.envelope.path_offset_slew_mm_s, 0.0, 1e6}});
 }
 
 /// A machine without a switch is allowed: its override is 100 %.
@@ -57,6 +59,8 @@ Result<std::optional<OverrideInput>> input_of(const OverrideTable& table, const 
   return std::optional<OverrideInput>(*std::move(made));
 }
 
+/// Over so long the path offset ramps out from its limit once the layer is lost.
+constexpr double kFade_s = 0.2;
 constexpr double kGrowth_s = 0.1;  ///< the fastest time constants are minutes
 
 std::uint32_t periods_of_growth(const Machine& machine) noexcept {
@@ -77,10 +81,6 @@ Result<std::optional<ThermalGrowth>> growth_of(const Machine& machine) {
     return std::unexpected(made.error());
   }
   return std::optional<ThermalGrowth>(*std::move(made));
-}
-
-bool in_cut(Motion motion) noexcept {
-  return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
 }
 
 std::uint32_t home(const std::optional<OverrideInput>& input) noexcept {
@@ -142,6 +142,9 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
              config.operator_actions),
       offset_(config.machine.envelope.max_offset_mm,
               config.machine.envelope.offset_slew_mm_s * period_s_),
+      path_offset_(config.machine.envelope.max_path_offset_mm,
+                   config.machine.envelope.path_offset_slew_mm_s * period_s_,
+                   config.machine.envelope.max_path_offset_mm / kFade_s * period_s_),
       growth_(std::move(growth)),
       periods_of_growth_(periods_of_growth(config.machine)),
       probe_noise_mm_(config.machine.simulation.probe_noise_mm),
@@ -196,6 +199,7 @@ nc::plan::Overrides MachineBody::begin(const kernel::signal::Command& layer) noe
   time_s_ = static_cast<double>(cycle_) * period_s_;
   watch(layer.heartbeat);
   layer_offset_mm_ = layer.offset_mm;
+  layer_path_offset_mm_ = layer.path_offset_mm;
   const OperatorPanel::State& panel = panel_.update(time_s_);
   if (feed_) {
     feed_state_ = feed_->update({.time_s = time_s_,
@@ -242,89 +246,35 @@ void MachineBody::latch(std::size_t axis, std::uint32_t periods_left) noexcept {
 void MachineBody::follow(std::size_t axis, const nc::plan::Setpoint& setpoint,
                          double offset_mm) noexcept {
   AxisServo& servo = servos_[axis];
-  const double p0 = setpoint_.position[axis] + offset_mm_[axis];
-  const double p1 = setpoint.position[axis] + offset_mm;
+  const double p0 = setpoint_.position[axis];
+  const double p1 = setpoint.position[axis];
   const double v0 = setpoint_.velocity[axis];
   const double v1 = setpoint.velocity[axis];
   const double chord = p1 - p0;
+  const double moved_mm = offset_mm - offset_mm_[axis];
+  const double moved_mm_s = moved_mm / period_s_;
   for (std::uint32_t i = 1; i < servo_periods_; ++i) {
     const double u = static_cast<double>(i) / servo_periods_;
     const double w = 1.0 - u;
     // Cubic Hermite form: chord, and what both end slopes deviate from it.
     const double d0 = v0 * period_s_ - chord;
     const double d1 = v1 * period_s_ - chord;
-    servo.update(p0 + chord * u + u * w * (w * d0 - u * d1),
-                 (chord + (w - u) * (w * d0 - u * d1) - u * w * (d0 + d1)) / period_s_);
+    const double position = p0 + chord * u + u * w * (w * d0 - u * d1);
+    const double speed = (chord + (w - u) * (w * d0 - u * d1) - u * w * (d0 + d1)) / period_s_;
+    servo.update(position + offset_mm_[axis] + moved_mm * u, speed + moved_mm_s);
     latch(axis, servo_periods_ - i);
   }
-  servo.update(p1, v1);
+  servo.update(p1 + offset_mm, v1 + moved_mm_s);
   latch(axis, 0);
 }
 
-/// Heat of one period; the resulting displacement is in truth_.heat_mm.
-void MachineBody::grow(const nc::plan::Setpoint& setpoint) noexcept {
-  heating_.speed_rev_s += std::abs(spindle_now_.actual_rev_s);
-  heating_.feed_mm_s += setpoint.path_speed_mm_s;
-  heating_.cutting += in_cut(setpoint.motion) ? 1.0 : 0.0;
-  heating_.coolant = setpoint.coolant;
-  if (++heating_periods_ < periods_of_growth_) {
-    return;
-  }
-  const double share = 1.0 / heating_periods_;
-  growth_->update({.speed_rev_s = heating_.speed_rev_s * share,
-                   .feed_mm_s = heating_.feed_mm_s * share,
-                   .cutting = heating_.cutting * share,
-                   .coolant = heating_.coolant});
-  heating_ = {};
-  heating_periods_ = 0;
-  read_sensors();
-  for (std::size_t i = 0; i < grown_axis_.size(); ++i) {
-    if (grown_axis_[i] < kernel::signal::kMaxAxes) {
-      truth_.heat_mm[grown_axis_[i]] = growth_->displacement_mm(i);
-    }
-  }
-}
-
-void MachineBody::read_sensors() noexcept {
-  for (std::size_t i = 0; i < sensors_; ++i) {
-    temperature_c_[i] = growth_->read_room_c();
-  }
-}
-
-// A probing move ends where the motion or the segment changes; its reading belongs to the axis that
-// it moved furthest.
-void MachineBody::probe(const nc::plan::Setpoint& setpoint) noexcept {
-  const bool probed = setpoint_.motion == Motion::probe;
-  const bool another =
-      setpoint.motion != Motion::probe || setpoint.path_index != setpoint_.path_index;
-  if (probed && another) {
-    std::size_t furthest = grown_axis_.size();
-    double travel_mm = 0.0;
-    for (std::size_t i = 0; i < servos_.size(); ++i) {
-      const double by_mm = rotary_[i] ? 0.0 : std::abs(setpoint_.position[i] - probe_from_mm_[i]);
-      if (by_mm > travel_mm) {
-        travel_mm = by_mm;
-        furthest =
-            static_cast<std::size_t>(std::ranges::find(grown_axis_, i) - grown_axis_.begin());
-      }
-    }
-    if (furthest < grown_axis_.size()) {
-      const std::size_t axis = grown_axis_[furthest];
-      reading_ = {
-          .number = reading_.number + 1,
-          .axis = static_cast<std::uint8_t>(axis),
-          .displacement_mm = growth_->read_probe_mm(truth_.heat_mm[axis] + offset_mm_[axis]),
-          .sd_mm = probe_noise_mm_};
-    }
-  }
-  if (!probed || another) {
-    probe_from_mm_ = setpoint_.position;
-  }
-}
-
 void MachineBody::end(const nc::plan::Setpoint& setpoint) noexcept {
-  const kernel::signal::AxisValues offset_mm =
-      offset_.update(layer_offset_mm_, alive_, in_cut(setpoint.motion));
+  const bool cuts = kernel::signal::in_cut(setpoint.motion);
+  kernel::signal::AxisValues offset_mm = offset_.update(layer_offset_mm_, alive_, cuts);
+  const auto& path_offset_mm = path_offset_.update(layer_path_offset_mm_, alive_, cuts);
+  for (std::size_t i = 0; i < offset_mm.size(); ++i) {
+    offset_mm[i] += path_offset_mm[i];
+  }
   truth_.time_s = time_s_;
   truth_.saturated_axes = 0;
   if (growth_) {

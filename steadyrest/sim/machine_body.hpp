@@ -44,12 +44,13 @@ struct Truth {
 ///   begin  the operator's actions up to t take effect; the PLC scans; the spindle turns on by T
 ///          towards the last setpoint's command · spindle override (100 % while tapping)
 ///   end    the setpoint is reached at the end of the period; between setpoints the servo periods
-///          get the cubic through both setpoints' positions and velocities (fine interpolation)
-/// Frame: command and encoder reading at the end of the period, and their difference as following
-/// error. Encoders with counts also give the count and the time and direction of the last edge: the
-/// instant on the true motion (edge_search.hpp), truncated to the counter's clock. A new edge has a
-/// new time. Where a probing move ends, the probe has touched: along the linear axis that it moved
-/// furthest it reads the remainder of heat and offset, with the probe's noise
+///          get the cubic through both setpoints' positions and velocities (fine interpolation);
+///          offsets run linearly between their values at both ends
+/// Frame: command and encoder reading at the end of the period, following error their difference;
+/// of encoders with counts the count and the time of the last edge with its direction, the instant
+/// on the true motion (edge_search.hpp) cut off to the counter's clock. A new edge has a new time.
+/// Where a probing move ends the probe has found its goal: along the linear axis that it moved
+/// furthest it reads what heat and offset have left, with the probe's noise
 /// (`simulation.probe_noise_um`), if that axis has a thermal passport.
 /// The disturbance (`simulation.position_noise_mm`, correlation time 2 ms) moves the tool of linear
 /// axes unseen by the motors' encoders: only Truth has it.
@@ -115,6 +116,7 @@ class MachineBody {
   std::optional<OverrideInput> spindle_override_;
   OperatorPanel panel_;
   AxisOffset offset_;
+  AxisOffset path_offset_;
   std::optional<ThermalGrowth> growth_;
   std::vector<std::size_t> grown_axis_;  ///< of each displacement; kMaxAxes: no such axis
   ThermalGrowth::Input heating_;         ///< sums since the last step
@@ -134,6 +136,7 @@ class MachineBody {
   double heartbeat_time_s_ = 0.0;
   bool alive_ = false;
   kernel::signal::AxisValues layer_offset_mm_{};
+  kernel::signal::AxisValues layer_path_offset_mm_{};
   kernel::signal::OverrideState feed_state_;
   kernel::signal::OverrideState rapid_state_;
   kernel::signal::OverrideState spindle_state_;

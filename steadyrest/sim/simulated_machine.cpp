@@ -75,6 +75,7 @@ SimulatedMachine::SimulatedMachine(const Config& config, MachineBody body,
   capability_ = {.feed_override = body_.feed_input().has_value(),
                  .spindle_override = body_.spindle_input().has_value(),
                  .axis_offset = config.machine.envelope.max_offset_mm > 0.0,
+                 .path_offset = config.machine.envelope.max_path_offset_mm > 0.0,
                  .latched_word = config.machine.feed_override.latched_word &&
                                  config.machine.spindle_override.latched_word};
 }

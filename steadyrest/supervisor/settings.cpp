@@ -37,15 +37,35 @@ Channel::Config spindle_config(const machine::Machine& machine,
           .available = capability.spindle_override};
 }
 
-// A limit of 0 means that the axis takes no offset: rotary axes, and ports that cannot write one.
-OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
-  OffsetEnvelope::Config config{.max_mm = {},
-                                .slew_mm_s = machine.envelope.offset_slew_mm_s,
-                                .max_step_s = machine.envelope.stale_after_s};
-  for (std::size_t i = 0; i < std::min(machine.axes.size(), config.max_mm.size()); ++i) {
-    config.max_mm[i] = available && !machine.axes[i].rotary ? machine.envelope.max_offset_mm : 0.0;
+namespace {
+
+/// Over so long an offset against the contour error ramps out from its limit when it may no longer
+/// be asked for: ten servo time constants of a slow axis, so that the ramp itself is followed.
+constexpr double kFade_s = 0.2;
+
+// A limit of 0 is how an axis takes no offset: rotary axes, and ports that cannot write one.
+kernel::signal::AxisValues limits(const machine::Machine& machine, double max_mm, bool available) {
+  kernel::signal::AxisValues limit{};
+  for (std::size_t i = 0; i < std::min(machine.axes.size(), limit.size()); ++i) {
+    limit[i] = available && !machine.axes[i].rotary ? max_mm : 0.0;
   }
-  return config;
+  return limit;
+}
+
+}  // namespace
+
+OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
+  return {.max_mm = limits(machine, machine.envelope.max_offset_mm, available),
+          .slew_mm_s = machine.envelope.offset_slew_mm_s,
+          .max_step_s = machine.envelope.stale_after_s};
+}
+
+OffsetEnvelope::Config path_offset_config(const machine::Machine& machine, bool available) {
+  const double max_mm = machine.envelope.max_path_offset_mm;
+  return {.max_mm = limits(machine, max_mm, available),
+          .slew_mm_s = machine.envelope.path_offset_slew_mm_s,
+          .fade_mm_s = std::max(max_mm, 1e-3) / kFade_s,
+          .max_step_s = machine.envelope.stale_after_s};
 }
 
 }  // namespace steadyrest::supervisor

@@ -16,5 +16,8 @@ namespace steadyrest::supervisor {
 /// Rotary axes take none: the machine file limits offsets in mm only.
 [[nodiscard]] kernel::override::OffsetEnvelope::Config offset_config(
     const kernel::machine::Machine& machine, bool available);
+/// Of the contour room's offsets.
+[[nodiscard]] kernel::override::OffsetEnvelope::Config path_offset_config(
+    const kernel::machine::Machine& machine, bool available);
 
 }  // namespace steadyrest::supervisor

@@ -39,16 +39,27 @@ Result<std::optional<Channel>> channel(const Channel::Config& config) {
   return std::move(*made);
 }
 
-template <class Room>
-Result<std::optional<Room>> room(bool on, const machine::Machine& machine) {
+template <class Room, class Config>
+Result<std::optional<Room>> room(bool on, const Config& config) {
   if (!on) {
     return std::nullopt;
   }
-  auto made = Room::make(machine);
+  auto made = Room::make(config);
   if (!made) {
     return std::unexpected(std::move(made.error()));
   }
   return std::move(*made);
+}
+
+/// It asks for no offset that the port cannot take.
+Result<std::optional<contour::online::FeedGovernor>> contour_room(const machine::Machine& machine,
+                                                                  bool feed_override,
+                                                                  bool path_offset) {
+  auto config = contour::online::FeedGovernor::Config::of(machine);
+  if (!path_offset) {
+    config.envelope.max_path_offset_mm = 0.0;
+  }
+  return room<contour::online::FeedGovernor>(machine.contour.enabled && feed_override, config);
 }
 
 // Errs towards "in the cut": an offset that moves while the tool cuts leaves a step in the part,
@@ -77,62 +88,7 @@ bool in_thread(signal::Motion motion) noexcept {
   return motion == signal::Motion::thread || motion == signal::Motion::tap;
 }
 
-// Held in a thread: the wish becomes neutral and the envelope holds, since changing feed or spindle
-// between two passes would cut a second thread next to the first.
-template <class Request>
-kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
-                                                     Reason unfit, bool hold,
-                                                     const signal::OverrideState& panel) noexcept {
-  return {.step_s = step_s,
-          .ratio = hold ? 1.0 : request.ratio,
-          .reason = hold ? Reason::withdrawn_thread : request.reason,
-          .panel = panel,
-          .unfit = unfit,
-          .hold = hold};
-}
-
-// A panel that reads NaN or below 0 is shown as 100 %; the channel reports the fault itself.
-double shown(const signal::OverrideState& panel) noexcept {
-  return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
-}
-
-/// For an override that the machine lacks. A wish that nobody can carry out must not look like one
-/// in force.
-template <class Request>
-Reason without_channel(const Request& request, Reason unfit) noexcept {
-  if (unfit != Reason::none) {
-    return unfit;
-  }
-  const bool wish = kernel::override::is_wish(request.ratio, request.reason);
-  return wish ? Reason::port_cannot_write : request.reason;
-}
-
-/// The fields of one override in the command.
-struct Place {
-  double& ratio;
-  std::uint32_t& code;
-  bool& masks_panel;
-  Reason& reason;
-};
-
-/// Takes one override through its channel into the command; true when it is the panel's again.
-/// Without a channel there is only a reason.
-template <class Request>
-bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope::Input& input,
-         const Request& wanted, const Place& place) noexcept {
-  if (!channel) {
-    place.reason = without_channel(wanted, input.unfit);
-    return true;
-  }
-  const auto out = channel->update(input);
-  place.ratio = out.ratio;
-  place.code = out.code;
-  place.masks_panel = out.masks_panel;
-  place.reason = out.reason;
-  return out.handed_back;
-}
-
-/// The frame as the rooms see it: all times in good time. An old frame has them already.
+/// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
   const double shift_s = read_now ? time_s - frame.time_s : 0.0;
@@ -140,18 +96,6 @@ void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   for (auto& axis : frame.axis) {
     axis.edge_s += shift_s;
   }
-}
-
-/// What applies without the layer: the panel's own value.
-signal::Command panel_command(const signal::Frame& frame) noexcept {
-  return {.feed_ratio = shown(frame.feed),
-          .feed_code = frame.feed.panel_code,
-          .spindle_ratio = shown(frame.spindle),
-          .spindle_code = frame.spindle.panel_code,
-          .offset_mm = {},
-          .feed_reason = Reason::observe_only,
-          .spindle_reason = Reason::observe_only,
-          .offset_reason = Reason::observe_only};
 }
 
 }  // namespace
@@ -172,6 +116,10 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
   if (!offset) {
     return std::unexpected(std::move(offset.error()));
   }
+  auto path_offset = OffsetEnvelope::make(path_offset_config(machine, capability.path_offset));
+  if (!path_offset) {
+    return std::unexpected(std::move(path_offset.error()));
+  }
   auto clock = FrameClock::make({.usual_s = machine.control.interpolator_period_s});
   if (!clock) {
     return std::unexpected(std::move(clock.error()));
@@ -180,8 +128,8 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
   if (!motion) {
     return std::unexpected(std::move(motion.error()));
   }
-  Supervisor supervisor(machine, capability, *clock, std::move(*motion), *offset);
-  auto contour = room<contour::online::FeedGovernor>(machine.contour.enabled && *feed, machine);
+  Supervisor supervisor(machine, capability, *clock, std::move(*motion), *offset, *path_offset);
+  auto contour = contour_room(machine, feed->has_value(), capability.path_offset);
   if (!contour) {
     return std::unexpected(std::move(contour.error()));
   }
@@ -202,12 +150,14 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
 }
 
 Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capability& capability,
-                       const FrameClock& clock, MotionStage motion, const OffsetEnvelope& offset)
+                       const FrameClock& clock, MotionStage motion, const OffsetEnvelope& offset,
+                       const OffsetEnvelope& path_offset)
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),
+      path_offset_(path_offset),
       offset_available_(capability.axis_offset) {
   state_.mode_wanted = machine.mode;
 }
@@ -288,6 +238,11 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
   if (estimates_.chatter) {
     spindle.add(estimates_.chatter->spindle);
   }
+  kernel::override::OffsetArbiter path_offset;
+  path_offset.add(requests.path_offset);
+  if (estimates_.contour) {
+    path_offset.add(estimates_.contour->path_offset);
+  }
   kernel::override::OffsetArbiter offset;
   offset.add(requests.offset);
   if (estimates_.thermal) {
@@ -296,40 +251,15 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
   return {.feed = feed.decision(),
           .spindle = spindle.decision(),
           .offset = offset.decision(),
+          .path_offset = path_offset.decision(),
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
           // The raw frame's motion too: an unfit frame that shows a tap holds at once, while only a
           // fit one ends the hold.
           .hold = state_.in_thread || in_thread(frame.motion)};
 }
 
-// The last step before the port. All three channels run in every cycle, even when one is unfit:
-// each slews back independently.
-void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
-                       signal::Command& command) noexcept {
-  const bool feed_back =
-      put(feed_, channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed),
-          decisions.feed,
-          {command.feed_ratio, command.feed_code, command.feed_masks_panel, command.feed_reason});
-  const bool spindle_back =
-      put(spindle_,
-          channel_input(step_s, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle),
-          decisions.spindle,
-          {command.spindle_ratio, command.spindle_code, command.spindle_masks_panel,
-           command.spindle_reason});
-  handed_back_ = feed_back && spindle_back;
-  const auto offset = offset_.update({.step_s = step_s,
-                                      .request = decisions.offset,
-                                      .unfit = decisions.unfit,
-                                      .tool_in_cut = state_.tool_in_cut});
-  command.offset_mm = offset.offset_mm;
-  // The port takes no offsets, so their limit is 0; the reason says why nothing moves.
-  const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
-  command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
-  handed_back_ = handed_back_ && offset.at_zero;
-}
-
-// resume() and settle_mode() may put the words back to the panel, so before_, the copy that a
-// refused write returns to, is taken after them.
+// resume() and settle_mode() may put the words back to the panel, so the copy that a refused write
+// returns to (before_) is taken after them.
 signal::Command Supervisor::update(const signal::Frame& frame, const Requests& requests,
                                    bool read_now) noexcept {
   const double last_s = clock_.time_s();

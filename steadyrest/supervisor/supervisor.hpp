@@ -54,6 +54,9 @@ class Supervisor {
     std::span<const kernel::signal::FeedRequest> feed;
     std::span<const kernel::signal::SpindleRequest> spindle;
     std::span<const kernel::signal::OffsetRequest> offset;
+    /// Against the contour error. Designated initialisers may leave it out.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::span<const kernel::signal::OffsetRequest> path_offset = {};
   };
 
   /// What the active rooms saw and chose in the last cycle; for logs and the page.
@@ -80,6 +83,7 @@ class Supervisor {
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
+    kernel::override::OffsetEnvelope::State path_offset;
     thermal::online::OffsetGovernor::State thermal;
   };
 
@@ -144,13 +148,15 @@ class Supervisor {
     kernel::signal::FeedRequest feed;
     kernel::signal::SpindleRequest spindle;
     kernel::signal::OffsetRequest offset;
+    kernel::signal::OffsetRequest path_offset;
     kernel::outcome::Reason unfit = kernel::outcome::Reason::none;
     bool hold = false;
   };
 
   Supervisor(const kernel::machine::Machine& machine, const kernel::port::Capability& capability,
              const FrameClock& clock, MotionStage motion,
-             const kernel::override::OffsetEnvelope& offset);
+             const kernel::override::OffsetEnvelope& offset,
+             const kernel::override::OffsetEnvelope& path_offset);
   kernel::signal::Command update(const kernel::signal::Frame& frame, const Requests& requests,
                                  bool read_now) noexcept;
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame,
@@ -162,6 +168,9 @@ class Supervisor {
   void estimate(kernel::signal::Frame& frame, bool fit, kernel::outcome::Reason unfit) noexcept;
   [[nodiscard]] Decisions arbitrate(const kernel::signal::Frame& frame, const Requests& requests,
                                     kernel::outcome::Reason unfit) noexcept;
+  /// What holds without the layer: the panel's own value.
+  [[nodiscard]] static kernel::signal::Command panel_command(
+      const kernel::signal::Frame& frame) noexcept;
   void clamp(const kernel::signal::Frame& frame, double step_s, const Decisions& decisions,
              kernel::signal::Command& command) noexcept;
   [[nodiscard]] bool leaving_act() const noexcept;
@@ -170,6 +179,7 @@ class Supervisor {
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
+    kernel::override::OffsetEnvelope::State path_offset;
     double delivered_s = 0.0;
     double delivered_stamped_s = 0.0;
   };
@@ -189,6 +199,7 @@ class Supervisor {
   std::optional<kernel::override::Channel> feed_;
   std::optional<kernel::override::Channel> spindle_;
   kernel::override::OffsetEnvelope offset_;
+  kernel::override::OffsetEnvelope path_offset_;
   bool offset_available_;
   bool handed_back_ = true;  ///< nothing of the layer is on the machine
   Written before_;           ///< the last cycle

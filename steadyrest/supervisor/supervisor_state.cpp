@@ -19,6 +19,7 @@ void Supervisor::begin_at_panel() noexcept {
     }
   }
   offset_.reset();
+  path_offset_.reset();
   handed_back_ = true;
 }
 
@@ -56,6 +57,8 @@ kernel::signal::InForce Supervisor::in_force() const noexcept {
   return {.feed = feed_ ? feed_->in_force() : kernel::signal::RatioInForce{},
           .spindle = spindle_ ? spindle_->in_force() : kernel::signal::RatioInForce{},
           .offset_mm = offset_.state().offset_mm,
+          .path_offset_mm = path_offset_.state().offset_mm,
+          .active = state_.mode_in_force != Mode::observe && !state_.interrupted,
           .written = state_.mode_in_force == Mode::act && !state_.interrupted};
 }
 
@@ -63,6 +66,7 @@ Supervisor::Written Supervisor::written() const noexcept {
   return {.feed = feed_ ? feed_->state() : Channel::State{},
           .spindle = spindle_ ? spindle_->state() : Channel::State{},
           .offset = offset_.state(),
+          .path_offset = path_offset_.state(),
           .delivered_s = state_.delivered_s,
           .delivered_stamped_s = state_.delivered_stamped_s};
 }
@@ -71,6 +75,7 @@ Supervisor::Written Supervisor::written() const noexcept {
 // operator did turn it), when restored they do not.
 void Supervisor::put_back(const Written& written) noexcept {
   offset_.restore(written.offset);
+  path_offset_.restore(written.path_offset);
   state_.delivered_s = written.delivered_s;
   state_.delivered_stamped_s = written.delivered_stamped_s;
   handed_back_ = false;
@@ -95,6 +100,7 @@ Supervisor::State Supervisor::state() const noexcept {
   state.feed = now.feed;
   state.spindle = now.spindle;
   state.offset = now.offset;
+  state.path_offset = now.path_offset;
   state.clock = clock_.state();
   if (thermal_) {
     state.thermal = thermal_->state();
@@ -120,6 +126,7 @@ void Supervisor::restore(const State& state) noexcept {
   put_back({.feed = state.feed,
             .spindle = state.spindle,
             .offset = state.offset,
+            .path_offset = state.path_offset,
             .delivered_s = state.delivered_s,
             .delivered_stamped_s = state.delivered_stamped_s});
   motion_.reset();

@@ -48,6 +48,7 @@ void FeedGovernor::reset() noexcept {
   servo_.pause();
   curve_.reset();
   ahead_.reset();
+  precompensator_.reset();
   state_ = {};
   history_.fill(1.0);
 }
@@ -59,6 +60,7 @@ FeedGovernor::State FeedGovernor::state() const {
   state.servo = servo_.state();
   state.curve = curve_.state();
   state.ahead = ahead_.state();
+  state.precompensator = precompensator_.state();
   state.model = model_;
   state.cycle_s = cycle_s_;
   state.history = history_;
@@ -78,6 +80,9 @@ void FeedGovernor::restore(const State& state) noexcept {
     cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);
   }
   forecast_.set_model(model_);
+  precompensator_.set_model(model_);
+  precompensator_.restore(state.precompensator);
+  forecast_.set_tool_point(precompensator_.point(), precompensator_.max_offset_mm());
   history_ = state.history;
   history_at_ = state.history_at % kHistory;
 }
@@ -103,6 +108,8 @@ void FeedGovernor::refresh_model(double dt) noexcept {
     cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);
   }
   forecast_.set_model(model_);
+  precompensator_.set_model(model_);
+  forecast_.set_tool_point(precompensator_.point(), precompensator_.max_offset_mm());
   if (is_other) {
     state_.unexplained_mm2 = 0.0;  // that belonged to the old model
   }
@@ -171,9 +178,10 @@ double FeedGovernor::limit_mm() const noexcept {
 
 // The words as the control was told them, one per cycle: for dead time and scan they are still
 // under way.
-void FeedGovernor::remember(const kernel::signal::RatioInForce& in_force) noexcept {
-  state_.in_force_ratio = in_force.ratio;
-  history_[history_at_] = in_force.word_ratio;
+void FeedGovernor::remember(const kernel::signal::InForce& in_force) noexcept {
+  state_.offsets_act = in_force.active;
+  state_.in_force_ratio = in_force.feed.ratio;
+  history_[history_at_] = in_force.feed.word_ratio;
   history_at_ = (history_at_ + 1) % kHistory;
 }
 
@@ -201,114 +209,6 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
     pending[n] = n == 0 ? std::max(most, frame.feed.effective_ratio) : most;
   }
   forecast_.set_pending_count(n);
-}
-
-/// Without a path: extends the circle that the command has followed lately, at the programmed feed.
-void FeedGovernor::extrapolate(const Frame& frame) noexcept {
-  const auto bend = curve_.update(state_.command_mm);
-  guess_.reset();
-  if (!bend.valid) {
-    return;
-  }
-  const double curvature = geometry::norm(bend.curvature_1_mm);
-  const Point normal = geometry::unit(bend.curvature_1_mm);
-  const double speed = std::max({frame.path_speed_mm_s, frame.programmed_feed_mm_s, 1.0});
-  // Far enough behind the command to hold the foot: three times the lag v/k. Cells short enough
-  // that the cubic term κ²h³/6 stays below 5·10⁻⁵ mm, and at most about 400 of them.
-  const double back = 3.0 * speed / softest_gain_1_s_ + 0.5;
-  const double ahead = speed * reach_s_;
-  const double fine = curvature > 1e-6 ? std::cbrt(3e-4 / (curvature * curvature)) : ahead;
-  const double length = std::max(fine, (back + ahead) / 400.0);
-  double a = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
-    a = std::min(a, config_.axes[i].max_acceleration_au_s2);
-  }
-  for (double s = -back; s < ahead; s += length) {
-    Cell cell;
-    cell.position_mm = s;
-    cell.length_mm = length;
-    cell.cap_mm_s = std::numeric_limits<double>::infinity();
-    cell.feed_mm_s = frame.programmed_feed_mm_s;
-    cell.acceleration_mm_s2 = std::min(a, 1e9);
-    cell.cutting = true;
-    const double angle = curvature * s;
-    const double along = curvature > 1e-9 ? std::sin(angle) / curvature : s;
-    const double across = curvature > 1e-9 ? (1.0 - std::cos(angle)) / curvature : 0.0;
-    cell.point_mm = geometry::add_scaled(
-        geometry::add_scaled(state_.command_mm, bend.tangent, along), normal, across);
-    cell.tangent = geometry::add_scaled(geometry::scale(bend.tangent, std::cos(angle)), normal,
-                                        std::sin(angle));
-    cell.curvature_1_mm =
-        geometry::scale(geometry::add_scaled(geometry::scale(normal, std::cos(angle)), bend.tangent,
-                                             -std::sin(angle)),
-                        curvature);
-    guess_.append(cell, std::numeric_limits<double>::infinity());
-  }
-}
-
-bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) noexcept {
-  if (frame.path.empty() || frame.path_index >= frame.path.size()) {
-    curve_.update({frame.axis[0].command_mm, frame.axis[1].command_mm, frame.axis[2].command_mm});
-    ahead_.reset();
-    return false;
-  }
-  const double speed = std::max(
-      {frame.path_speed_mm_s, frame.programmed_feed_mm_s * config_.contour.max_ratio, 5.0});
-  const double s = frame.path_position_mm;
-  const double foot = error.valid ? error.foot_position_mm : s;
-  ahead_.update(frame.path, frame.path_index, std::min(foot, s) - 0.5, s, s + speed * reach_s_);
-  if (ahead_.empty()) {
-    return false;
-  }
-  state_.command_cell = ahead_.find(s, state_.command_cell);
-  state_.foot_cell = ahead_.find(foot, state_.foot_cell);
-  return true;
-}
-
-bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
-  if (ahead_.empty()) {
-    return false;
-  }
-  const Forecast::Timing& timing = forecast_.timing();
-  // Time in which a step told now can still be reversed: dead time, scan, two decisions and the
-  // whole slew.
-  const double time = timing.dead_s + timing.scan_s + 2.0 * decision_s_ + 1.0 / timing.fall_1_s;
-  const double a = ahead_.cell(state_.command_cell).acceleration_mm_s2;
-  const double reach = (frame.path_speed_mm_s + 0.5 * std::min(a, 1e5) * time) * time;
-  for (std::size_t i = state_.command_cell; i < ahead_.end(); ++i) {
-    const Cell& cell = ahead_.cell(i);
-    if (cell.position_mm - frame.path_position_mm > reach) {
-      return false;
-    }
-    if (cell.cutting) {
-      return true;
-    }
-  }
-  return false;
-}
-
-Outset FeedGovernor::outset(const Frame& frame) const noexcept {
-  Outset outset;
-  outset.speed_mm_s = std::max(0.0, frame.path_speed_mm_s);
-  outset.rapid_ratio = frame.rapid.effective_ratio;
-  // The operator's panel caps the forecast as it will cap the word, unless the machine file lets
-  // the layer exceed it.
-  outset.panel_ratio = config_.feed_override.layer_may_exceed_panel
-                           ? std::numeric_limits<double>::infinity()
-                           : frame.feed.panel_ratio;
-  for (std::size_t i = 0; i < 3; ++i) {
-    outset.servo.error_mm[i] = frame.axis[i].command_mm - frame.axis[i].actual_mm;
-    outset.servo.velocity_mm_s[i] = state_.velocity_mm_s[i];
-  }
-  if (state_.last.path_known) {
-    outset.position_mm = frame.path_position_mm;
-    outset.command_cell = state_.command_cell;
-    outset.foot_cell = state_.foot_cell;
-  } else {
-    outset.command_cell = guess_.find(0.0, guess_.begin());
-    outset.foot_cell = guess_.find(-geometry::norm(outset.servo.error_mm), outset.command_cell);
-  }
-  return outset;
 }
 
 FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexcept {
@@ -340,9 +240,10 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   if (!config_.contour.enabled) {
     return {};
   }
-  remember(in_force.feed);
+  remember(in_force);
   if (!is_fit(frame)) {
     servo_.pause();
+    precompensator_.reset();
     state_.started = false;
     return state_.last = withdraw(Reason::input_not_finite, {});
   }
@@ -357,6 +258,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   }
   if (frame.age_s > config_.envelope.stale_after_s) {
     servo_.pause();
+    precompensator_.reset();
     return state_.last = withdraw(Reason::input_stale, {});
   }
 
@@ -375,7 +277,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   refresh_model(dt > 0.0 && dt < 0.1 ? dt : cycle_s_);
   observe(frame, error, dt);
   output.path_known = state_.last.path_known = look(frame, error);
-
+  cancel(frame, dt, output);
   watch_effect(frame, dt);
 
   if (is_locked(frame.motion)) {

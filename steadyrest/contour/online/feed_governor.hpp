@@ -12,6 +12,7 @@
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/nominal_error.hpp>
 #include <steadyrest/contour/online/objective_search.hpp>
+#include <steadyrest/contour/online/precompensator.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/machine/contour.hpp>
@@ -105,6 +106,7 @@ class FeedGovernor {
 
   struct Output {
     kernel::signal::FeedRequest request;
+    kernel::signal::OffsetRequest path_offset;  ///< of the precompensator
     bool error_valid = false;
     double error_mm = 0.0;            ///< contour error now, signed as in ContourError
     double nominal_error_mm = 0.0;    ///< Ed
@@ -124,7 +126,8 @@ class FeedGovernor {
     double time_s = 0.0;
     double next_decision_s = 0.0;
     double next_objective_s = 0.0;
-    double in_force_ratio = 1.0;  ///< what the envelope let pass
+    double in_force_ratio = 1.0;  ///< what the envelope has let through
+    bool offsets_act = false;     ///< what is asked for goes to the machine, or is shown
     double fallen_s = -1e9;       ///< time of the last fall
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
@@ -147,7 +150,8 @@ class FeedGovernor {
     ServoModel::State servo;
     CommandedCurve::State curve;
     LookAhead::State ahead;
-    std::array<AxisModel, 3> model{};  ///< the forecast's present model
+    Precompensator::State precompensator;
+    std::array<AxisModel, 3> model{};  ///< that the forecast has been set to
     double cycle_s = 0.0;
     std::array<double, kHistory> history{};  ///< what the control was told, by cycle
     std::size_t history_at = 0;
@@ -182,13 +186,15 @@ class FeedGovernor {
     bool held_back = false;  ///< by the room that a rise needs
   };
 
-  FeedGovernor(const Config& config, const ContourError& contour, const ServoModel& servo);
+  FeedGovernor(const Config& config, const ContourError& contour, const ServoModel& servo,
+               Precompensator precompensator);
   void observe(const kernel::signal::Frame& frame, const ContourError::Output& error,
                double dt) noexcept;
   void refresh_model(double dt) noexcept;
   void watch_effect(const kernel::signal::Frame& frame, double dt) noexcept;
-  void remember(const kernel::signal::RatioInForce& in_force) noexcept;
+  void remember(const kernel::signal::InForce& in_force) noexcept;
   bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
+  void cancel(const kernel::signal::Frame& frame, double dt, Output& output) noexcept;
   void extrapolate(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
   void fill_pending(const kernel::signal::Frame& frame) noexcept;
@@ -213,7 +219,8 @@ class FeedGovernor {
   ServoModel servo_;
   CommandedCurve curve_;
   LookAhead ahead_;
-  LookAhead guess_;  ///< the extrapolated path, where none is known
+  Precompensator precompensator_;
+  LookAhead guess_;  ///< the path extrapolated, where none is known
   Forecast forecast_;
   Forecast::Trace trace_;
   std::array<AxisModel, 3> model_{};      ///< the present model of forecast_

@@ -32,7 +32,11 @@ constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³ of the velocity
 /// in forecast.cpp); neither is known yet here, so v/a is taken for 12 m/min at 2 m/s².
 constexpr double kBrakingS = 0.1;
 
-/// The axes that form the contour.
+/// How far the tool point's command may jump at a corner: the axes are given a change of speed of
+/// k times it at once.
+constexpr double kToolTurn_mm = 0.07;
+
+/// The axes that make the contour.
 Axes path_axes(Axes axes) noexcept {
   return axes.first(std::min<std::size_t>(3, axes.size()));
 }
@@ -182,7 +186,12 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
   if (!servo) {
     return std::unexpected(servo.error());
   }
-  FeedGovernor governor(config, *contour, *servo);
+  auto precompensator = Precompensator::make(
+      {.axes = config.axes, .max_offset_mm = config.envelope.max_path_offset_mm});
+  if (!precompensator) {
+    return std::unexpected(precompensator.error());
+  }
+  FeedGovernor governor(config, *contour, *servo, *std::move(precompensator));
   if (governor.candidate_.empty()) {
     return refuse(
         "no step of the override table lies between min_percent and max_percent of [contour]",
@@ -192,11 +201,13 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
 }
 
 FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
-                           const ServoModel& servo)
+                           const ServoModel& servo, Precompensator precompensator)
     : config_(config),
       contour_(contour),
       servo_(servo),
-      ahead_(config.axes, config.control.max_path_acceleration_mm_s2),
+      ahead_(config.axes, config.control.max_path_acceleration_mm_s2,
+             kToolTurn_mm * softest(config.axes)),
+      precompensator_(std::move(precompensator)),
       guess_(config.axes, config.control.max_path_acceleration_mm_s2) {
   const Config& m = config_;
   // The strictest of the three: [contour], the envelope and the table. Steps at 0 stop the machine

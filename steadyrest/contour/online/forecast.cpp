@@ -14,16 +14,7 @@ namespace {
 namespace geometry = math::geometry;
 using kernel::signal::Point;
 
-// A velocity loop faster than this counts as none: on a circle it changes ε by 2kτ, 1 % at k = 50
-// 1/s. At τ = 0.1 ms kSub steps of 4 ms/64 are 0.6·τ long, well inside Runge–Kutta's stability
-// limit (2.8·τ). Test AxisStep, OfNoLagIsTheLimitOfSmallLag.
-constexpr double kNoLag_s = 1e-4;
-constexpr double kRatioTolerance = 1e-9;  // as in the kernel's table
-
-Point on_cell(const Cell& cell, double delta) noexcept {
-  return geometry::add_scaled(geometry::add_scaled(cell.point_mm, cell.tangent, delta),
-                              cell.curvature_1_mm, 0.5 * delta * delta);
-}
+constexpr double kRatioTolerance = 1e-9;  // as the kernel's table has it
 
 /// Distance to one cell, squared, and the offset from its start to the foot.
 struct Near {
@@ -102,58 +93,6 @@ class Forecast::FootTracker {
   std::size_t scanned_;
 };
 
-AxisStep AxisStep::of(const AxisModel& model, double h_s) noexcept {
-  AxisStep step;
-  const double k = model.gain_1_s;
-  const double a = model.feed_forward;
-  // Without lag: ė = (1 − a)·ċ − k·e. φ₁ = ∫e^−k(h−t)dt, φ₂ the same with t/h; ċ's slope enters by
-  // t/h − ½.
-  if (model.velocity_lag_s < kNoLag_s) {
-    const double decay = std::exp(-k * h_s);
-    const double phi1 = -std::expm1(-k * h_s) / k;
-    const double phi2 = (1.0 - phi1 / h_s) / k;
-    step.ee = decay;
-    step.e_mean = (1.0 - a) * phi1;
-    step.e_change = (1.0 - a) * (phi2 - 0.5 * phi1);
-    return step;
-  }
-  // With lag the roots may be real, double or complex. Fourth-order Runge–Kutta unit responses
-  // serve all three alike; the step is linear, so four of them give the whole matrix. Runs only
-  // when the model changes, not in every cycle.
-  constexpr int kSub = 64;
-  const double d = h_s / kSub;
-  const double tau = model.velocity_lag_s;
-  const auto shoot = [&](double e, double w, double mean, double change) {
-    const auto rate = [&](double t, double ei, double wi) {
-      const double c = mean + change * (t / h_s - 0.5);
-      return std::array{c - wi, (k * ei + a * c - wi) / tau};
-    };
-    for (int i = 0; i < kSub; ++i) {
-      const double t = d * i;
-      const auto r1 = rate(t, e, w);
-      const auto r2 = rate(t + 0.5 * d, e + 0.5 * d * r1[0], w + 0.5 * d * r1[1]);
-      const auto r3 = rate(t + 0.5 * d, e + 0.5 * d * r2[0], w + 0.5 * d * r2[1]);
-      const auto r4 = rate(t + d, e + d * r3[0], w + d * r3[1]);
-      e += d / 6.0 * (r1[0] + 2.0 * r2[0] + 2.0 * r3[0] + r4[0]);
-      w += d / 6.0 * (r1[1] + 2.0 * r2[1] + 2.0 * r3[1] + r4[1]);
-    }
-    return std::array{e, w};
-  };
-  const auto from_e = shoot(1, 0, 0, 0);
-  const auto from_w = shoot(0, 1, 0, 0);
-  const auto from_mean = shoot(0, 0, 1, 0);
-  const auto from_change = shoot(0, 0, 0, 1);
-  step.ee = from_e[0];
-  step.we = from_e[1];
-  step.ew = from_w[0];
-  step.ww = from_w[1];
-  step.e_mean = from_mean[0];
-  step.w_mean = from_mean[1];
-  step.e_change = from_change[0];
-  step.w_change = from_change[1];
-  return step;
-}
-
 void Forecast::set_timing(const Timing& timing) noexcept {
   timing_ = timing;
 }
@@ -163,6 +102,11 @@ void Forecast::set_model(std::span<const AxisModel, 3> model) noexcept {
     model_[i] = model[i];
     step_[i] = AxisStep::of(model[i], timing_.step_s);
   }
+}
+
+void Forecast::set_tool_point(const ToolPoint& tool_point, double most_mm) noexcept {
+  tool_point_ = tool_point;
+  most_offset_mm_ = most_mm;
 }
 
 void Forecast::set_table(std::span<const double> ratio) noexcept {
@@ -216,7 +160,12 @@ struct Forecast::Walk {
         velocity(geometry::scale(
             geometry::add_scaled(cell->tangent, cell->curvature_1_mm, s - cell->position_mm), v)),
         servo(from.servo),
-        foot(cells, std::min(from.foot_cell, at)) {}
+        foot(cells, std::min(from.foot_cell, at)),
+        tool(from.tool) {
+    if (tool) {
+      command = commanded_for_tool(command);
+    }
+  }
 
   /// Until the override has completed the plan and everything has settled.
   [[nodiscard]] std::size_t steps(const RatioPlan& plan) const noexcept {
@@ -294,14 +243,31 @@ struct Forecast::Walk {
     return true;
   }
 
-  /// The servos follow the commanded point; returns the actual one.
-  Point follow() noexcept {
+  /// What the axes are commanded while the program's command is at `program`: the tool point's
+  /// command, as far as an offset may go.
+  [[nodiscard]] Point commanded_for_tool(const Point& program) const noexcept {
+    Point out;
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = program[i] + std::clamp(tool->command_mm[i] - program[i], -of.most_offset_mm_,
+                                       of.most_offset_mm_);
+    }
+    return out;
+  }
+
+  /// The servos follow the commanded point, which was at the path length `from_mm`; the actual one.
+  // The tool point's command has no velocity of its own: its mean over the step before stands in.
+  Point follow(double from_mm) noexcept {
     const double h = of.timing_.step_s;
     const double delta = s - cell->position_mm;
     const Point before = command;
     command = on_cell(*cell, delta);
     const Point tangent = geometry::add_scaled(cell->tangent, cell->curvature_1_mm, delta);
-    const Point velocity1 = geometry::scale(tangent, v);
+    Point velocity1 = geometry::scale(tangent, v);
+    if (tool) {
+      of.tool_point_.advance(path, from_mm, s, h, *tool);
+      command = commanded_for_tool(command);
+      velocity1 = geometry::scale(geometry::subtract(command, before), 1.0 / h);
+    }
     Point actual;
     for (std::size_t i = 0; i < 3; ++i) {
       const AxisStep& step = of.step_[i];
@@ -358,6 +324,7 @@ struct Forecast::Walk {
   Point velocity;
   ServoState servo;
   FootTracker foot;
+  std::optional<ToolPoint::State> tool;
   double worst = 0.0;  ///< error squared
   std::size_t trace_at = 0;
   Result result;
@@ -373,10 +340,11 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
   }
   for (std::size_t n = 1; n <= count; ++n) {
     const double t = timing_.step_s * static_cast<double>(n);
+    const double from_mm = walk.s;
     if (!walk.advance(walk.ratio_in(n, t, plan))) {
       break;
     }
-    const Near near = walk.foot.update(walk.follow(), walk.at);
+    const Near near = walk.foot.update(walk.follow(from_mm), walk.at);
     const Cell& under = path.cell(walk.foot.cell());
     walk.result.steps = n;
     // In air the error does not matter; within the dead time nothing can change it.

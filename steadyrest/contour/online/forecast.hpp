@@ -3,30 +3,17 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
+#include <steadyrest/contour/online/axis_step.hpp>
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
+#include <steadyrest/contour/online/tool_point.hpp>
 
 namespace steadyrest::contour::online {
 
-/// Exact step of one axis over h: e = c − x and w = ẋ from the commanded mean velocity and its
-/// change.
-///   ė = ċ − w;  τ·ẇ + w = k·e + a·ċ;  ċ(t) = mean + change·(t/h − ½)
-struct AxisStep {
-  double ee = 1.0, ew = 0.0, we = 0.0, ww = 0.0;
-  double e_mean = 0.0, w_mean = 0.0, e_change = 0.0, w_change = 0.0;
-
-  [[nodiscard]] static AxisStep of(const AxisModel& model, double h_s) noexcept;
-};
-
-/// Following error and velocity of the first three axes.
-struct ServoState {
-  std::array<double, 3> error_mm{};
-  std::array<double, 3> velocity_mm_s{};
-};
-
-/// What the override will do from now on.
+/// What the override will do, from now on.
 ///
 /// r(t), the ratio that the envelope lets pass, moves to `target` at the slew limits, stays there
 /// for `hold_s`, then falls to `floor`. It acts after the dead time. A rise is assumed to act
@@ -48,6 +35,8 @@ struct Outset {
   ServoState servo;
   std::size_t command_cell = 0;
   std::size_t foot_cell = 0;
+  /// Where the tool point is, while offsets cancel the contour error; empty: they do not.
+  std::optional<ToolPoint::State> tool;
 };
 
 /// Simulates the control's speed and the servos along the cells ahead, for one candidate.
@@ -56,6 +45,8 @@ struct Outset {
 /// and the next cell's target. Servo: exact linear step (AxisStep). Contour error: distance from
 /// the predicted actual point to the parabola of the foot's cell; the foot moves forward only, over
 /// corners by comparison with the first cell behind the corner, as ContourError would find it.
+/// Where offsets cancel the error (Outset::tool) the servos follow the tool point's command, held
+/// to the largest offset: what remains is what the offsets cannot do.
 ///
 /// Accuracy against the closed forms of constant curvature: 0.1 % of ε and 0.1 µm (test). Not
 /// modelled: jerk beyond its mean delay, friction, backlash, drive saturation; the governor
@@ -95,7 +86,9 @@ class Forecast {
   void set_timing(const Timing& timing) noexcept;
   [[nodiscard]] const Timing& timing() const noexcept { return timing_; }
   void set_model(std::span<const AxisModel, 3> model) noexcept;
-  /// Ratios of the table's steps in ascending order.
+  /// How the offsets would be chosen, and how large one may be.
+  void set_tool_point(const ToolPoint& tool_point, double most_mm) noexcept;
+  /// Ratios of the table's steps in rising order.
   void set_table(std::span<const double> ratio) noexcept;
   /// Ratios already on their way: entry n acts at most until n·step_s; 0 = nothing pending.
   [[nodiscard]] std::array<double, kMaxSteps>& pending() noexcept { return pending_; }
@@ -118,6 +111,8 @@ class Forecast {
   Timing timing_;
   std::array<AxisModel, 3> model_{};
   std::array<AxisStep, 3> step_{};
+  ToolPoint tool_point_;
+  double most_offset_mm_ = 0.0;
   std::array<double, kMaxTable> table_{};
   std::size_t table_count_ = 0;
   std::array<double, kMaxSteps> pending_{};

@@ -50,8 +50,9 @@ bool breaks(const Cell& before, const Cell& next) noexcept {
 }  // namespace
 
 LookAhead::LookAhead(std::span<const kernel::machine::Axis> axes,
-                     double max_path_acceleration_mm_s2)
+                     double max_path_acceleration_mm_s2, double tool_turn_mm_s)
     : path_mm_s2_(max_path_acceleration_mm_s2),
+      tool_turn_mm_s_(tool_turn_mm_s),
       ring_(std::make_unique<std::array<Cell, kCells>>()) {
   for (std::size_t i = 0; i < 3; ++i) {
     axis_mm_s2_[i] = i < axes.size() ? axes[i].max_acceleration_au_s2 : kInfinite;
@@ -149,23 +150,43 @@ void LookAhead::describe(Cell& cell, const PathSegment& segment) const noexcept 
   cell.rapid = segment.motion == Motion::rapid;
 }
 
+/// How fast the tool point may go round the joint before the next cell.
+double LookAhead::tool_limit_mm_s(const Cell& next) const noexcept {
+  if (empty() || !std::isfinite(tool_turn_mm_s_)) {
+    return kInfinite;
+  }
+  const Cell& before = cell(last_ - 1);
+  if (!before.cutting && !next.cutting) {
+    return kInfinite;  // in the air it may cut corners
+  }
+  const Point out = geometry::add_scaled(before.tangent, before.curvature_1_mm, before.length_mm);
+  const double turn = geometry::distance(geometry::unit(out), geometry::unit(next.tangent));
+  return turn > 0.0 ? tool_turn_mm_s_ / turn : kInfinite;
+}
+
 // square_i = min(limit², square_{i+1} + 2·a·length), v² = v₀² + 2as read backwards. The pass ends
-// at the first cell that it does not lower, since those before it already agree: each cell is
-// lowered a few times at most.
+// at the first cell that is not lowered, since those before it already agree: each cell is lowered
+// a few times at most.
+void LookAhead::lower_before(double Cell::* square) noexcept {
+  for (std::size_t i = last_ - 1; i > first_; --i) {
+    Cell& before = at(i - 1);
+    const double bound = at(i).*square + 2.0 * before.acceleration_mm_s2 * before.length_mm;
+    if (bound >= before.*square) {
+      break;
+    }
+    before.*square = bound;
+  }
+}
+
 void LookAhead::append(Cell cell, double joint_limit_mm_s) noexcept {
-  const double limit = std::min(cell.cap_mm_s, joint_limit_mm_s);
-  cell.square_mm2_s2 = limit < 1e150 ? limit * limit : kInfinite;
+  const auto squared = [](double limit) { return limit < 1e150 ? limit * limit : kInfinite; };
+  cell.square_mm2_s2 = squared(std::min(cell.cap_mm_s, joint_limit_mm_s));
+  cell.tool_square_mm2_s2 = squared(tool_limit_mm_s(cell));
   made_to_mm_ = cell.position_mm + cell.length_mm;
   at(last_) = cell;
   ++last_;
-  for (std::size_t i = last_ - 1; i > first_; --i) {
-    Cell& before = at(i - 1);
-    const double bound = at(i).square_mm2_s2 + 2.0 * before.acceleration_mm_s2 * before.length_mm;
-    if (bound >= before.square_mm2_s2) {
-      break;
-    }
-    before.square_mm2_s2 = bound;
-  }
+  lower_before(&Cell::square_mm2_s2);
+  lower_before(&Cell::tool_square_mm2_s2);
 }
 
 /// At the path's end: a piece of zero length whose speed is the limit there.
@@ -280,9 +301,13 @@ void LookAhead::update(PathView path, std::size_t index, double from_mm, double 
            index - next_segment_ < static_cast<std::size_t>(kSegmentsPerCycle)) {
       --next_segment_;
     }
-    next_offset_mm_ = 0.0;
+    // Within a long arc, or the cells of one cycle would never get from its start to the command.
+    const PathSegment& first = path[next_segment_];
+    next_offset_mm_ = first.geometry == Geometry::arc
+                          ? std::clamp(from_mm - first.position_mm, 0.0, first.length_mm)
+                          : 0.0;
     joint_mm_s_ = kInfinite;
-    made_to_mm_ = path[next_segment_].position_mm;
+    made_to_mm_ = first.position_mm + next_offset_mm_;
   }
   while (first_ + 1 < last_ && cell(first_).position_mm + cell(first_).length_mm < from_mm) {
     ++first_;

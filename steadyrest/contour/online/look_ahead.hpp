@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,8 +22,10 @@ struct Cell {
   double position_mm = 0.0;
   double length_mm = 0.0;
   double square_mm2_s2 = 0.0;  ///< largest v² at its start from which all later limits can be kept
-  double cap_mm_s = 0.0;       ///< the control's limit inside the cell
-  double feed_mm_s = 0.0;      ///< at 100 %
+  /// The same of the point that the tool is kept on (tool_point.hpp): it slows for corners only.
+  double tool_square_mm2_s2 = 0.0;
+  double cap_mm_s = 0.0;            ///< the control's limit inside
+  double feed_mm_s = 0.0;           ///< at 100 %
   double acceleration_mm_s2 = 0.0;  ///< along the path
   bool corner = false;              ///< the direction breaks at its start
   bool cutting = false;             ///< Motion::feed: the feed override acts, the contour counts
@@ -36,6 +39,8 @@ struct Cell {
 /// short CAM lines are joined to chords that turn by at most 0.02 rad. A backward pass sets the
 /// speed limits as the control's look-ahead does:
 ///   square_i = min(cap_i², limit at the joint², square_{i+1} + 2·a_i·length_i).
+/// A second pass does the same for the tool point with the joints' limits alone: `tool_turn_mm_s`
+/// over the change of direction.
 /// The path beyond the last cell is unknown and does not limit. Work per cycle is bounded by
 /// `kCellsPerCycle`; the ring's memory is allocated once.
 class LookAhead {
@@ -56,8 +61,10 @@ class LookAhead {
     bool complete = false;
   };
 
-  /// What the control plans with: the axes, and its own limit along the path.
-  LookAhead(std::span<const kernel::machine::Axis> axes, double max_path_acceleration_mm_s2);
+  /// What the control plans with: the axes, and its own limit along the path. `tool_turn_mm_s`:
+  /// largest change of the tool point's velocity at a joint of a cut.
+  LookAhead(std::span<const kernel::machine::Axis> axes, double max_path_acceleration_mm_s2,
+            double tool_turn_mm_s = std::numeric_limits<double>::infinity());
   ~LookAhead();
   LookAhead(LookAhead&&) noexcept;
   LookAhead& operator=(LookAhead&&) noexcept;
@@ -97,12 +104,15 @@ class LookAhead {
   void append_stop() noexcept;
   void take_from_arc(const kernel::signal::PathSegment& segment, Cell& cell) noexcept;
   void take_lines(kernel::signal::PathView path, Cell& cell, int& segments) noexcept;
+  [[nodiscard]] double tool_limit_mm_s(const Cell& next) const noexcept;
+  void lower_before(double Cell::* square) noexcept;
   [[nodiscard]] double line_acceleration(const kernel::signal::Point& direction) const noexcept;
   [[nodiscard]] double arc_acceleration(const kernel::signal::PathSegment& segment) const noexcept;
   void describe(Cell& cell, const kernel::signal::PathSegment& segment) const noexcept;
 
   std::array<double, 3> axis_mm_s2_{};
   double path_mm_s2_ = 0.0;
+  double tool_turn_mm_s_ = 0.0;
   std::unique_ptr<std::array<Cell, kCells>> ring_;
   std::size_t first_ = 0;
   std::size_t last_ = 0;

@@ -14,6 +14,10 @@ struct Envelope {
   double spindle_slew_1_s = 2.0;
   double max_offset_mm = 0.2;
   double offset_slew_mm_s = 0.05;
+  /// Offsets that take the contour error away: how far they and the other offsets together may move
+  /// an axis, and how fast they may change. 0: the control takes none.
+  double max_path_offset_mm = 0.0;
+  double path_offset_slew_mm_s = 50.0;
   double stale_after_s = 0.1;  ///< older input is ignored
 };
 

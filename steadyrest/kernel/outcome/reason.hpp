@@ -35,10 +35,12 @@ enum class Reason : std::uint16_t {
   contour_hysteresis = 304,     ///< a step is better, but not by enough or not yet for long enough
   contour_no_effect = 305,     ///< the override does not move the feed here; the estimate is frozen
   contour_path_unknown = 306,  ///< no path window: only the error that already happened is known
-  chatter_modulating = 400,    ///< the spindle's speed follows its modulation law
-  chatter_feed_follows = 401,  ///< feed reduced: the feed per tooth would pass its band
-  chatter_feed_raised = 402,   ///< feed raised: the feed per tooth would fall below its band
-  chatter_fading = 403,        ///< the swing grows or shrinks
+  contour_cancelled = 320,     ///< offsets keep the tool on the path at full feed
+  contour_cancel_begins = 321,    ///< the offsets grow from 0 to their full size
+  chatter_modulating = 400,       ///< the spindle's speed swings by its law
+  chatter_feed_follows = 401,     ///< feed reduced: the feed per tooth would pass its band
+  chatter_feed_raised = 402,      ///< feed raised: the feed per tooth would fall below its band
+  chatter_fading = 403,           ///< the swing grows or shrinks
   chatter_swing_narrowed = 404,   ///< the limits leave less room than the swing needs
   chatter_drive_limit = 405,      ///< the drive cannot follow the law
   chatter_feed_late = 406,        ///< the spindle waits until the feed is slow enough

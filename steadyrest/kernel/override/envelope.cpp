@@ -172,6 +172,9 @@ outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
   if (!positive(config.slew_mm_s)) {
     return std::unexpected(refusal("offset_slew_mm_s", config.slew_mm_s, "finite and > 0"));
   }
+  if (!std::isfinite(config.fade_mm_s) || config.fade_mm_s < 0.0) {
+    return std::unexpected(refusal("fade_mm_s", config.fade_mm_s, "finite and ≥ 0"));
+  }
   if (!positive(config.max_step_s)) {
     return std::unexpected(refusal("max_step_s", config.max_step_s, "finite and > 0"));
   }
@@ -197,6 +200,14 @@ bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
   return reached;
 }
 
+/// What the limit and the others' offset leave.
+double OffsetEnvelope::within(std::size_t axis, double offset_mm, double beside_mm) const noexcept {
+  const double limit_mm = config_.max_mm[axis];
+  const double beside = std::isfinite(beside_mm) ? std::clamp(beside_mm, -limit_mm, limit_mm) : 0.0;
+  return std::clamp(offset_mm, std::max(-limit_mm, -limit_mm - beside),
+                    std::min(limit_mm, limit_mm - beside));
+}
+
 // The limits may have been lowered since the state was written.
 void OffsetEnvelope::restore(const State& state) noexcept {
   state_ = all_finite(state.offset_mm) ? state : State{};
@@ -220,8 +231,7 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
   if (unfit == Reason::none && is_wish(request.reason)) {
     signal::AxisValues target_mm{};
     for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
-      target_mm[axis] =
-          std::clamp(request.offset_mm[axis], -config_.max_mm[axis], config_.max_mm[axis]);
+      target_mm[axis] = within(axis, request.offset_mm[axis], input.beside_mm[axis]);
     }
     output.reason = target_mm == request.offset_mm ? request.reason : Reason::clamped;
     if (!approach(target_mm, request.slope_mm_s, step_s)) {
@@ -229,7 +239,11 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
     }
   } else {
     output.reason = unfit != Reason::none ? unfit : request.reason;
-    if (!input.tool_in_cut && !request.tool_in_cut) {
+    if (config_.fade_mm_s > 0.0) {
+      signal::AxisValues fade{};
+      fade.fill(config_.fade_mm_s);
+      approach({}, fade, step_s);
+    } else if (!input.tool_in_cut && !request.tool_in_cut) {
       approach({}, signal::any_slope(), step_s);
     }
   }

@@ -104,17 +104,24 @@ class RatioEnvelope {
 /// request's slope)·Δt; a NaN or negative slope counts as 0. Without a wish, or with unfit input,
 /// it freezes; once no tool is in the cut it ramps to 0 at the same slew. An axis with max = 0
 /// never gets an offset.
+/// With `fade_mm_s` it does not freeze but ramps to 0 at that rate, in the cut too: an offset that
+/// cancels the contour error turns with the direction of travel, so a frozen one would soon double
+/// the error, while without it the part has the error it would have had anyway.
+/// `beside_mm`, the offsets that others hold on the same axes, comes first: the sum stays within
+/// ±max.
 class OffsetEnvelope {
  public:
   struct Config {
     signal::AxisValues max_mm{};  ///< ≥ 0; 0 = this axis takes no offset
     double slew_mm_s = 0.05;      ///< mm/s, > 0
+    double fade_mm_s = 0.0;       ///< mm/s, ≥ 0; 0 = freezes while a tool is in the cut
     double max_step_s = 0.1;      ///< s, > 0
   };
 
   struct Input {
     double step_s = 0.0;  ///< Δt, good time since the last cycle
     signal::OffsetRequest request{};
+    signal::AxisValues beside_mm{};
     outcome::Reason unfit = outcome::Reason::none;
     bool tool_in_cut = true;  ///< by the machine's own state; the rooms report theirs separately
   };
@@ -143,6 +150,7 @@ class OffsetEnvelope {
   /// False when the slew, not the slope that was asked for, kept an axis from its target.
   bool approach(const signal::AxisValues& target_mm, const signal::AxisValues& slope_mm_s,
                 double step_s) noexcept;
+  [[nodiscard]] double within(std::size_t axis, double offset_mm, double beside_mm) const noexcept;
 
   Config config_;
   State state_;

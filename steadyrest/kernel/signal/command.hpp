@@ -17,12 +17,14 @@ struct Command {
   double spindle_ratio = 1.0;
   std::uint32_t spindle_code = 0;
   bool spindle_masks_panel = false;
-  AxisValues offset_mm{};
+  AxisValues offset_mm{};       ///< against heat; slow
+  AxisValues path_offset_mm{};  ///< against the contour error; another value each cycle
   bool write = false;  ///< false in the modes observe and advise: the port must not be touched
   std::uint64_t heartbeat = 0;
   outcome::Reason feed_reason = outcome::Reason::none;
   outcome::Reason spindle_reason = outcome::Reason::none;
   outcome::Reason offset_reason = outcome::Reason::none;
+  outcome::Reason path_offset_reason = outcome::Reason::none;
 };
 
 }  // namespace steadyrest::kernel::signal

@@ -22,6 +22,8 @@ struct InForce {
   RatioInForce feed{};
   RatioInForce spindle{};
   AxisValues offset_mm{};
+  AxisValues path_offset_mm{};
+  bool active = false;   ///< requests go somewhere: mode act or advise, and no interruption
   bool written = false;  ///< it is on the machine: mode act, and the port can write
 };
 

@@ -27,6 +27,11 @@ enum class Motion : std::uint8_t {
   spindle_wait  ///< waiting for the spindle to reach its speed
 };
 
+/// A tool is at work: an offset that moves now leaves a step in the part.
+[[nodiscard]] constexpr bool in_cut(Motion motion) noexcept {
+  return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
+}
+
 enum class Geometry : std::uint8_t {
   line,
   arc  ///< circle, helix (rise ≠ 0) or spiral (radius_end ≠ radius), any number of turns

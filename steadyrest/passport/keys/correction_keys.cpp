@@ -101,6 +101,11 @@ std::span<const Key<Envelope>> envelope_keys() noexcept {
                     "Largest axis offset ever written."},
       Key<Envelope>{"offset_slew_um_s", &Envelope::offset_slew_mm_s, 0.001, 1e6,
                     "How fast an axis offset may change."},
+      Key<Envelope>{"max_path_offset_um", &Envelope::max_path_offset_mm, 0, 10000,
+                    "Largest offset that takes the contour error away, thermal offset included; "
+                    "0 = the control takes none."},
+      Key<Envelope>{"path_offset_slew_um_s", &Envelope::path_offset_slew_mm_s, 1, 1e7,
+                    "How fast that offset may change."},
       Key<Envelope>{"stale_after_ms", &Envelope::stale_after_s, 0.1, 60000,
                     "Input older than this is not acted on."},
   };

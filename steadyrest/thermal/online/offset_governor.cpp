@@ -36,16 +36,12 @@ constexpr double kGap_s = 60.0;
 constexpr double kBeyondSpeed = 1.2;
 constexpr double kThere_mm = 1e-4;  ///< closer to the wish counts as there: a control's finest step
 
-bool feeds(Motion motion) noexcept {
-  return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
-}
-
 OffsetGovernor::Running running_of(const Frame& frame) noexcept {
   OffsetGovernor::Running drive;
   const double speed = std::abs(frame.spindle_actual_rev_s);
   drive.speed_rev_s = speed < kStands_rev_s ? 0.0 : speed;
   drive.feed_mm_s = frame.path_speed_mm_s;
-  drive.cutting = feeds(frame.motion);
+  drive.cutting = kernel::signal::in_cut(frame.motion);
   drive.coolant = frame.coolant;
   return drive;
 }
@@ -226,7 +222,7 @@ Reason OffsetGovernor::ask(const Axis& axis, const Frame& frame, bool tool_in_cu
   const double within = std::clamp(whole, -max_offset_mm_, max_offset_mm_);
   // The wish jumps to 0 on a fault; the slope makes a fade of it.
   wish = faulty == Reason::none ? within : 0.0;
-  const bool slowly = tool_in_cut || feeds(frame.motion) || faulty != Reason::none;
+  const bool slowly = tool_in_cut || kernel::signal::in_cut(frame.motion) || faulty != Reason::none;
   slope_mm_s = slowly ? slope_mm_s_ : retract_slope_mm_s_;
   if (faulty != Reason::none) {
     return faulty;

@@ -123,7 +123,7 @@ double length_of(const nc::plan::PlannedPath& path) {
 /// observes would compare nothing.
 Result<std::shared_ptr<supervisor::Supervisor>> make_supervisor(
     const Job& job, const kernel::port::Capability& capability) {
-  auto made = supervisor::Supervisor::make(job.machine, capability);
+  auto made = supervisor::Supervisor::make(job.believed ? *job.believed : job.machine, capability);
   if (!made) {
     return std::unexpected(made.error());
   }

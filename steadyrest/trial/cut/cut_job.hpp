@@ -24,6 +24,8 @@ struct Job {
   bool with_layer = false;  ///< the supervisor acts; without it nobody touches the overrides
   // Designated initialisers may leave these out.
   // NOLINTBEGIN(readability-redundant-member-init)
+  std::optional<kernel::machine::Machine> believed =
+      {};  ///< what the layer is told; empty: `machine`
   std::optional<sim::CuttingVibration::Config> cutting = {};  ///< empty: it cuts air
   std::vector<ChatterChoice> choices = {};  ///< the modulator's law for each programmed speed
   std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration

@@ -43,6 +43,7 @@ using PathPointer = std::shared_ptr<const PlannedPath>;
 struct Options {
   ProgramOptions program;
   std::string machine;
+  std::string believed;  ///< machine file for the layer alone; empty: the machine's own
   std::string report;
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
@@ -244,8 +245,9 @@ std::string put_withdrawn(Answer& answer, const Recorder& with) {
 }
 
 /// One run of the simulated machine over the whole path.
-Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
-                          const CutChatter& chatter, bool with_layer, Progress& progress) {
+Result<Recorder> cut_once(const Machine& machine, const std::optional<Machine>& believed,
+                          const PathPointer& path, const CutChatter& chatter, bool with_layer,
+                          Progress& progress) {
   // Each cut takes about half of the time.
   const double from = with_layer ? 0.5 : 0.0;
   const char* what = with_layer ? "cutting with the layer" : "cutting without the layer";
@@ -253,19 +255,41 @@ Result<Recorder> cut_once(const Machine& machine, const PathPointer& path,
       {.machine = machine,
        .path = path,
        .with_layer = with_layer,
+       .believed = believed,
        .cutting = chatter.cutting,
        .choices = chatter.choices,
        .listener = chatter.listener,
        .progress = [&](double share) { progress.update(from + share / 2, what); }});
 }
 
-Outcome run(const Options& options, Progress& progress) {
-  auto machine = read_machine(options.machine);
+/// A machine file with the command line's options.
+std::expected<Machine, Refusals> machine_from(const std::string& file, const Options& options) {
+  auto machine = read_machine(file);
+  if (machine) {
+    if (auto fault = apply(options, *machine)) {
+      return std::unexpected(Refusals{std::move(*fault)});
+    }
+  }
+  return machine;
+}
+
+/// What the layer is told of the machine; nothing where that is the machine's own file.
+std::expected<std::optional<Machine>, Refusals> believed_machine(const Options& options) {
+  if (options.believed.empty()) {
+    return std::nullopt;
+  }
+  auto machine = machine_from(options.believed, options);
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  if (auto fault = apply(options, *machine)) {
-    return refused(std::move(*fault));
+  return std::move(*machine);
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  auto machine = machine_from(options.machine, options);
+  const auto believed = believed_machine(options);
+  if (!machine || !believed) {
+    return std::unexpected(machine ? believed.error() : machine.error());
   }
   auto planned = plan(options.program, *machine);
   if (!planned) {
@@ -280,11 +304,11 @@ Outcome run(const Options& options, Progress& progress) {
   planned->warnings.insert(planned->warnings.begin(), chatter->warnings.begin(),
                            chatter->warnings.end());
   planned->warning_count += chatter->warnings.size();
-  const auto without = cut_once(*machine, path, *chatter, false, progress);
+  const auto without = cut_once(*machine, *believed, path, *chatter, false, progress);
   if (!without) {
     return refused(without.error());
   }
-  const auto with = cut_once(*machine, path, *chatter, true, progress);
+  const auto with = cut_once(*machine, *believed, path, *chatter, true, progress);
   if (!with) {
     return refused(with.error());
   }
@@ -336,6 +360,9 @@ void add_verb_cut(Session& session, Verb& verb) {
     }
     return files;
   });
+  verb.add_option("--layer-machine", options->believed,
+                  "Machine file that the layer is given instead: shows what a wrong one costs")
+      ->type_name("FILE");
   verb.add_option("--limit-um", options->limit_um,
                   "Contour error limit, overriding the machine file");
   verb.add_option("--strategy", options->strategy, "Strategy, overriding the machine file")

@@ -18,6 +18,7 @@ namespace {
 using kernel::machine::kUnlimited;
 using kernel::signal::Motion;
 using math::geometry::test::number;
+using test::kTurn;
 using test::PathMaker;
 using test::PathSegment;
 
@@ -244,6 +245,20 @@ TEST(LookAheadRing, AStateThatDoesNotFitItsIndicesIsDropped) {
   state.last = state.first + state.cell.size();
   other.restore(state);
   EXPECT_TRUE(other.empty());
+}
+
+// Taken up again within a long arc (a restart, another path): 20 turns of R = 10 mm are 1257 mm, a
+// cycle makes 48 cells of 0.23 mm. The cells must be there at once, not from the arc's start on.
+TEST(LookAhead, BeginsWithinALongArc) {
+  LookAhead ahead = unequal();
+  const auto path = PathMaker({10, 0, 0}, 60.0).arc({0, 0, 0}, 20.0 * kTurn).path();
+  const double command_mm = 700.0;
+  ahead.update(path, 0, command_mm - 2.0, command_mm, command_mm + 5.0);
+  EXPECT_LE(ahead.cell(ahead.begin()).position_mm, command_mm - 2.0);
+  EXPECT_GE(ahead.known_to_mm(), command_mm + 5.0);
+  const Cell& cell = ahead.cell(ahead.find(command_mm, ahead.begin()));
+  EXPECT_NEAR(std::hypot(cell.point_mm[0], cell.point_mm[1]), 10.0, 1e-9);
+  EXPECT_NEAR(cell.point_mm[0], 10.0 * std::cos(cell.position_mm / 10.0), 1e-6);
 }
 
 }  // namespace

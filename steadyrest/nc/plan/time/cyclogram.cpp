@@ -5,8 +5,6 @@
 
 namespace steadyrest::nc::plan {
 
-using kernel::signal::Motion;
-
 std::string_view name(Load load) noexcept {
   return load == Load::standing ? "standing" : load == Load::running ? "running" : "cutting";
 }
@@ -38,9 +36,7 @@ void Cyclogram::add(const Setpoint& setpoint, std::int64_t tool, double time_s, 
   now.seconds += period_s;
   now.path_mm += setpoint.path_speed_mm_s * period_s;
   // Rapids, dwells and probing cut nothing: they count towards the transition, not the cut.
-  const bool cuts = setpoint.motion == Motion::feed || setpoint.motion == Motion::thread ||
-                    setpoint.motion == Motion::tap;
-  if (cuts) {
+  if (kernel::signal::in_cut(setpoint.motion)) {
     now.cut_s += period_s;
     now.cut_mm += setpoint.path_speed_mm_s * period_s;
   }

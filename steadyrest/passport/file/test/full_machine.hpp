@@ -141,6 +141,8 @@ max_spindle_percent = 166
 spindle_slew_percent_s = 67
 max_offset_um = 68
 offset_slew_um_s = 69
+max_path_offset_um = 690
+path_offset_slew_um_s = 69000
 stale_after_ms = 70
 [simulation]
 seed = 71

@@ -93,5 +93,60 @@ TEST(MachineBody, OffsetsSlewFreezeInTheCutAndRampOutElsewhere) {
   EXPECT_LE(largest_step, 0.05 * 0.001 * (1.0 + 1e-9));
 }
 
+// Asked 0.5 mm, allowed 0.1 mm at 10 mm/s. When the layer dies this one ramps out within 0.2 s, in
+// the cut too: it belongs to a direction of travel that is soon another one.
+TEST(MachineBody, PathOffsetsSlewAndRampOutInTheCutToo) {
+  Machine machine = ideal_machine();
+  machine.envelope.path_offset_slew_mm_s = 10.0;
+  machine.envelope.max_path_offset_mm = 0.1;
+  MachineBody body = body_of(machine);
+  body.reset({});
+  Command command;
+  Setpoint still;
+  still.motion = kernel::signal::Motion::feed;
+  const auto go = [&](int cycles, bool alive) {
+    double largest_step = 0.0;
+    for (int i = 0; i < cycles; ++i) {
+      const double before = body.truth().command_mm[0];
+      command.heartbeat += alive ? 1U : 0U;
+      body.begin(command);
+      body.end(still);
+      largest_step = std::max(largest_step, std::abs(body.truth().command_mm[0] - before));
+    }
+    return largest_step;
+  };
+  command.path_offset_mm[0] = 0.5;
+  EXPECT_NEAR(go(100, true), 10.0 * 0.001, 1e-9);
+  EXPECT_NEAR(body.truth().command_mm[0], 0.1, 1e-12);
+  const int until_lost = static_cast<int>(machine.envelope.stale_after_s / 0.001);
+  EXPECT_NEAR(go(until_lost + 100, false), 0.1 / 0.2 * 0.001, 1e-9);
+  EXPECT_NEAR(body.truth().command_mm[0], 0.05, 0.001);
+  go(110, false);
+  EXPECT_NEAR(body.truth().command_mm[0], 0.0, 1e-12);
+}
+
+// Both offsets add; between two setpoints they run on a straight line, and the servo is told the
+// speed of that.
+TEST(MachineBody, OffsetsOfBothKindsAddUp) {
+  Machine machine = ideal_machine();
+  machine.envelope.max_path_offset_mm = 0.1;
+  machine.envelope.path_offset_slew_mm_s = 10.0;
+  machine.envelope.max_offset_mm = 0.05;
+  machine.envelope.offset_slew_mm_s = 1.0;
+  MachineBody body = body_of(machine);
+  body.reset({});
+  Command command;
+  Setpoint still;
+  command.path_offset_mm[1] = 0.08;
+  command.offset_mm[1] = -0.03;
+  for (int i = 0; i < 200; ++i) {
+    ++command.heartbeat;
+    body.begin(command);
+    body.end(still);
+  }
+  EXPECT_NEAR(body.truth().command_mm[1], 0.05, 1e-12);
+  EXPECT_NEAR(body.truth().program_mm[1], 0.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace steadyrest::sim

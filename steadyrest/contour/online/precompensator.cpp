@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <steadyrest/contour/online/precompensator.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+// The tool point is led by what the command really did up to this frame, and a copy of it one cycle
+// further by what the command will probably do: so an error of that prediction is forgotten with
+// the next frame.
+namespace steadyrest::contour::online {
+namespace {
+
+using kernel::outcome::Reason;
+using kernel::outcome::refuse;
+using kernel::signal::OffsetRequest;
+using kernel::signal::Point;
+using kernel::signal::Room;
+
+/// Of a command that is at rest: nothing moves, so the offsets may begin at their full size.
+constexpr double kStill_mm_s = 1e-6;
+
+/// The cells reach from here to the command; after a start within a long arc they do so only once
+/// enough of them have been made.
+bool covers(const LookAhead& path, double position_mm) noexcept {
+  return !path.empty() && path.cell(path.begin()).position_mm <= position_mm &&
+         path.known_to_mm() >= position_mm;
+}
+
+}  // namespace
+
+kernel::outcome::Result<Precompensator> Precompensator::make(const Config& config) {
+  if (!(config.max_offset_mm >= 0.0) || !std::isfinite(config.max_offset_mm)) {
+    return refuse("the largest path offset is " + std::to_string(config.max_offset_mm) +
+                      " mm; allowed: 0 or more",
+                  "correct max_path_offset_um in [envelope]");
+  }
+  if (!(config.fade_in_s > 0.0)) {
+    return refuse("fade_in_s is " + std::to_string(config.fade_in_s) + "; allowed: above 0",
+                  "correct fade_in_s");
+  }
+  return Precompensator(config);
+}
+
+Precompensator::Precompensator(const Config& config) noexcept : config_(config) {
+  ToolPoint::Config point{.half_backlash_mm = {}, .most_behind_mm = config.max_offset_mm};
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config.axes.size()); ++i) {
+    point.half_backlash_mm[i] = 0.5 * config.axes[i].backlash_au;
+  }
+  point_ = ToolPoint(point);
+}
+
+std::optional<ToolPoint::State> Precompensator::in_full() const noexcept {
+  const bool is_full = enabled() && state_.started && state_.share >= 1.0;
+  return is_full ? std::optional(state_.tool) : std::nullopt;
+}
+
+OffsetRequest Precompensator::update(const Input& input) noexcept {
+  OffsetRequest request{.room = Room::contour};
+  const kernel::signal::Frame& frame = input.frame;
+  if (!enabled() || !input.permitted || !covers(input.path, frame.path_position_mm)) {
+    state_ = {};
+    return request;
+  }
+  const double position_mm = frame.path_position_mm;
+  const double speed_mm_s = frame.path_speed_mm_s;
+  const bool goes_on = state_.started && input.step_s > 0.0 && position_mm >= state_.position_mm;
+  if (goes_on) {
+    point_.advance(input.path, state_.position_mm, position_mm, input.step_s, state_.tool);
+  } else {
+    const double first_mm = input.path.cell(input.path.begin()).position_mm;
+    const double behind_mm = speed_mm_s * point_.lag_s();
+    state_.tool = point_.at(input.path, std::max(first_mm, position_mm - behind_mm), speed_mm_s);
+    state_.share = 0.0;
+    state_.speed_mm_s = speed_mm_s;
+  }
+  const bool at_rest = speed_mm_s < kStill_mm_s;
+  const double more = at_rest ? 1.0 : input.step_s / config_.fade_in_s;
+  state_.share = input.active ? std::min(1.0, state_.share + more) : 0.0;
+  const double change_mm_s = speed_mm_s - state_.speed_mm_s;
+  state_.started = true;
+  state_.position_mm = position_mm;
+  state_.speed_mm_s = speed_mm_s;
+  if (!(input.step_s > 0.0)) {
+    return request;  // the length of a cycle is not known yet
+  }
+  const double next_mm = std::clamp(position_mm + (speed_mm_s + 0.5 * change_mm_s) * input.step_s,
+                                    position_mm, std::max(position_mm, input.path.known_to_mm()));
+  ToolPoint::State next = state_.tool;
+  point_.advance(input.path, position_mm, next_mm, input.step_s, next);
+  const Cell& cell = input.path.cell(input.path.find(next_mm, next.cell));
+  const Point command = on_cell(cell, next_mm - cell.position_mm);
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
+    request.offset_mm[i] = state_.share * (next.command_mm[i] - command[i]);
+  }
+  request.reason = state_.share < 1.0 ? Reason::contour_cancel_begins : Reason::contour_cancelled;
+  return request;
+}
+
+}  // namespace steadyrest::contour::online

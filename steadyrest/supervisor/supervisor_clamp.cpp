@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <steadyrest/supervisor/supervisor.hpp>
+
+// The last step before the port: requests through the envelopes into the command.
+namespace steadyrest::supervisor {
+namespace {
+
+namespace signal = kernel::signal;
+using kernel::outcome::Reason;
+using kernel::override::Channel;
+
+// Held in a thread: the wish becomes neutral and the envelope holds, since a change of feed or
+// spindle between two passes would cut a second thread beside the first.
+template <class Request>
+kernel::override::RatioEnvelope::Input channel_input(double step_s, const Request& request,
+                                                     Reason unfit, bool hold,
+                                                     const signal::OverrideState& panel) noexcept {
+  return {.step_s = step_s,
+          .ratio = hold ? 1.0 : request.ratio,
+          .reason = hold ? Reason::withdrawn_thread : request.reason,
+          .panel = panel,
+          .unfit = unfit,
+          .hold = hold};
+}
+
+// A panel that reads NaN or below 0 is shown as 100 %; the fault itself is the channel's to
+// report.
+double shown(const signal::OverrideState& panel) noexcept {
+  return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
+}
+
+/// Of an override that the machine does not have.
+// A wish that nobody can carry out must not look like one that is in force.
+template <class Request>
+Reason without_channel(const Request& request, Reason unfit) noexcept {
+  if (unfit != Reason::none) {
+    return unfit;
+  }
+  const bool wish = kernel::override::is_wish(request.ratio, request.reason);
+  return wish ? Reason::port_cannot_write : request.reason;
+}
+
+/// The fields of one override in the command.
+struct Place {
+  double& ratio;
+  std::uint32_t& code;
+  bool& masks_panel;
+  Reason& reason;
+};
+
+/// One override through its channel into the command; true when it is the panel's again. Without a
+/// channel there is a reason alone.
+template <class Request>
+bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope::Input& input,
+         const Request& wanted, const Place& place) noexcept {
+  if (!channel) {
+    place.reason = without_channel(wanted, input.unfit);
+    return true;
+  }
+  const auto out = channel->update(input);
+  place.ratio = out.ratio;
+  place.code = out.code;
+  place.masks_panel = out.masks_panel;
+  place.reason = out.reason;
+  return out.handed_back;
+}
+
+}  // namespace
+
+/// What holds without the layer: the panel's own value.
+signal::Command Supervisor::panel_command(const signal::Frame& frame) noexcept {
+  return {.feed_ratio = shown(frame.feed),
+          .feed_code = frame.feed.panel_code,
+          .spindle_ratio = shown(frame.spindle),
+          .spindle_code = frame.spindle.panel_code,
+          .offset_mm = {},
+          .feed_reason = Reason::observe_only,
+          .spindle_reason = Reason::observe_only,
+          .offset_reason = Reason::observe_only};
+}
+
+// The last step before the port. All three channels run in every cycle, also when one is unfit:
+// each slews back on its own.
+void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
+                       signal::Command& command) noexcept {
+  const bool feed_back =
+      put(feed_, channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed),
+          decisions.feed,
+          {command.feed_ratio, command.feed_code, command.feed_masks_panel, command.feed_reason});
+  const bool spindle_back =
+      put(spindle_,
+          channel_input(step_s, decisions.spindle, decisions.unfit, decisions.hold, frame.spindle),
+          decisions.spindle,
+          {command.spindle_ratio, command.spindle_code, command.spindle_masks_panel,
+           command.spindle_reason});
+  handed_back_ = feed_back && spindle_back;
+  const auto offset = offset_.update({.step_s = step_s,
+                                      .request = decisions.offset,
+                                      .unfit = decisions.unfit,
+                                      .tool_in_cut = state_.tool_in_cut});
+  command.offset_mm = offset.offset_mm;
+  // The port takes no offsets, so their limit is 0; the reason says why nothing moves.
+  const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
+  command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
+  // Heat first: the contour room gets what its limit leaves beside that.
+  const auto path = path_offset_.update({.step_s = step_s,
+                                         .request = decisions.path_offset,
+                                         .beside_mm = offset.offset_mm,
+                                         .unfit = decisions.unfit,
+                                         .tool_in_cut = state_.tool_in_cut});
+  command.path_offset_mm = path.offset_mm;
+  command.path_offset_reason = path.reason;
+  handed_back_ = handed_back_ && offset.at_zero && path.at_zero;
+}
+
+}  // namespace steadyrest::supervisor
