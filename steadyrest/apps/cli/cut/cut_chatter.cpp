@@ -170,8 +170,7 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     machine = trial::cut::with_modulator(std::move(machine));
   }
   out.cutting = {.cut = trial::vibration::cutting_of(*process, *options.depth_mm),
-                 // The grid is made once, so it must be fine enough for anything the layer may ask
-                 // for.
+                 // Made once, so the grid must be fine enough for whatever the layer may ask.
                  .slowest_rev_s = slowest * trial::cut::least_spindle_ratio(
                                                 out.choices, out.listener.has_value(), machine)};
   return out;
