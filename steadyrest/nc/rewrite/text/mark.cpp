@@ -6,6 +6,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/text/mark.hpp>
+#include <steadyrest/nc/rewrite/text/replaced_text.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
@@ -13,7 +14,6 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
-constexpr std::string_view kBegin = "STEADYREST head told ";
 constexpr std::string_view kSum = "sum";
 // A comment must not contain brackets, and a control may capitalise letters or drop blanks: any
 // character but these is written as =XX.
@@ -79,7 +79,8 @@ std::string told_as_text(const Told& one) {
   return text;
 }
 
-std::string mark_text(const Way& way, std::vector<Told> told, std::string_view ending) {
+std::string mark_text(const Way& way, std::vector<Told> told, std::string_view ending,
+                      std::string_view begin) {
   if (told.empty()) {
     return {};
   }
@@ -90,7 +91,7 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   std::string line;
   const auto put = [&] {
     if (!line.empty()) {
-      text += fmt::format("{}{}{}{}{}", sinumerik ? ";" : "(", kBegin, line, sinumerik ? "" : ")",
+      text += fmt::format("{}{}{}{}{}", sinumerik ? ";" : "(", begin, line, sinumerik ? "" : ")",
                           ending);
       line.clear();
     }
@@ -107,39 +108,72 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   return text;
 }
 
-kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed) {
+bool is_mark(std::string_view line, std::string_view begin) noexcept {
+  const bool round = line.starts_with('(') && line.ends_with(')');
+  return (round || line.starts_with(';')) && line.substr(1).starts_with(begin);
+}
+
+namespace {
+
+/// The mark of a file, and whether there are lines that need one.
+struct Found {
+  std::vector<Told> told;
+  bool needed = false;
+};
+
+template <class Needs>
+kernel::outcome::Result<Found> find_mark(const std::string& changed, std::string_view begin,
+                                         Needs&& needs) {
   auto lines = SourceLines::open(changed);
   if (!lines) {
     return std::unexpected(lines.error());
   }
-  std::vector<Told> told;
-  bool inserted = false;
+  Found found;
   while (lines->next()) {
     std::string_view line = lines->line();
-    const bool round = line.starts_with('(') && line.ends_with(')');
-    const bool is_mark = (round || line.starts_with(';')) && line.substr(1).starts_with(kBegin);
-    if (is_mark) {
-      line.remove_prefix(1 + kBegin.size());
-      line.remove_suffix(round ? 1 : 0);
-      read_line(line, told);
-    } else if (!told.empty()) {
+    found.needed = found.needed || needs(line);
+    if (is_mark(line, begin)) {
+      line.remove_suffix(line.starts_with('(') ? 1 : 0);
+      line.remove_prefix(1 + begin.size());
+      read_line(line, found.told);
+      found.needed = true;
+    } else if (!found.told.empty()) {
       // A second mark further down would be another program's.
       break;  // it is in one piece
     }
-    inserted = inserted || is_mark || is_inserted(lines->line());
   }
+  return found;
+}
+
+/// The options without the sum that covers them.
+kernel::outcome::Result<std::vector<Told>> checked(const std::string& changed, Found found) {
   Told sum;
-  if (!told.empty()) {
-    sum = std::move(told.back());
-    told.pop_back();
+  if (!found.told.empty()) {
+    sum = std::move(found.told.back());
+    found.told.pop_back();
   }
-  // A program without inserted lines needs no mark.
-  if (inserted && (sum.name != kSum || sum.value != sum_of(told))) {
+  if (found.needed && (sum.name != kSum || sum.value != sum_of(found.told))) {
     return kernel::outcome::refuse(
         changed, "the record in its head of how it was made is missing or changed",
         std::string(kAgainstOtherLines));
   }
-  return told;
+  return std::move(found.told);
+}
+
+}  // namespace
+
+// A program without inserted lines needs no mark.
+kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed) {
+  auto found = find_mark(changed, kInsertedMark, [](std::string_view line) {
+    return is_inserted(line) && !is_mark(line, kReplacedMark) && !is_new(line) && !read_was(line);
+  });
+  return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
+}
+
+kernel::outcome::Result<std::vector<Told>> read_replaced_mark(const std::string& changed) {
+  auto found = find_mark(changed, kReplacedMark,
+                         [](std::string_view line) { return is_new(line) || read_was(line); });
+  return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -19,16 +19,26 @@ struct Told {
   bool operator==(const Told&) const = default;
 };
 
+/// How a mark begins: of a program with corrections inserted, and of one with blocks replaced. A
+/// program may have both.
+inline constexpr std::string_view kInsertedMark = "STEADYREST head told ";
+inline constexpr std::string_view kReplacedMark = "STEADYREST head made ";
+
 /// Longest comment that every control reads: LinuxCNC's 255 less what surrounds it.
 inline constexpr std::size_t kLongestTold = 200;
 
 /// As written: anything but a letter, a digit or one of `-_./+,:` becomes =XX; a % would end the
 /// program on a fanuc.
 [[nodiscard]] std::string told_as_text(const Told& one);
-[[nodiscard]] std::string mark_text(const Way& way, std::vector<Told> told,
-                                    std::string_view ending);
+[[nodiscard]] std::string mark_text(const Way& way, std::vector<Told> told, std::string_view ending,
+                                    std::string_view begin = kInsertedMark);
 /// Empty for a program without inserted lines. Refused: an altered mark, and inserted lines without
 /// one, as written by earlier versions.
 [[nodiscard]] kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed);
+/// The record of a program with blocks replaced; empty for one without.
+[[nodiscard]] kernel::outcome::Result<std::vector<Told>> read_replaced_mark(
+    const std::string& changed);
+/// The line is part of such a mark.
+[[nodiscard]] bool is_mark(std::string_view line, std::string_view begin) noexcept;
 
 }  // namespace steadyrest::nc::rewrite

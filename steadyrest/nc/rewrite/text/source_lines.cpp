@@ -16,6 +16,10 @@ Result<SourceLines> SourceLines::open(const std::string& path) {
   return SourceLines(std::move(*source), path);
 }
 
+SourceLines SourceLines::of(std::string_view text, std::string path) {
+  return {read::LineSource::from_text(text), std::move(path)};
+}
+
 // A program must be read to its end: otherwise half a file would be proved as if it were whole.
 Result<void> SourceLines::whole() const {
   if (status_ == read::LineSource::Status::end) {

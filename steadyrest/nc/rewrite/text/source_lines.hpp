@@ -14,6 +14,8 @@ namespace steadyrest::nc::rewrite {
 class SourceLines {
  public:
   static kernel::outcome::Result<SourceLines> open(const std::string& path);
+  /// Of a text that outlives it; `path` names it in refusals.
+  static SourceLines of(std::string_view text, std::string path);
 
   bool next() noexcept {
     status_ = source_.next();

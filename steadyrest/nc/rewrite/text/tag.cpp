@@ -3,6 +3,8 @@
 
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/nc/rewrite/text/mark.hpp>
+#include <steadyrest/nc/rewrite/text/put_back.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 #include <steadyrest/nc/rewrite/text/written_lines.hpp>
@@ -110,7 +112,17 @@ constexpr std::string_view kAgainstOthers =
 }  // namespace
 
 kernel::outcome::Result<std::size_t> strip(const std::string& program, const std::string& output) {
-  auto lines = SourceLines::open(program);
+  // Only a program with replaced blocks is held in memory.
+  const auto replaced = read_replaced_mark(program);
+  auto back = !replaced           ? std::unexpected(replaced.error())
+              : replaced->empty() ? kernel::outcome::Result<PutBack>{}
+                                  : put_back(program);
+  if (!back) {
+    return std::unexpected(back.error());
+  }
+  auto lines = replaced->empty()
+                   ? SourceLines::open(program)
+                   : kernel::outcome::Result<SourceLines>(SourceLines::of(back->text, program));
   if (!lines) {
     return std::unexpected(lines.error());
   }
@@ -152,7 +164,7 @@ kernel::outcome::Result<std::size_t> strip(const std::string& program, const std
   if (auto written = writer->commit(); !written) {
     return std::unexpected(written.error());
   }
-  return removed;
+  return removed + back->removed;
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -33,9 +33,10 @@ inline constexpr std::string_view kOwnNames = "#<_steadyrest";
 /// compensation. Comments do not count.
 [[nodiscard]] bool names_variable(std::string_view line, std::string_view upper_begin) noexcept;
 
-/// Writes `program` without its inserted lines to `output`, all other bytes unchanged. Returns the
-/// number of lines removed. Refused with the line, and nothing written: a line with the tag that
-/// compensate() does not write (WrittenLines), and the tag in a program without a head.
+/// Writes `program` without its inserted lines to `output`, replaced lines put back (put_back.hpp),
+/// all other bytes unchanged. Returns the number of lines removed. Refused with the line, and
+/// nothing written: a line with the tag that compensate() does not write (WrittenLines), and the
+/// tag in a program without a head.
 [[nodiscard]] kernel::outcome::Result<std::size_t> strip(const std::string& program,
                                                          const std::string& output);
 

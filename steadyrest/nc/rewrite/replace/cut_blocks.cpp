@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/interpret/state/step.hpp>
+#include <steadyrest/nc/interpret/state/words.hpp>
+#include <steadyrest/nc/rewrite/prove/compare.hpp>
+#include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
+#include <steadyrest/nc/rewrite/text/replaced_text.hpp>
+#include <steadyrest/nc/rewrite/text/tag.hpp>
+#include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
+#include <steadyrest/nc/rewrite/walk/survey.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using interpret::Move;
+using interpret::MoveKind;
+
+bool is_motion_code(int code) noexcept {
+  return (code >= interpret::g::kRapid && code <= interpret::g::kArcCounterClockwise) ||
+         code >= interpret::g::kThread;
+}
+
+/// A word that a line or an arc may have without saying anything else.
+bool is_plain(const read::Word& word) {
+  constexpr std::string_view kLetters = "NXYZIJKRFP";
+  if (word.letter == 'G') {
+    const int code = interpret::g::code_of(word.value);
+    return code == interpret::g::kLinear || code == interpret::g::kArcClockwise ||
+           code == interpret::g::kArcCounterClockwise;
+  }
+  const bool arc_name = word.name == "CR" || word.name == "TURN";
+  return arc_name || (word.letter != 0 && kLetters.find(word.letter) != std::string_view::npos);
+}
+
+/// The value is not a number as it is written: X#1, X[1+2], X=R1.
+bool is_calculated(const read::Word& word) {
+  constexpr std::string_view kNumber = "0123456789.+- \t=()";
+  std::string_view value = word.text;
+  value.remove_prefix(std::min(value.size(), std::max<std::size_t>(word.name.size(), 1)));
+  if (word.qualifier != read::Qualifier::none) {
+    const std::size_t bracket = value.find('(');  // AC(…), IC(…)
+    value.remove_prefix(bracket == std::string_view::npos ? 0 : bracket);
+  }
+  return word.calculated || value.find_first_not_of(kNumber) != std::string_view::npos;
+}
+
+/// What the words of a block say of motion and feed.
+struct Says {
+  bool motion = false;
+  bool feed = false;
+  bool plain = true;
+  bool calculated = false;
+};
+
+Says says(const read::Block& block) {
+  Says out;
+  for (const read::Word& word : block.words()) {
+    out.motion =
+        out.motion || (word.letter == 'G' && is_motion_code(interpret::g::code_of(word.value)));
+    out.feed = out.feed || word.letter == 'F';
+    out.plain = out.plain && is_plain(word);
+    out.calculated = out.calculated || is_calculated(word);
+  }
+  return out;
+}
+
+bool turns_others(const Move& move) {
+  return !std::equal(move.start.begin() + 3, move.start.end(), move.end.begin() + 3);
+}
+
+/// Runs a program and notes what cuts.
+class CutSurvey {
+ public:
+  CutSurvey(interpret::ProgramRun& run, KeptMoves& kept, read::Dialect dialect)
+      : run_(run), kept_(kept), dialect_(dialect) {}
+
+  void line(std::string_view text) {
+    const std::uint32_t number = run_.line();
+    const bool main = run_.in_main();
+    const bool again = main && number < seen_.size() && seen_[number];
+    if (main) {
+      marks_.mark(number, seen_, false);
+    }
+    const Says said = says(run_.block());
+    const bool cuts = std::ranges::any_of(kept_.moves, [](const Move& move) {
+      return move.kind == MoveKind::linear || move.kind == MoveKind::arc ||
+             move.kind == MoveKind::spline;
+    });
+    inherit(said, !kept_.moves.empty(), cuts);
+    if (cuts && main && !again && !is_inserted(text)) {
+      add(number, said, text);
+    }
+    before_ = modes_of(run_.state());
+    kept_.clear();
+  }
+
+  CutBlocks take() {
+    for (CutBlock& block : found_.blocks) {
+      const bool arc = block.motion != interpret::g::kLinear;
+      if (marks_.is_repeated(block.line)) {
+        block.stays = Stays::repeated;
+      } else if (block.stays == Stays::free && block.inherited && arc) {
+        block.stays = Stays::motion_needed;
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void inherit(const Says& said, bool moves, bool cuts) {
+    if (found_.blocks.empty()) {
+      return;
+    }
+    CutBlock& last = found_.blocks.back();
+    motion_open_ = motion_open_ && !said.motion;
+    feed_open_ = feed_open_ && !said.feed;
+    last.inherited = last.inherited || (moves && motion_open_);
+    last.feed_inherited = last.feed_inherited || (cuts && feed_open_);
+  }
+
+  void add(std::uint32_t number, const Says& said, std::string_view text) {
+    const interpret::State& state = run_.state();
+    const Move& move = kept_.moves.front();
+    CutBlock block;
+    block.line = number;
+    block.motion = state.motion;
+    block.feed_mode = state.feed_mode;
+    block.feed = block.feed_mode == interpret::FeedMode::per_minute
+                     ? kernel::units::mm_min_from_mm_s(state.feed_mm_s) / state.feed_unit_mm
+                     : state.feed_mm_s / state.feed_unit_mm;
+    block.unit_mm = state.unit_mm;
+    block.incremental = state.incremental;
+    block.centre_absolute = state.centre_absolute;
+    block.plane = state.plane;
+    block.rotation_deg = move.rotation_deg;
+    const interpret::Axes start = machine_of(move, move.start);
+    const interpret::Axes end = machine_of(move, move.end);
+    for (std::size_t i = 0; i < 3; ++i) {
+      block.offset_mm[i] = move.offset[i];
+      block.start_mm[i] = start[i];
+      block.end_mm[i] = end[i];
+    }
+    block.stays = judge(said, text);
+    found_.blocks.push_back(block);
+    motion_open_ = true;
+    feed_open_ = true;
+  }
+
+  Stays judge(const Says& said, std::string_view text) const {
+    const interpret::State& state = run_.state();
+    const Move& move = kept_.moves.front();
+    Modes after = modes_of(state);
+    after.motion = before_.motion;
+    after.feed_mm_s = before_.feed_mm_s;
+    if (!run_.at_top()) {
+      return Stays::repeated;
+    }
+    if (run_.block().deleted()) {
+      return Stays::switchable;
+    }
+    if (state.cutter_side != 0 || before_.cutter_side != 0) {
+      return Stays::compensated;
+    }
+    if (kept_.moves.size() != 1 || (move.kind != MoveKind::linear && move.kind != MoveKind::arc)) {
+      return Stays::spline;
+    }
+    if (said.calculated) {
+      return Stays::calculated;
+    }
+    if (!said.plain || !kept_.events.empty() || after != before_) {
+      return Stays::more_words;
+    }
+    if (state.feed_mode == interpret::FeedMode::inverse_time) {
+      return Stays::feed_mode;
+    }
+    if (state.diameter) {
+      return Stays::diameter;
+    }
+    if (turns_others(move)) {
+      return Stays::rotary;
+    }
+    if (move.override_locked) {
+      return Stays::locked;
+    }
+    return too_long_to_keep(dialect_, text) ? Stays::too_long : Stays::free;
+  }
+
+  interpret::ProgramRun& run_;
+  KeptMoves& kept_;
+  read::Dialect dialect_;
+  CutBlocks found_;
+  Modes before_;
+  Survey marks_;  ///< the lines executed twice
+  std::vector<bool> seen_;
+  bool motion_open_ = false;  ///< no motion word since the last block found
+  bool feed_open_ = false;
+};
+
+}  // namespace
+
+std::string_view sentence(Stays stays) noexcept {
+  switch (stays) {
+    case Stays::free:
+      return "it may be replaced";
+    case Stays::repeated:
+      return "it is in a subprogram, a loop or a condition, or is executed more than once";
+    case Stays::switchable:
+      return "the operator can skip it (block delete)";
+    case Stays::calculated:
+      return "its words hold parameters or expressions";
+    case Stays::more_words:
+      return "it does more than cut along a line or an arc";
+    case Stays::feed_mode:
+      return "its feed is a time (G93)";
+    case Stays::compensated:
+      return "cutter radius compensation is on";
+    case Stays::diameter:
+      return "X is a diameter";
+    case Stays::rotary:
+      return "an axis beyond X, Y and Z moves";
+    case Stays::spline:
+      return "it is a spline or a canned cycle";
+    case Stays::locked:
+      return "no feed override acts on it";
+    case Stays::too_long:
+      return "the line is too long to be kept as a comment";
+    case Stays::motion_needed:
+      return "the next block takes its motion word from it";
+  }
+  return {};
+}
+
+const CutBlock* CutBlocks::find(std::uint32_t line) const noexcept {
+  const auto found = std::ranges::lower_bound(blocks, line, {}, &CutBlock::line);
+  return found != blocks.end() && found->line == line ? &*found : nullptr;
+}
+
+kernel::outcome::Result<CutBlocks> cut_blocks(const std::string& path,
+                                              const interpret::Config& config) {
+  auto source = read::LineSource::open(path);
+  if (!source) {
+    return std::unexpected(source.error());
+  }
+  KeptMoves kept;
+  auto run = interpret::ProgramRun::make(*source, config, kept);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  CutSurvey survey(*run, kept, config.dialect);
+  while (run->step()) {
+    survey.line(source->line());
+  }
+  if (const auto report = run->take(); !report.refused.empty()) {
+    return std::unexpected(interpret::first_refusal(report, path));
+  }
+  CutBlocks found = survey.take();
+  std::ranges::stable_sort(found.blocks, {}, &CutBlock::line);
+  return found;
+}
+
+}  // namespace steadyrest::nc::rewrite

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
+
+namespace steadyrest::nc::rewrite {
+
+/// Why a block that cuts must stay as it is written.
+enum class Stays : std::uint8_t {
+  free,           ///< it may be replaced
+  repeated,       ///< it is in a subprogram, a condition or a loop, or is executed twice
+  switchable,     ///< the operator can skip it (block delete)
+  calculated,     ///< its words hold parameters or expressions
+  more_words,     ///< it does more than move along a line or an arc
+  feed_mode,      ///< its feed is a time (G93)
+  compensated,    ///< cutter radius compensation is on
+  diameter,       ///< X is a diameter
+  rotary,         ///< an axis beyond X, Y, Z moves
+  spline,         ///< a spline, a drilling cycle, a thread
+  locked,         ///< no override acts: tapping, threading, M49
+  too_long,       ///< the comment that keeps the line would not fit into a block
+  motion_needed,  ///< the next block takes its motion word from it
+};
+/// The reason in words: "it is executed more than once".
+[[nodiscard]] std::string_view sentence(Stays stays) noexcept;
+
+/// A block that cuts, and what must be known to write other blocks in its place.
+struct CutBlock {
+  std::uint32_t line = 0;
+  Stays stays = Stays::free;
+  bool inherited = false;       ///< the next block without a motion word takes this one's
+  bool feed_inherited = false;  ///< the next block that cuts without F takes this one's
+  int motion = 0;               ///< G code times ten that it leaves in force
+  interpret::FeedMode feed_mode = interpret::FeedMode::per_minute;
+  double feed = 0.0;     ///< F in program units
+  double unit_mm = 1.0;  ///< of positions
+  bool incremental = false;
+  bool centre_absolute = false;
+  interpret::Plane plane = interpret::Plane::xy;
+  std::array<double, 3> offset_mm{};  ///< machine = turned work position + offset
+  double rotation_deg = 0.0;
+  std::array<double, 3> start_mm{};  ///< machine
+  std::array<double, 3> end_mm{};
+};
+
+/// The blocks of a program that cut, in the order of their lines.
+struct CutBlocks {
+  std::vector<CutBlock> blocks;
+  /// None when the line does not cut.
+  [[nodiscard]] const CutBlock* find(std::uint32_t line) const noexcept;
+};
+
+/// Runs the program once. Lines that program compensate has inserted are no cuts. Refuses what the
+/// interpreter refuses.
+[[nodiscard]] kernel::outcome::Result<CutBlocks> cut_blocks(const std::string& path,
+                                                            const interpret::Config& config);
+
+}  // namespace steadyrest::nc::rewrite
