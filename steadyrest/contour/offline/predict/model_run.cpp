@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/contour/offline/predict/model_run.hpp>
+#include <steadyrest/contour/online/axis_step.hpp>
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/plan/time/interpolator.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+namespace geometry = math::geometry;
+using kernel::signal::Motion;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+using nc::plan::Setpoint;
+using online::AxisStep;
+
+constexpr double kSampleOfLag = 0.1;  ///< between two samples, in 1/k
+
+/// Three axes that follow their commands.
+class Axes {
+ public:
+  Axes(const ServoModels& model, double period_s) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      step_[i] = AxisStep::of(model[i], period_s);
+    }
+  }
+
+  /// One period with these mean velocities and their change since the period before.
+  void step(const Point& mean_mm_s, const Point& change_mm_s) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const AxisStep& s = step_[i];
+      const double e = state_.error_mm[i];
+      const double w = state_.velocity_mm_s[i];
+      state_.error_mm[i] =
+          s.ee * e + s.ew * w + s.e_mean * mean_mm_s[i] + s.e_change * change_mm_s[i];
+      state_.velocity_mm_s[i] =
+          s.we * e + s.ww * w + s.w_mean * mean_mm_s[i] + s.w_change * change_mm_s[i];
+    }
+  }
+  [[nodiscard]] Point tool_mm(const Point& command_mm) const noexcept {
+    return geometry::subtract(command_mm, state_.error_mm);
+  }
+
+ private:
+  std::array<AxisStep, 3> step_{};
+  online::ServoState state_;
+};
+
+class Runner {
+ public:
+  Runner(const ModelRun& run, online::ContourError contour)
+      : run_(run),
+        period_s_(run.machine.control.interpolator_period_s),
+        every_(static_cast<std::size_t>(
+            std::max(1.0, std::floor(kSampleOfLag / softest_gain_1_s(run.model) / period_s_)))),
+        contour_(contour),
+        axes_(run.model, period_s_),
+        other_error_mm_(run.others.size()) {
+    for (const ServoModels& other : run.others) {
+      others_.emplace_back(other, period_s_);
+    }
+  }
+
+  void setpoint(const Setpoint& s, const std::function<void(const ModelSample&)>& on_sample) {
+    const Point command = {s.position[0], s.position[1], s.position[2]};
+    if (count_ == 0) {
+      before_ = command;
+    }
+    const Point mean = geometry::scale(geometry::subtract(command, before_), 1.0 / period_s_);
+    const Point change = geometry::subtract(mean, mean_);
+    axes_.step(mean, change);
+    for (Axes& other : others_) {
+      other.step(mean, change);
+    }
+    before_ = command;
+    mean_ = mean;
+    ++count_;
+    if (count_ % every_ == 0) {
+      sample(s, command, on_sample);
+    }
+  }
+  [[nodiscard]] double time_s() const noexcept { return static_cast<double>(count_) * period_s_; }
+
+ private:
+  void sample(const Setpoint& s, const Point& command,
+              const std::function<void(const ModelSample&)>& on_sample) {
+    const PathSegment& segment = run_.path.segments[s.path_index];
+    const double share =
+        segment.length_mm > 0.0
+            ? std::clamp((s.path_position_mm - segment.position_mm) / segment.length_mm, 0.0, 1.0)
+            : 0.0;
+    const double start = run_.map.start_mm[s.path_index];
+    progress_mm_ = start + share * (run_.map.end_mm[s.path_index] - start);
+    const auto& original = run_.original.segments;
+    const auto ends_before = [&](std::size_t i) {
+      return i + 1 < original.size() &&
+             original[i].position_mm + original[i].length_mm < progress_mm_;
+    };
+    while (ends_before(index_)) {
+      ++index_;
+    }
+    while (index_ > 0 && original[index_].position_mm > progress_mm_) {
+      --index_;
+    }
+    const auto error = contour_.update({.time_s = time_s(),
+                                        .command_mm = command,
+                                        .actual_mm = axes_.tool_mm(command),
+                                        .path = original,
+                                        .path_index = index_,
+                                        .path_position_mm = progress_mm_,
+                                        .path_speed_mm_s = s.path_speed_mm_s});
+    for (std::size_t i = 0; i < others_.size(); ++i) {
+      const Point off = geometry::subtract(others_[i].tool_mm(command), error.foot_mm);
+      const Point across =
+          geometry::add_scaled(off, error.tangent, -geometry::dot(off, error.tangent));
+      other_error_mm_[i] = geometry::norm(across);
+    }
+    if (error.valid) {
+      on_sample({.time_s = time_s(),
+                 .command_mm_s = s.path_speed_mm_s,
+                 .progress_mm = progress_mm_,
+                 .foot_mm = error.foot_position_mm,
+                 .error_mm = error.error_mm,
+                 .line = s.line,
+                 .segment = s.path_index,
+                 .cuts = s.motion == Motion::feed,
+                 .other_error_mm = other_error_mm_});
+    }
+  }
+
+  const ModelRun& run_;
+  double period_s_;
+  std::size_t every_;
+  online::ContourError contour_;
+  Axes axes_;
+  std::vector<Axes> others_;
+  std::vector<double> other_error_mm_;
+  std::size_t count_ = 0;
+  std::size_t index_ = 0;  ///< segment of the original
+  double progress_mm_ = 0.0;
+  Point before_{};
+  Point mean_{};
+};
+
+}  // namespace
+
+ServoModels servo_models(std::span<const kernel::machine::Axis> axes) {
+  ServoModels models{};
+  double stiffest = 0.0;
+  for (const kernel::machine::Axis& axis : axes.first(std::min<std::size_t>(3, axes.size()))) {
+    stiffest = std::max(stiffest, axis.servo_gain_1_s);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    models[i] = {.gain_1_s = stiffest > 0.0 ? stiffest : online::AxisModel{}.gain_1_s};
+    if (i < axes.size()) {
+      models[i] = {.gain_1_s = axes[i].servo_gain_1_s,
+                   .feed_forward = axes[i].feed_forward,
+                   .velocity_lag_s = axes[i].velocity_lag_s};
+    }
+  }
+  return models;
+}
+
+double softest_gain_1_s(const ServoModels& models) noexcept {
+  return std::min({models[0].gain_1_s, models[1].gain_1_s, models[2].gain_1_s});
+}
+
+PathMap same_path(const nc::plan::PlannedPath& path) {
+  PathMap map;
+  map.start_mm.reserve(path.segments.size());
+  map.end_mm.reserve(path.segments.size());
+  for (const PathSegment& segment : path.segments) {
+    map.start_mm.push_back(segment.position_mm);
+    map.end_mm.push_back(segment.position_mm + segment.length_mm);
+  }
+  return map;
+}
+
+kernel::outcome::Result<double> run_model(
+    const ModelRun& run, const std::function<void(const ModelSample&)>& on_sample) {
+  if (run.path.segments.empty() || run.original.segments.empty()) {
+    return 0.0;
+  }
+  auto interpolator = nc::plan::Interpolator::make(run.machine, nc::plan::whole(run.path));
+  if (!interpolator) {
+    return std::unexpected(interpolator.error());
+  }
+  online::ContourError::Config config;
+  config.servo_gain_1_s = std::clamp(softest_gain_1_s(run.model), 1.0, 1000.0);
+  auto contour = online::ContourError::make(config);
+  if (!contour) {
+    return std::unexpected(contour.error());
+  }
+  Runner runner(run, *contour);
+  const double reach =
+      run.machine.spindle.acceleration_rev_s2 * run.machine.control.interpolator_period_s;
+  double spindle_rev_s = 0.0;
+  for (;;) {
+    const Setpoint s = interpolator->update({.spindle_actual_rev_s = spindle_rev_s});
+    if (s.finished) {
+      return runner.time_s();
+    }
+    spindle_rev_s += std::clamp(s.spindle_rev_s - spindle_rev_s, -reach, reach);
+    runner.setpoint(s, on_sample);
+  }
+}
+
+}  // namespace steadyrest::contour::offline
