@@ -2,7 +2,7 @@
 // The page of `motion bench`: how good each estimator is, and whether the requirement can be met.
 import { element, onChoice, put } from '../frame/dom';
 import { buttons, escapeHtml, section } from '../frame/html';
-import { digits, heldPercent } from '../frame/numbers';
+import { counted, digits, heldPercent } from '../frame/numbers';
 import { type Cell, numeric, table, valued } from '../frame/table';
 import type { Term, View } from '../frame/view';
 import { panels, plot } from '../plot/plot';
@@ -84,7 +84,7 @@ function verdict(bench: Bench): string {
       return `In scene ${escapeHtml(scene)}, without lag, ${escapeHtml(label(ours))} has an RMS error of ${error(ours)}; the difference of counts has ${error(plain)}.`;
     }
   }
-  return `${bench.rows.length} results: every estimator in every scene.`;
+  return `${counted(bench.rows.length, 'result', 'results')}: every estimator in every scene.`;
 }
 
 export function benchView(bench: Bench): View {
