@@ -68,6 +68,11 @@ bool bracketed(std::string_view field) {
                               (field.front() == '(' && field.back() == ')'));
 }
 
+/// Every bracket that opens in it closes in it: `((m/s²)/N)`, but not `(m/s²)/N)`.
+bool balanced(std::string_view text, char open, char close) {
+  return std::ranges::count(text, open) == std::ranges::count(text, close);
+}
+
 }  // namespace
 
 std::optional<std::size_t> Head::place(std::string_view wanted) const {
@@ -116,7 +121,9 @@ std::string name_of(std::string_view field) {
   for (std::size_t at = field.rfind(open); at != std::string_view::npos && at > 0;
        at = field.rfind(open, at - 1)) {
     const std::string name(trimmed(field.substr(0, at)));
-    if (const std::string unit = unit_of(field.substr(at)); !unit.empty()) {
+    const std::string_view last = field.substr(at);
+    const std::string unit = balanced(last, open, close) ? unit_of(last) : std::string();
+    if (!unit.empty()) {
       return unit == "1" ? name : name + "_" + unit;
     }
   }
