@@ -17,13 +17,30 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(UnitOf, IsOneFormForEverySpelling) {
-  const std::pair<std::string_view, std::string_view> cases[] = {
-      {"[mm]", "mm"},       {"(mm)", "mm"},          {"mm", "mm"},          {"MM", "mm"},
-      {"[µm]", "um"},       {"\xCE\xBCm", "um"},     {"microns", "um"},     {"[°C]", "c"},
-      {"degC", "c"},        {"Celsius", "c"},        {"[1/min]", "rpm"},    {"U/min", "rpm"},
-      {"min-1", "rpm"},     {"rev/min", "rpm"},      {"m/s^2", "m/s2"},     {"m/s²", "m/s2"},
-      {"((m/s²)/N)", "m/s2/n"}, {"[ s ]", "s"},      {"sec", "s"},          {"\"[mm]\"", "mm"},
-      {"[%]", "1"},         {"-", "1"},              {"counts", "1"},       {"mm/min", "mm/min"}};
+  const std::pair<std::string_view, std::string_view> cases[] = {{"[mm]", "mm"},
+                                                                 {"(mm)", "mm"},
+                                                                 {"mm", "mm"},
+                                                                 {"MM", "mm"},
+                                                                 {"[µm]", "um"},
+                                                                 {"\xCE\xBCm", "um"},
+                                                                 {"microns", "um"},
+                                                                 {"[°C]", "c"},
+                                                                 {"degC", "c"},
+                                                                 {"Celsius", "c"},
+                                                                 {"[1/min]", "rpm"},
+                                                                 {"U/min", "rpm"},
+                                                                 {"min-1", "rpm"},
+                                                                 {"rev/min", "rpm"},
+                                                                 {"m/s^2", "m/s2"},
+                                                                 {"m/s²", "m/s2"},
+                                                                 {"((m/s²)/N)", "m/s2/n"},
+                                                                 {"[ s ]", "s"},
+                                                                 {"sec", "s"},
+                                                                 {"\"[mm]\"", "mm"},
+                                                                 {"[%]", "1"},
+                                                                 {"-", "1"},
+                                                                 {"counts", "1"},
+                                                                 {"mm/min", "mm/min"}};
   for (const auto& [written, unit] : cases) {
     EXPECT_EQ(unit_of(written), unit) << written;
   }

@@ -59,8 +59,8 @@ TEST(MatrixExponential, OfADampedModeIsTheTextbooksResponse) {
   const double decay = std::exp(-kZeta * kOmega * kStep_s);
   const double c = std::cos(damped * kStep_s);
   const double s = std::sin(damped * kStep_s);
-  const Matrix2 step = exponential(
-      {0, kStep_s, -kOmega * kOmega * kStep_s, -2.0 * kZeta * kOmega * kStep_s});
+  const Matrix2 step =
+      exponential({0, kStep_s, -kOmega * kOmega * kStep_s, -2.0 * kZeta * kOmega * kStep_s});
   const double relative = rounding(kOmega * kOmega * kStep_s);  // 3·10⁻¹²
   EXPECT_NEAR(step.xx, decay * (c + kZeta * kOmega / damped * s), relative);
   EXPECT_NEAR(step.xv, decay * s / damped, relative / damped);

@@ -78,10 +78,10 @@ TEST_F(TextOfAPart, MovesTheAxisByTheSumsOfThePlan) {
   const Trace original = trace_of(path);
   nc::rewrite::Plan plan;
   plan.total_s = original.total_s;
-  plan.axes.push_back(
-      {.letter = 'Z',
-       .index = 2,
-       .steps = {{.time_s = 65.0, .displacement_um = 10.0}, {.time_s = 130.0, .displacement_um = 25.0}}});
+  plan.axes.push_back({.letter = 'Z',
+                       .index = 2,
+                       .steps = {{.time_s = 65.0, .displacement_um = 10.0},
+                                 {.time_s = 130.0, .displacement_um = 25.0}}});
   const auto shifted = shifted_program(path, original, plan, config_, machine_, {});
   ASSERT_TRUE(shifted) << shifted.error().what;
   EXPECT_GE(shifted->insertions, 2U);

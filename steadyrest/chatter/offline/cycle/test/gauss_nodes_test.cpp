@@ -45,9 +45,9 @@ TEST(GaussNodes, IntegrateToDegreeTwoNMinusOneAndNoFurther) {
     }
     if (n <= 4) {
       const auto next = [n](double x) { return std::pow(x, 2 * n); };
-      EXPECT_GT(
-          std::abs(nodes.weight.dot(at_nodes(nodes, next)) - 1.0 / (2.0 * static_cast<double>(n) + 1)),
-          1e-6);
+      EXPECT_GT(std::abs(nodes.weight.dot(at_nodes(nodes, next)) -
+                         1.0 / (2.0 * static_cast<double>(n) + 1)),
+                1e-6);
     }
   }
 }

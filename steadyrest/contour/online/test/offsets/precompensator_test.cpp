@@ -36,7 +36,8 @@ Precompensator::Config allowing(double max_offset_mm, double backlash_mm = 0.0) 
 /// A machine whose command runs along a path, with the offsets allowed.
 class Travel {
  public:
-  explicit Travel(std::vector<PathSegment> path, const Precompensator::Config& config = allowing(0.5))
+  explicit Travel(std::vector<PathSegment> path,
+                  const Precompensator::Config& config = allowing(0.5))
       : offsets(Precompensator::make(config).value()),
         path_(std::move(path)),
         ahead_(test::mill().axes, kernel::machine::kUnlimited, 3.0) {
@@ -103,8 +104,7 @@ TEST(Precompensator, OnACircleAsksForTheInverseOfTheServo) {
   // The offset acts with the next command.
   const double command_rad = (run.frame.path_position_mm + kSpeed_mm_s * kFrame_s) / kRadius_mm;
   const std::complex<double> tool = std::polar(kRadius_mm, command_rad - x);
-  const std::complex<double> offset =
-      tool * (std::complex<double>(1.0, x) - std::polar(1.0, x));
+  const std::complex<double> offset = tool * (std::complex<double>(1.0, x) - std::polar(1.0, x));
   EXPECT_NEAR(request.offset_mm[0], offset.real(), 1e-4);
   EXPECT_NEAR(request.offset_mm[1], offset.imag(), 1e-4);
   EXPECT_NEAR(size(request), 0.5 * x * x * kRadius_mm, 0.001);  // 32 µm: no small thing

@@ -29,16 +29,15 @@ void expect_border(const Neighbours& pair) {
 // RS274/NGC: two G words that both use the axis words are an error; so are axis words that nobody
 // uses.
 TEST(BlockCheck, AxisWordsHaveExactlyOneUser) {
-  const Neighbours cases[] = {
-      {"two_users_of_axis_words", "G1 G92 X5", "G92 X5"},
-      {"two_users_of_axis_words", "G0 G28 Z10", "G28 Z10"},
-      {"two_users_of_axis_words", "G1 G10 L2 P1 X5", "G10 L2 P1 X5"},
-      {"axis_words_with_g80", "G80 X5", "G80"},
-      {"no_motion_mode", "G80\nX5", "G80\nG0 X5"},
-      {"axis_words_missing", "G81", "G81 Z1 R2"},
-      {"axis_words_missing", "G33 K1", "G33 Z1 K1"},
-      {"axis_words_missing", "G92", "G92 X0"},
-      {"axis_words_missing", "G52", "G52 X0"}};
+  const Neighbours cases[] = {{"two_users_of_axis_words", "G1 G92 X5", "G92 X5"},
+                              {"two_users_of_axis_words", "G0 G28 Z10", "G28 Z10"},
+                              {"two_users_of_axis_words", "G1 G10 L2 P1 X5", "G10 L2 P1 X5"},
+                              {"axis_words_with_g80", "G80 X5", "G80"},
+                              {"no_motion_mode", "G80\nX5", "G80\nG0 X5"},
+                              {"axis_words_missing", "G81", "G81 Z1 R2"},
+                              {"axis_words_missing", "G33 K1", "G33 Z1 K1"},
+                              {"axis_words_missing", "G92", "G92 X0"},
+                              {"axis_words_missing", "G52", "G52 X0"}};
   for (const Neighbours& pair : cases) {
     expect_border(pair);
   }
@@ -82,14 +81,19 @@ TEST(BlockCheck, ValuesAreWithinTenMillion) {
 
 // A word that no G or M word of its block uses is a post processor's mistake.
 TEST(BlockCheck, EveryWordHasAUser) {
-  const Neighbours cases[] = {
-      {"unused_word", "G1 X5 P1", "G2 X5 I2.5 P1"},   {"unused_word", "G1 X5 R2", "G2 X5 R2.5"},
-      {"unused_word", "G1 X5 I2", "G2 X5 I2.5"},      {"unused_word", "G1 X5 J2", "G3 X5 I2.5 J0"},
-      {"unused_word", "G1 X5 K2", "G33 Z5 K2"},       {"unused_word", "G1 X5 Q1", "G73 Z1 R2 Q1"},
-      {"unused_word", "G1 X5 L2", "G81 Z1 R2 L2"},    {"unused_word", "G1 X5 D1", "G96 D1000 S100"},
-      {"unused_word", "G1 X5 E1", "M66 P0 L0"},       {"unused_word", "G1 X5 H1", "G43 H0"},
-      {"unused_word", "G61 P0.1", "G64 P0.1"},        {"unused_word", "G81 Z1 R2 Q1", "G83 Z1 R2 Q1"},
-      {"unused_word", "G81 Z1 R2 P1", "G82 Z1 R2 P1"}};
+  const Neighbours cases[] = {{"unused_word", "G1 X5 P1", "G2 X5 I2.5 P1"},
+                              {"unused_word", "G1 X5 R2", "G2 X5 R2.5"},
+                              {"unused_word", "G1 X5 I2", "G2 X5 I2.5"},
+                              {"unused_word", "G1 X5 J2", "G3 X5 I2.5 J0"},
+                              {"unused_word", "G1 X5 K2", "G33 Z5 K2"},
+                              {"unused_word", "G1 X5 Q1", "G73 Z1 R2 Q1"},
+                              {"unused_word", "G1 X5 L2", "G81 Z1 R2 L2"},
+                              {"unused_word", "G1 X5 D1", "G96 D1000 S100"},
+                              {"unused_word", "G1 X5 E1", "M66 P0 L0"},
+                              {"unused_word", "G1 X5 H1", "G43 H0"},
+                              {"unused_word", "G61 P0.1", "G64 P0.1"},
+                              {"unused_word", "G81 Z1 R2 Q1", "G83 Z1 R2 Q1"},
+                              {"unused_word", "G81 Z1 R2 P1", "G82 Z1 R2 P1"}};
   for (const Neighbours& pair : cases) {
     expect_border(pair);
   }
@@ -97,8 +101,9 @@ TEST(BlockCheck, EveryWordHasAUser) {
 
 // The article goes by how a letter is spoken: "an R", "a Q".
 TEST(BlockCheck, NamesTheWordThatIsNotUsed) {
-  const std::pair<const char*, const char*> cases[] = {
-      {"G1 X1 R2", "an R word, but"}, {"G1 X1 Q2", "a Q word, but"}, {"G1 X1 H2", "an H word, but"}};
+  const std::pair<const char*, const char*> cases[] = {{"G1 X1 R2", "an R word, but"},
+                                                       {"G1 X1 Q2", "a Q word, but"},
+                                                       {"G1 X1 H2", "an H word, but"}};
   for (const auto& [block, text] : cases) {
     Kept kept;
     const auto report = run_text("F100\n" + std::string(block) + "\nM2\n", {}, kept);

@@ -17,7 +17,9 @@ using read::Dialect;
 using testing::DoubleNear;
 using testing::ElementsAre;
 
-Axes machine_end_of(const Move& move) { return machine_of(move, move.end); }
+Axes machine_end_of(const Move& move) {
+  return machine_of(move, move.end);
+}
 
 /// X, Y and Z of the machine at the end of the last move.
 std::vector<double> last_machine_xyz(const std::string& text, const Config& config = {}) {
@@ -44,7 +46,8 @@ std::string random_change(bool turns) {
     case 3:
       return "G92.3";
     case 4:
-      return "G10 L2 P" + std::to_string(*rc::gen::inRange(1, 4)) + " X" + number() + " Z" + number();
+      return "G10 L2 P" + std::to_string(*rc::gen::inRange(1, 4)) + " X" + number() + " Z" +
+             number();
     case 5:
       return "G" + std::to_string(*rc::gen::inRange(54, 57));
     case 6:
@@ -157,15 +160,13 @@ TEST(Coordinates, ReferencePointsAreOfTheMachine) {
 
 // Polar words: a distance from zero at an angle from +X; in G91 they add.
 TEST(Coordinates, PolarWordsAreAboutTheWorksZero) {
-  EXPECT_THAT(last_machine_xyz("G0 @10 ^30\nM2\n"),
-              near_xyz(10.0 * std::sqrt(0.75), 5.0, 0.0));
+  EXPECT_THAT(last_machine_xyz("G0 @10 ^30\nM2\n"), near_xyz(10.0 * std::sqrt(0.75), 5.0, 0.0));
   EXPECT_THAT(last_machine_xyz("G0 @10 ^30\n^90\nM2\n"), near_xyz(0, 10, 0));
   EXPECT_THAT(last_machine_xyz("G0 @10 ^30\nG91 @5 ^60\nM2\n"), near_xyz(0, 15, 0));
   // As rs274 2.9 has it, the plane in force before the block decides.
   EXPECT_EQ(reason_of("G18\nG0 @10\nM2\n"), "polar_off_xy");
   EXPECT_EQ(reason_of("G18\nG17 G0 @10\nM2\n"), "polar_off_xy");
-  EXPECT_THAT(last_machine_xyz("G18 G0 @10 ^30\nM2\n"),
-              near_xyz(10.0 * std::sqrt(0.75), 5.0, 0.0));
+  EXPECT_THAT(last_machine_xyz("G18 G0 @10 ^30\nM2\n"), near_xyz(10.0 * std::sqrt(0.75), 5.0, 0.0));
   EXPECT_EQ(reason_of("G0 @10 X3\nM2\n"), "polar_and_axis_words");
 }
 

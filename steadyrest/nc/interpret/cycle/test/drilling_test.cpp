@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drilling cycles of LinuxCNC's manual ("G codes", Canned Cycles), whose examples print every move.
+// The drilling cycles of LinuxCNC's manual ("G codes", Canned Cycles), whose examples print every
+// move.
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -59,11 +60,11 @@ TEST(Drilling, AbsoluteHoleAsTheManualPrintsIt) {
 // Manual, G81, example 2: the R plane is 1.8 above Z3, that is 4.8, the bottom 0.6 below that.
 TEST(Drilling, IncrementalRowAsTheManualPrintsIt) {
   EXPECT_THAT(legs_of("G0 X1 Y2 Z3\nF60 G91 G81 G98 X4 Y5 Z-0.6 R1.8 L3\nM2\n"),
-              ElementsAre(Leg{kFast, 1, 2, 4.8},                                  // lifts first
-                          Leg{kFast, 5, 7, 4.8}, Leg{kCut, 5, 7, 4.2},            // 1 + 4, 2 + 5
-                          Leg{kFast, 5, 7, 4.8}, Leg{kFast, 9, 12, 4.8},          //
-                          Leg{kCut, 9, 12, 4.2}, Leg{kFast, 9, 12, 4.8},          //
-                          Leg{kFast, 13, 17, 4.8}, Leg{kCut, 13, 17, 4.2},        //
+              ElementsAre(Leg{kFast, 1, 2, 4.8},                            // lifts first
+                          Leg{kFast, 5, 7, 4.8}, Leg{kCut, 5, 7, 4.2},      // 1 + 4, 2 + 5
+                          Leg{kFast, 5, 7, 4.8}, Leg{kFast, 9, 12, 4.8},    //
+                          Leg{kCut, 9, 12, 4.2}, Leg{kFast, 9, 12, 4.8},    //
+                          Leg{kFast, 13, 17, 4.8}, Leg{kCut, 13, 17, 4.2},  //
                           Leg{kFast, 13, 17, 4.8}));
 }
 
@@ -82,8 +83,7 @@ TEST(Drilling, DwellsAtTheBottomInG82AndG89) {
 // Pecks of 0.4 from R2 to Z1 end at 1.6, 1.2, 1. G83 clears to R, G73 by 0.254 only; G83 also comes
 // back to 0.254 above the last bottom.
 TEST(Drilling, PecksClearOrBreakTheChips) {
-  EXPECT_THAT(depths_of("G83 Z1 R2 Q0.4"),
-              ElementsAre(3, 2, 1.6, 2, 1.854, 1.2, 2, 1.454, 1, 3));
+  EXPECT_THAT(depths_of("G83 Z1 R2 Q0.4"), ElementsAre(3, 2, 1.6, 2, 1.854, 1.2, 2, 1.454, 1, 3));
   EXPECT_THAT(depths_of("G73 Z1 R2 Q0.4"), ElementsAre(3, 2, 1.6, 1.854, 1.2, 1.454, 1, 3));
   // A peck as deep as the hole is one cut.
   EXPECT_THAT(depths_of("G83 Z1 R2 Q1"), ElementsAre(3, 2, 1, 3));
@@ -105,7 +105,8 @@ TEST(Drilling, BoresOutAtFeedOrWithTheSpindleStopped) {
 // G88: the operator brings the bar out; no move of the program leaves the hole.
 TEST(Drilling, StopsForTheOperatorInG88) {
   Kept kept;
-  ASSERT_TRUE(run_text("G98 G0 X1 Y2 Z3\nF60 S600 M3\nG88 Z1 R2 P0\nG0 X9\nM2\n", {}, kept).has_value());
+  ASSERT_TRUE(
+      run_text("G98 G0 X1 Y2 Z3\nF60 S600 M3\nG88 Z1 R2 P0\nG0 X9\nM2\n", {}, kept).has_value());
   std::vector<EventKind> kinds;
   for (const Event& event : kept.events) {
     kinds.push_back(event.kind);
@@ -165,15 +166,24 @@ TEST(Drilling, ReturnsToTheRetractPlaneUntilG98) {
 TEST(Drilling, IsRefusedByName) {
   const std::string head = "G0 Z3\nF60 S600 M3\n";
   const std::pair<const char*, const char*> cases[] = {
-      {"G81 Z1", "cycle_word_missing"},        {"G81 X1 R2", "cycle_word_missing"},
-      {"G83 Z1 R2", "cycle_word_missing"},     {"G82 Z1 R2", "cycle_word_missing"},
-      {"G87 Z1 R2 I0 J0", "cycle_word_missing"}, {"G83 Z1 R2 Q0", "out_of_range"},
-      {"G81 Z2 R1", "retract_below_bottom"},   {"G81 Z1 R2 A5", "axis_in_cycle"},
-      {"G93 G81 Z1 R2 F1", "cycle_in_inverse_time"}, {"G81 Z1 R2 L0", "out_of_range"},
-      {"G74 Z1 R2", "spindle_direction"},      {"M5\nG84 Z1 R2", "spindle_direction"},
-      {"M5\nG86 Z1 R2 P0", "spindle_stands"},  {"M5\nG87 Z1 R2 I0 J0 K2", "spindle_stands"},
-      {"G18 G84 Y1 R2", "tapping_off_xy"},     {"G84 Z1 R2 P-1", "out_of_range"},
-      {"F0 G81 Z1 R2", "feed_missing"},        {"G83 Z1 R2 Q0.000001", "out_of_range"}};
+      {"G81 Z1", "cycle_word_missing"},
+      {"G81 X1 R2", "cycle_word_missing"},
+      {"G83 Z1 R2", "cycle_word_missing"},
+      {"G82 Z1 R2", "cycle_word_missing"},
+      {"G87 Z1 R2 I0 J0", "cycle_word_missing"},
+      {"G83 Z1 R2 Q0", "out_of_range"},
+      {"G81 Z2 R1", "retract_below_bottom"},
+      {"G81 Z1 R2 A5", "axis_in_cycle"},
+      {"G93 G81 Z1 R2 F1", "cycle_in_inverse_time"},
+      {"G81 Z1 R2 L0", "out_of_range"},
+      {"G74 Z1 R2", "spindle_direction"},
+      {"M5\nG84 Z1 R2", "spindle_direction"},
+      {"M5\nG86 Z1 R2 P0", "spindle_stands"},
+      {"M5\nG87 Z1 R2 I0 J0 K2", "spindle_stands"},
+      {"G18 G84 Y1 R2", "tapping_off_xy"},
+      {"G84 Z1 R2 P-1", "out_of_range"},
+      {"F0 G81 Z1 R2", "feed_missing"},
+      {"G83 Z1 R2 Q0.000001", "out_of_range"}};
   for (const auto& [text, reason] : cases) {
     EXPECT_EQ(reason_of(head + text + "\nM2\n"), reason) << text;
   }

@@ -68,9 +68,8 @@ TEST(Threading, RigidTapComesBackWithTheSpindleReversed) {
 
 // R1 gives equal depths, R2 equal areas of chip: 0.5·√n. The last pass is at K, H more follow.
 TEST(Threading, PassesGoDeeperByTheDegression) {
-  EXPECT_THAT(depths_below_peak("J0.4 K1"), ElementsAre(DoubleNear(0.4, 1e-12),
-                                                        DoubleNear(0.8, 1e-12),
-                                                        DoubleNear(1.0, 1e-12)));
+  EXPECT_THAT(depths_below_peak("J0.4 K1"),
+              ElementsAre(DoubleNear(0.4, 1e-12), DoubleNear(0.8, 1e-12), DoubleNear(1.0, 1e-12)));
   EXPECT_THAT(depths_below_peak("J0.5 K1 R2 H2"),
               ElementsAre(DoubleNear(0.5, 1e-12), DoubleNear(0.5 * std::numbers::sqrt2, 1e-12),
                           DoubleNear(0.5 * std::sqrt(3.0), 1e-12), DoubleNear(1.0, 1e-12),
@@ -140,7 +139,7 @@ TEST(Threading, IsRefusedByName) {
       {"P1 Z-10 I-2 J0.4 K1 B1", "axis_in_cycle"},    {"P0 Z-10 I-2 J0.4 K1", "out_of_range"},
       {"P1 Z-10 I0 J0.4 K1", "out_of_range"},         {"P1 Z-10 I-2 J0 K1", "out_of_range"},
       {"P1 Z-10 I-2 J1 K1", "out_of_range"},          {"P1 Z-10 I-2 J0.4 K1 R0.5", "out_of_range"},
-      {"P1 Z-10 I-2 J0.4 K1 H1.5", "not_an_integer"},   {"P1 Z-10 I-2 J0.4 K1 L4", "out_of_range"},
+      {"P1 Z-10 I-2 J0.4 K1 H1.5", "not_an_integer"}, {"P1 Z-10 I-2 J0.4 K1 L4", "out_of_range"},
       {"P1 Z-10 I-2 J0.4 K1 Q80", "out_of_range"},    {"P1 Z-10 I-2 J0.4 K1 L1", "out_of_range"},
       {"P1 Z-10 I-2 J0.0001 K1 R2", "out_of_range"}};
   for (const auto& [words, reason] : cases) {

@@ -14,8 +14,8 @@ namespace {
 // With as many points as the order there is one span, and the B-spline is the Bézier curve in
 // Bernstein's form.
 TEST(SplineCurve, OfOneSpanIsTheBezierCurve) {
-  const std::array<SplinePoint, 4> points = {
-      SplinePoint{0, 0, 1}, SplinePoint{1, 3, 1}, SplinePoint{4, -2, 1}, SplinePoint{6, 1, 1}};
+  const std::array<SplinePoint, 4> points = {SplinePoint{0, 0, 1}, SplinePoint{1, 3, 1},
+                                             SplinePoint{4, -2, 1}, SplinePoint{6, 1, 1}};
   EXPECT_EQ(spline_spans(points, 4), 1);
   for (double u = 0.0; u <= 1.0; u += 0.0625) {
     const double v = 1.0 - u;
@@ -35,9 +35,8 @@ TEST(SplineCurve, OfOneSpanIsTheBezierCurve) {
 // Piegl and Tiller, "The NURBS Book", section 7.3: weights 1, cos 45°, 1 on the corner points make
 // an exact quarter circle. No polynomial curve is one.
 TEST(SplineCurve, WithWeightsIsAnExactCircle) {
-  const std::array<SplinePoint, 3> quarter = {SplinePoint{1, 0, 1},
-                                              SplinePoint{1, 1, 0.5 * std::numbers::sqrt2},
-                                              SplinePoint{0, 1, 1}};
+  const std::array<SplinePoint, 3> quarter = {
+      SplinePoint{1, 0, 1}, SplinePoint{1, 1, 0.5 * std::numbers::sqrt2}, SplinePoint{0, 1, 1}};
   double unweighted_miss = 0.0;
   std::array<SplinePoint, 3> plain = quarter;
   plain[1].weight = 1.0;
@@ -45,8 +44,7 @@ TEST(SplineCurve, WithWeightsIsAnExactCircle) {
     const SplinePoint at = spline_at(quarter, 3, u);
     EXPECT_NEAR(std::hypot(at.x_mm, at.y_mm), 1.0, 1e-15) << u;
     const SplinePoint other = spline_at(plain, 3, u);
-    unweighted_miss =
-        std::max(unweighted_miss, std::abs(std::hypot(other.x_mm, other.y_mm) - 1.0));
+    unweighted_miss = std::max(unweighted_miss, std::abs(std::hypot(other.x_mm, other.y_mm) - 1.0));
   }
   EXPECT_GT(unweighted_miss, 0.05);
 }
@@ -71,8 +69,8 @@ TEST(SplineCurve, BeginsAndEndsOnItsControlPoints) {
 
 // Order 2 is the polygon of the control points, span by span.
 TEST(SplineCurve, OfOrderTwoIsThePolygon) {
-  const std::array<SplinePoint, 4> points = {
-      SplinePoint{0, 0, 1}, SplinePoint{2, 0, 1}, SplinePoint{2, 4, 1}, SplinePoint{-2, 4, 1}};
+  const std::array<SplinePoint, 4> points = {SplinePoint{0, 0, 1}, SplinePoint{2, 0, 1},
+                                             SplinePoint{2, 4, 1}, SplinePoint{-2, 4, 1}};
   EXPECT_EQ(spline_spans(points, 2), 3);
   EXPECT_EQ(spline_at(points, 2, 0.5).x_mm, 1.0);
   EXPECT_EQ(spline_at(points, 2, 1.0).x_mm, 2.0);
@@ -83,8 +81,8 @@ TEST(SplineCurve, OfOrderTwoIsThePolygon) {
 // Points on a line at the Greville abscissae reproduce the line: order 3 on the knots 0 0 0 1 2 2 2
 // has them at 0, 0.5, 1.5, 2.
 TEST(SplineCurve, ReproducesALineAtTheGrevillePoints) {
-  const std::array<SplinePoint, 4> points = {
-      SplinePoint{0, 1, 1}, SplinePoint{0.5, 2, 1}, SplinePoint{1.5, 4, 1}, SplinePoint{2, 5, 1}};
+  const std::array<SplinePoint, 4> points = {SplinePoint{0, 1, 1}, SplinePoint{0.5, 2, 1},
+                                             SplinePoint{1.5, 4, 1}, SplinePoint{2, 5, 1}};
   for (double u = 0.0; u <= 2.0; u += 0.125) {
     EXPECT_NEAR(spline_at(points, 3, u).x_mm, u, 1e-15);
     EXPECT_NEAR(spline_at(points, 3, u).y_mm, 1.0 + 2.0 * u, 1e-14);

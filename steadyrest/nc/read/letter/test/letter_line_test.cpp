@@ -95,13 +95,20 @@ TEST(LetterLine, HasPolarWordsInLinuxcncOnly) {
 
 TEST(LetterLine, ShowsTheWordAtFault) {
   const std::pair<const char*, const char*> cases[] = {
-      {"X", "missing_value X"},       {"XY1", "missing_value XY1"},
-      {"X--1", "bad_number X--1"},    {"X1.2.3", "bad_number X1.2.3"},
-      {"X.", "bad_number X."},        {"X#1", "parameter X#1"},
-      {"#1=2", "parameter #1=2"},     {"X[1+2]", "expression X[1+2]"},
-      {"[1]", "expression [1]"},      {"Xsin[30]", "expression Xsin[30]"},
-      {"G1 $2", "spindle_selection $2"}, {"G1 %", "misplaced_percent %"},
-      {"G1 X1 \xc3\xa4", "not_ascii \\xc3"}, {"G1 \x7f", "control_character \\x7f"},
+      {"X", "missing_value X"},
+      {"XY1", "missing_value XY1"},
+      {"X--1", "bad_number X--1"},
+      {"X1.2.3", "bad_number X1.2.3"},
+      {"X.", "bad_number X."},
+      {"X#1", "parameter X#1"},
+      {"#1=2", "parameter #1=2"},
+      {"X[1+2]", "expression X[1+2]"},
+      {"[1]", "expression [1]"},
+      {"Xsin[30]", "expression Xsin[30]"},
+      {"G1 $2", "spindle_selection $2"},
+      {"G1 %", "misplaced_percent %"},
+      {"G1 X1 \xc3\xa4", "not_ascii \\xc3"},
+      {"G1 \x7f", "control_character \\x7f"},
       {"\xef\xbb\xbfG1", "byte_order_mark \\xef\\xbb\\xbf"}};
   for (const auto& [text, fault] : cases) {
     EXPECT_EQ(fault_of_line(text), fault) << text;

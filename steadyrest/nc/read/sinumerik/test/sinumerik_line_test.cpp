@@ -49,8 +49,12 @@ class SinumerikWords {
   bool accepted_ = false;
 };
 
-std::vector<std::string> words_in(const std::string& text) { return SinumerikWords(text).words(); }
-std::string fault_in(const std::string& text) { return SinumerikWords(text).reason(); }
+std::vector<std::string> words_in(const std::string& text) {
+  return SinumerikWords(text).words();
+}
+std::string fault_in(const std::string& text) {
+  return SinumerikWords(text).reason();
+}
 
 TEST(SinumerikLine, HasLettersWithNumbersAndAssignments) {
   EXPECT_THAT(words_in("N10 G1 X10 Y=-2.5 F200"), ElementsAre("G1", "X10", "Y-2.50", "F200"));
@@ -71,8 +75,8 @@ TEST(SinumerikLine, KeepsTheContentOfAString) {
 }
 
 TEST(SinumerikLine, LeavesOutNumbersLabelsAndComments) {
-  for (const char* text : {"", "  ", "N10", ":20", "; X1", "N10 ; only", "START:", "N10 START:",
-                           "MSG()", "N30 MSG ( )"}) {
+  for (const char* text : {"", "  ", "N10", ":20", "; X1", "N10 ; only",
+                           "START:", "N10 START:", "MSG()", "N30 MSG ( )"}) {
     EXPECT_THAT(words_in(text), IsEmpty()) << text;
   }
   EXPECT_THAT(words_in("N10 LOOP_1: X5 ; X6"), ElementsAre("X5"));

@@ -30,9 +30,7 @@ std::vector<std::string> lines_of(LineSource source) {
 /// A file in a folder of its own.
 class LineFile {
  public:
-  explicit LineFile(const std::string& text) {
-    std::ofstream(path(), std::ios::binary) << text;
-  }
+  explicit LineFile(const std::string& text) { std::ofstream(path(), std::ios::binary) << text; }
   [[nodiscard]] std::string path() const { return folder_.at("program.nc"); }
   [[nodiscard]] LineSource open() const { return LineSource::open(path()).value(); }
 

@@ -56,8 +56,8 @@ TEST(FirstDifference, LeavesPositionsToTheShifts) {
 }
 
 TEST(EqualEvents, AreTheSameInKindValueAndNumber) {
-  const std::vector<interpret::Event> events = {{.kind = EventKind::spindle, .line = 1, .value = 10},
-                                                {.kind = EventKind::stop, .line = 2}};
+  const std::vector<interpret::Event> events = {
+      {.kind = EventKind::spindle, .line = 1, .value = 10}, {.kind = EventKind::stop, .line = 2}};
   auto other = events;
   other[0].line = 7;  // lines differ where text was inserted
   EXPECT_TRUE(equal_events(events, other));

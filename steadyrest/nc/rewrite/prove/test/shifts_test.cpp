@@ -21,7 +21,8 @@ constexpr std::size_t kZ = 2;
 /// A plan that corrects Z.
 Plan plan_of_z() {
   Plan plan;
-  plan.axes.push_back({.letter = 'Z', .index = kZ, .steps = {{.time_s = 0.0, .displacement_um = 10.0}}});
+  plan.axes.push_back(
+      {.letter = 'Z', .index = kZ, .steps = {{.time_s = 0.0, .displacement_um = 10.0}}});
   return plan;
 }
 

@@ -78,8 +78,7 @@ TEST(Said, GoesByTheDialect) {
 }
 
 TEST(Said, AWorkOffsetIsKnownWhereTheControlsFilesAre) {
-  EXPECT_TRUE(
-      SaidBy(config_of(Dialect::linuxcnc, true)).said.has(mode(GGroup::work_offset)));
+  EXPECT_TRUE(SaidBy(config_of(Dialect::linuxcnc, true)).said.has(mode(GGroup::work_offset)));
   EXPECT_FALSE(SaidBy().said.has(mode(GGroup::work_offset)));
 }
 
