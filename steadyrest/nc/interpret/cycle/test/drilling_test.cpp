@@ -68,6 +68,15 @@ TEST(Drilling, IncrementalRowAsTheManualPrintsIt) {
                           Leg{kFast, 13, 17, 4.8}));
 }
 
+// Under G98 the tool goes across at the initial level, never at R or on a slope between them: a
+// clamp stands there.
+TEST(Drilling, GoesAcrossAtTheInitialLevelFromHoleToHole) {
+  EXPECT_THAT(legs_of("G0 X0 Y2 Z3\nF60 G91 G98 G81 X4 Z-0.6 R-1 L2\nM2\n"),
+              ElementsAre(Leg{kFast, 4, 2, 3}, Leg{kFast, 4, 2, 2}, Leg{kCut, 4, 2, 1.4},
+                          Leg{kFast, 4, 2, 3}, Leg{kFast, 8, 2, 3}, Leg{kFast, 8, 2, 2},
+                          Leg{kCut, 8, 2, 1.4}, Leg{kFast, 8, 2, 3}));
+}
+
 TEST(Drilling, DwellsAtTheBottomInG82AndG89) {
   const std::string head = "G98 G0 X1 Y2 Z3\nF60\n";
   EXPECT_THAT(legs_of(head + "G82 Z1 R2 P1.5\nM2\n"),

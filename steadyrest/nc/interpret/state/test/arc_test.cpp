@@ -102,7 +102,7 @@ TEST(ArcByCentre, ClosesWithinLinuxcncsBounds) {
   const ArcTolerance metric = arc_tolerance(false);
   EXPECT_TRUE(closes(10.0, 0.02828, metric));  // the absolute bound: 0.1 % is only 0.01
   EXPECT_FALSE(closes(10.0, 0.02829, metric));
-  EXPECT_TRUE(closes(100.0, 0.1, metric));  // the share of the larger radius, 100.1
+  EXPECT_TRUE(closes(100.0, 0.10005, metric));  // 0.1 % of the larger radius, 100.10005
   EXPECT_FALSE(closes(100.0, 0.1002, metric));
   EXPECT_TRUE(closes(5000.0, 2.828, metric));  // 0.1 % would be 5
   EXPECT_FALSE(closes(5000.0, 2.829, metric));
