@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <steadyrest/nc/read/reader.hpp>
@@ -30,9 +31,7 @@ class SinumerikWords {
     for (const Word& word : block_.words()) {
       std::string one{word.letter != 0 ? std::string(1, word.letter) : std::string(word.name)};
       if (word.has_value) {
-        const double value = word.value;
-        one += value == static_cast<long>(value) ? std::to_string(static_cast<long>(value))
-                                                 : std::to_string(value).substr(0, 5);
+        one += fmt::format("{}", word.value);
       }
       out.push_back(one);
     }
@@ -57,7 +56,7 @@ std::string fault_in(const std::string& text) {
 }
 
 TEST(SinumerikLine, HasLettersWithNumbersAndAssignments) {
-  EXPECT_THAT(words_in("N10 G1 X10 Y=-2.5 F200"), ElementsAre("G1", "X10", "Y-2.50", "F200"));
+  EXPECT_THAT(words_in("N10 G1 X10 Y=-2.5 F200"), ElementsAre("G1", "X10", "Y-2.5", "F200"));
   EXPECT_THAT(words_in("g01x10y20"), ElementsAre("G1", "X10", "Y20"));
   EXPECT_THAT(words_in("CR=5 TURN=2 SUPA"), ElementsAre("CR5", "TURN2", "SUPA"));
   EXPECT_THAT(words_in("X = 10"), ElementsAre("X10"));
