@@ -173,7 +173,8 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   const Point modelled = geometry::add_scaled(seen, *residual, 1.0);
   reserve_.update({.seen_mm = geometry::norm(tangential_error_mm(seen, error.tangent)),
                    .modelled_mm = geometry::norm(tangential_error_mm(modelled, error.tangent)),
-                   .step_s = dt});
+                   .step_s = dt,
+                   .cancelled = state_.offsets_act && precompensator_.enabled()});
 }
 
 // The words as the control was told them, one per cycle: for dead time and scan they are still

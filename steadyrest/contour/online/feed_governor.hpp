@@ -62,7 +62,7 @@ struct Candidate {
 /// admissible step starts from the highest and assumes nothing about the order of their errors; in
 /// tables of more than 32 steps it starts from the step in force, in doubling strides and then by
 /// halves (step_search.hpp). Where even the fall does not keep the limit, each place may have the
-/// error that the fall alone gives there.
+/// error that the fall alone gives there, also while the step is held for one time constant 1/k.
 ///
 /// Steady state: a slow servo would permit too large a step for a moment, again and again. A rise
 /// must therefore also be sustainable: held for `pause_s` it must not break the limit within the
@@ -70,7 +70,7 @@ struct Candidate {
 /// fall comes first.
 ///
 /// The limit used, ε_max·(1 − margin) − reserve, is the Reserve's (estimate/reserve.hpp). Changes:
-/// a rise needs 2 % room (5 % within `pause_s` after a fall); a fall is immediate. The governor
+/// a rise needs 2 % room (15 % within `pause_s` after a fall); a fall is immediate. The governor
 /// only plans with the slew limits; the kernel's envelope enforces them. The frame brings what the
 /// envelope let pass: every plan starts there, and the words of the last cycles are those still
 /// under way.

@@ -7,7 +7,8 @@
 namespace steadyrest::contour::online {
 
 double Reserve::update(const Input& input) noexcept {
-  if (std::max(input.seen_mm, input.modelled_mm) >= kCounts * config_.limit_mm) {
+  const double largest_mm = std::max(input.seen_mm, input.modelled_mm);
+  if (input.cancelled || largest_mm >= kCounts * config_.limit_mm) {
     const double excess = std::max(0.0, input.seen_mm - input.modelled_mm);
     const double share = std::min(1.0, input.step_s / kMemoryS);
     state_.excess_mm2 += share * (2.0 * excess * excess - state_.excess_mm2);

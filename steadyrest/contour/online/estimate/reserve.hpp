@@ -9,9 +9,9 @@ namespace steadyrest::contour::online {
 ///
 /// Law. ε_seen is the contour error of the table as encoders and backlash show it, ε_model the one
 /// that the servo model gives for the same commands. The excess x = |ε_seen| − |ε_model| counts
-/// where one of the two is at least kCounts of the limit: only there can it break the limit. What
-/// makes the error smaller is no risk, so σ² is twice the mean square of x > 0 over kMemoryS, less
-/// the encoder's q²/12, and
+/// where one of the two is at least kCounts of the limit, since only there can it break the limit,
+/// and everywhere while offsets take ε_model away. What makes the error smaller is no risk, so σ²
+/// is twice the mean square of x > 0 over kMemoryS, less the encoder's q²/12, and
 ///   reserve = max(0, √((3σ)² + (kDoubt·b/2)²) − margin·ε_max) ≤ kMost·ε_max,
 ///   limit   = ε_max·(1 − margin) − reserve,
 /// with the backlash b, which nothing measures: the forecast follows it, but the machine file may
@@ -23,8 +23,7 @@ class Reserve {
   static constexpr double kMemoryS = 1.0;
   static constexpr double kCounts = 0.3;
   static constexpr double kDoubt = 0.4;
-  static constexpr double kMost =
-      0.6;  ///< a reserve of it all would always ask for the lowest step
+  static constexpr double kMost = 0.6;  ///< all of it would always ask for the lowest step
 
   struct Config {
     double limit_mm = 0.010;  ///< ε_max
@@ -40,6 +39,7 @@ class Reserve {
     double seen_mm = 0.0;      ///< |ε_seen|
     double modelled_mm = 0.0;  ///< |ε_model|
     double step_s = 0.0;
+    bool cancelled = false;  ///< offsets take the modelled error away: all of it counts
   };
 
   Reserve() = default;

@@ -57,6 +57,17 @@ TEST(Reserve, WhereTheErrorIsFarFromTheLimitNothingIsLearnt) {
   EXPECT_DOUBLE_EQ(learnt(ten_micrometres(), 0.005, 0.0, 0.0).limit_mm(), 0.0095 - 0.006);
 }
 
+// Offsets keep the modelled error small at full feed; what the model misses is all there is to see.
+TEST(Reserve, WhereOffsetsCancelTheErrorAllOfItCounts) {
+  Reserve reserve(ten_micrometres());
+  for (int i = 0; i < 2500; ++i) {
+    reserve.update(
+        {.seen_mm = 0.0015, .modelled_mm = 0.0005, .step_s = kCycleS, .cancelled = true});
+  }
+  // 3·√2·1 µm less the margin's 0.5 µm.
+  EXPECT_NEAR(reserve.limit_mm(), 0.0095 - (3.0 * std::sqrt(2.0) * 0.001 - 0.0005), 1e-6);
+}
+
 // Counts of 1 µm read with an error of 1/√12 µm: that much is the encoder, not the machine.
 TEST(Reserve, DoesNotPayForTheEncodersCounts) {
   Reserve::Config config = ten_micrometres();
