@@ -20,9 +20,6 @@ using kernel::signal::Motion;
 using kernel::signal::Point;
 
 // Effect on the rib pocket of halving and doubling them: README, "What the constants do".
-constexpr double kUnexplainedMemoryS = 1.0;
-constexpr double kMostReserve = 0.6;  // of the limit
-constexpr double kReserveRms = 3.0;   // the reserve, in RMS of the unexplained error
 constexpr double kDrift = 0.003;      // of k and a together, beyond which the forecast adopts it
 constexpr double kOtherModel = 0.02;  // … and what was unexplained before no longer counts
 
@@ -49,6 +46,7 @@ void FeedGovernor::reset() noexcept {
   curve_.reset();
   ahead_.reset();
   precompensator_.reset();
+  reserve_.forget();
   state_ = {};
   history_.fill(1.0);
 }
@@ -61,6 +59,7 @@ FeedGovernor::State FeedGovernor::state() const {
   state.curve = curve_.state();
   state.ahead = ahead_.state();
   state.precompensator = precompensator_.state();
+  state.reserve = reserve_.state();
   state.model = model_;
   state.cycle_s = cycle_s_;
   state.history = history_;
@@ -74,6 +73,7 @@ void FeedGovernor::restore(const State& state) noexcept {
   servo_.restore(state.servo);
   curve_.restore(state.curve);
   ahead_.restore(state.ahead);
+  reserve_.restore(state.reserve);
   model_ = state.model;
   cycle_s_ = state.cycle_s;
   for (std::size_t i = 0; i < model_.size(); ++i) {
@@ -111,15 +111,13 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   precompensator_.set_model(model_);
   forecast_.set_tool_point(precompensator_.point(), precompensator_.max_offset_mm());
   if (is_other) {
-    state_.unexplained_mm2 = 0.0;  // that belonged to the old model
+    reserve_.forget();
   }
 }
 
-// The model runs in parallel with the axes on the same commands; e − modelled is what it does not
-// explain (friction, backlash, a wrong τ). Only the part across the path counts, less the counting
-// error itself: q²/12 in each of the two directions across, q²/6.
-void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error,
-                           double dt) noexcept {
+// The model runs in parallel with the axes on the same commands: e − modelled is what it does not
+// explain (friction, a wrong τ). Returns that of each axis; nothing where the cycle is irregular.
+std::optional<Point> FeedGovernor::run_model(const Frame& frame, double dt) noexcept {
   const bool is_regular = dt > 0.0 && std::abs(dt - cycle_s_) < 0.01 * cycle_s_;
   Point residual{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -151,29 +149,32 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
     state_.command_mm[i] = c;
     residual[i] = e - modelled;
   }
-  if (!is_regular || !error.valid || frame.motion != Motion::feed ||
+  return is_regular ? std::optional(residual) : std::nullopt;
+}
+
+/// The servo model and the play of the backlash, held against what the frame shows.
+void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error,
+                           double dt) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double motor = frame.axis[i].actual_mm;
+    const double table = state_.observed ? state_.table_mm[i] : motor;
+    state_.table_mm[i] =
+        std::clamp(table, motor - half_backlash_mm_[i], motor + half_backlash_mm_[i]);
+  }
+  state_.observed = true;
+  const auto residual = run_model(frame, dt);
+  if (!residual || !error.valid || frame.motion != Motion::feed ||
       geometry::norm_squared(error.tangent) == 0.0) {
     return;
   }
-  const Point across = tangential_error_mm(residual, error.tangent);
-  double quantisation = 0.0;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
-    const double count = config_.axes[i].encoder.count_au;
-    quantisation = std::max(quantisation, count * count / 6.0);
-  }
-  const double excess = std::max(0.0, geometry::norm_squared(across) - quantisation);
-  state_.unexplained_mm2 += dt / kUnexplainedMemoryS * (excess - state_.unexplained_mm2);
-}
-
-// The margin covers the first 3σ of the unexplained error; only the excess is taken off. At most 60
-// % of the limit: a reserve that used up all of it would always ask for the lowest step.
-double FeedGovernor::limit_mm() const noexcept {
-  const auto& contour = config_.contour;
-  const double beyond_margin = kReserveRms * std::sqrt(std::max(0.0, state_.unexplained_mm2)) -
-                               contour.margin * contour.limit_mm;
-  const double reserve_mm = unseen_mm_ + std::max(0.0, beyond_margin);
-  return contour.limit_mm * (1.0 - contour.margin) -
-         std::min(reserve_mm, kMostReserve * contour.limit_mm);
+  // Of the cross-path parts the errors' lengths are compared: an axis that rests a count beside its
+  // command, square to a large error, takes nothing off the limit.
+  const Point seen = geometry::subtract(state_.table_mm, error.foot_mm);
+  const Point modelled = geometry::add_scaled(seen, *residual, 1.0);
+  reserve_.update({.seen_mm = geometry::norm(tangential_error_mm(seen, error.tangent)),
+                   .modelled_mm = geometry::norm(tangential_error_mm(modelled, error.tangent)),
+                   .step_s = dt,
+                   .cancelled = state_.offsets_act && precompensator_.enabled()});
 }
 
 // The words as the control was told them, one per cycle: for dead time and scan they are still

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/contour/online/estimate/reserve.hpp>
 #include <steadyrest/contour/online/forecast.hpp>
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/nominal_error.hpp>
@@ -60,18 +62,18 @@ struct Candidate {
 /// admissible step starts from the highest and assumes nothing about the order of their errors; in
 /// tables of more than 32 steps it starts from the step in force, in doubling strides and then by
 /// halves (step_search.hpp). Where even the fall does not keep the limit, each place may have the
-/// error that the fall alone gives there.
+/// error that the fall alone gives there, also while the step is held for one time constant 1/k.
 ///
 /// Steady state: a slow servo would permit too large a step for a moment, again and again. A rise
 /// must therefore also be sustainable: held for `pause_s` it must not break the limit within the
 /// present stretch of even curvature. A break in a later, tighter stretch does not count, since the
 /// fall comes first.
 ///
-/// `reserve`: half of the largest backlash, which encoders on the motors cannot see, plus three
-/// times the RMS of the unexplained error, beyond the margin. Changes: a rise needs 2 % room (15 %
-/// within `pause_s` after a fall); a fall is immediate. The governor only plans with the slew
-/// limits; the kernel's envelope enforces them. The frame brings what the envelope let pass: every
-/// plan starts there, and the words of the last cycles are those still under way.
+/// The limit used, ε_max·(1 − margin) − reserve, is the Reserve's (estimate/reserve.hpp). Changes:
+/// a rise needs 2 % room (15 % within `pause_s` after a fall); a fall is immediate. The governor
+/// only plans with the slew limits; the kernel's envelope enforces them. The frame brings what the
+/// envelope let pass: every plan starts there, and the words of the last cycles are those still
+/// under way.
 ///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
 /// ahead. Bounded: a search stops once its forecasts have used `work_share` of a control cycle, at
@@ -94,7 +96,7 @@ class FeedGovernor {
     kernel::machine::Control control;    ///< its period and its limit along the path
     double decision_s = 0.0;             ///< 0 = the override's scan period, 4…10 ms
     double objective_s = 0.10;           ///< period of the full search of the other strategies
-    double pause_s = 0.5;                ///< after a fall; rises then need more room
+    double pause_s = 0.3;                ///< after a fall; rises then need more room
     double work_share = 0.1;             ///< share of a control cycle for one search
     std::size_t exhaustive_steps = 32;   ///< tables up to this size are searched in full
     double forecast_step_s = 0.0;        ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
@@ -131,12 +133,13 @@ class FeedGovernor {
     double fallen_s = -1e9;       ///< time of the last fall
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
-    double unexplained_mm2 = 0.0;  ///< mean square of the unexplained error
-    double idle_effect_s = 0.0;    ///< how long the speed has ignored the override
+    double idle_effect_s = 0.0;  ///< how long the speed has ignored the override
     bool engaged = false;
     Output last;
     std::array<double, 3> velocity_mm_s{};  ///< observer of the axes' velocity
-    ServoState modelled;                    ///< the model alone, never corrected
+    bool observed = false;
+    kernel::signal::Point table_mm{};  ///< behind the motors by the play of the backlash
+    ServoState modelled;               ///< the model alone, never corrected
     std::array<double, 3> command_mm{};
     std::array<double, 3> command_mm_s{};
     double speed_mm_s = 0.0;
@@ -151,6 +154,7 @@ class FeedGovernor {
     CommandedCurve::State curve;
     LookAhead::State ahead;
     Precompensator::State precompensator;
+    Reserve::State reserve;
     std::array<AxisModel, 3> model{};  ///< that the forecast has been set to
     double cycle_s = 0.0;
     std::array<double, kHistory> history{};  ///< what the control was told, by cycle
@@ -188,6 +192,8 @@ class FeedGovernor {
 
   FeedGovernor(const Config& config, const ContourError& contour, const ServoModel& servo,
                Precompensator precompensator);
+  std::optional<kernel::signal::Point> run_model(const kernel::signal::Frame& frame,
+                                                 double dt) noexcept;
   void observe(const kernel::signal::Frame& frame, const ContourError::Output& error,
                double dt) noexcept;
   void refresh_model(double dt) noexcept;
@@ -199,7 +205,6 @@ class FeedGovernor {
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
   void fill_pending(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
-  [[nodiscard]] double limit_mm() const noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
   struct Search;
   Choice largest_admissible(const Outset& outset, std::size_t top, Output& output) noexcept;
@@ -220,6 +225,7 @@ class FeedGovernor {
   CommandedCurve curve_;
   LookAhead ahead_;
   Precompensator precompensator_;
+  Reserve reserve_;
   LookAhead guess_;  ///< the path extrapolated, where none is known
   Forecast forecast_;
   Forecast::Trace trace_;
@@ -227,7 +233,7 @@ class FeedGovernor {
   std::array<AxisStep, 3> cycle_step_{};  ///< of one control cycle
   double cycle_s_ = 0.0;
   double softest_gain_1_s_ = 50.0;
-  double unseen_mm_ = 0.0;  ///< half of the largest backlash: no encoder on a motor sees it
+  std::array<double, 3> half_backlash_mm_{};
   double decision_s_ = 0.01;
   std::size_t search_steps_ = 0;            ///< of the forecasts of one search, by `work_share`
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known

@@ -19,9 +19,13 @@ using kernel::signal::Point;
 // Effect on the rib pocket of halving and doubling them: README, "What the constants do".
 constexpr double kRiseRoom = 0.98;  // share of the limit that a rise may use
 constexpr double kRiseRoomInPause = 0.85;
+// In 1/k of the softest axis. Held until the next decision alone, a step is as good as the fall by
+// kTraceRoom on any slow servo, and the fall would be put off again and again.
+constexpr double kTraceHold = 1.0;
 constexpr double kStretchTurn = 0.1;   // rad by which an even stretch may deviate from its mean
 constexpr double kTraceRoom = 1.02;    // over the fall's own error: twenty times what a forecast …
 constexpr double kTraceRoomMm = 2e-4;  // … is off by, and twice (0.1 % + 0.1 µm, forecast.hpp)
+constexpr double kUnsettled = 0.75;    // of the settling time: e⁻³ of the last step's error is left
 constexpr double kTieMm = 1e-4;        // errors closer than this are equal: a forecast's 0.1 µm
 constexpr double kTie = 1e-9;          // other objectives: their rounding
 
@@ -74,7 +78,7 @@ struct FeedGovernor::Search {
         path(governor.state_.last.path_known ? governor.ahead_ : governor.guess_),
         outset(from),
         output(into),
-        limit_mm(governor.limit_mm()),
+        limit_mm(governor.reserve_.limit_mm()),
         in_force(governor.forecast_.floor_ratio(governor.state_.in_force_ratio)) {
     plan.start = of.state_.in_force_ratio;
     plan.floor = of.candidate_.front();
@@ -93,6 +97,8 @@ struct FeedGovernor::Search {
   /// Tells whether the step may be taken and, where it is a rise, held.
   bool admissible(std::size_t c, const Forecast::Trace* trace) noexcept {
     plan.target = of.candidate_[c];
+    plan.hold_s = trace == nullptr ? of.decision_s_
+                                   : std::max(of.decision_s_, kTraceHold / of.softest_gain_1_s_);
     const Forecast::Result result = forecast(plan, limit_mm, trace);
     if (!result.kept) {
       return false;
@@ -173,19 +179,27 @@ FeedGovernor::Choice FeedGovernor::largest_admissible(const Outset& outset, std:
 }
 
 /// Continues the objective's search within its share of the cycle. The objective compares steps
-/// that are held, not changes: start, target and floor are the same. For contour priority errors up
-/// to `target_mm` are equal, so that it does not creep for a gain that no gauge would show.
+/// that are held, not changes: start, target and floor are the same, and what the present step
+/// leaves behind does not count. From there each is held until the next search's begins. For
+/// contour priority errors up to `target_mm` are equal, so that it does not creep for a gain that
+/// no gauge would show.
 void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noexcept {
   const LookAhead& path = state_.last.path_known ? ahead_ : guess_;
   const auto& contour = config_.contour;
   const bool by_contour = contour.strategy == ContourStrategy::contour_priority;
+  const Forecast::Timing& timing = forecast_.timing();
+  // A very slow axis settles only beyond the longest forecast; the second half of that counts.
+  const double settled_s = std::min(timing.dead_s + timing.scan_s + kUnsettled * timing.settle_s,
+                                    0.5 * static_cast<double>(Forecast::kMaxSteps) * timing.step_s);
   ObjectiveSearch& search = state_.objective;
   for (std::size_t spent = 0; !search.done() && spent < search_steps_;) {
     const std::size_t c = search.next();
     RatioPlan plan;
     plan.start = plan.target = plan.floor = candidate_[c];
+    plan.hold_s = config_.objective_s;
+    plan.judged_from_s = settled_s;
     const Forecast::Result result =
-        forecast_.run(path, outset, plan, limit_mm(), false, nullptr, nullptr);
+        forecast_.run(path, outset, plan, reserve_.limit_mm(), false, nullptr, nullptr);
     spent += count(result, output);
     const double error = std::abs(result.error_mm);
     const Candidate candidate{candidate_[c],      error,
@@ -280,7 +294,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
     }
   }
   output.decided = true;
-  output.limit_mm = limit_mm();
+  output.limit_mm = reserve_.limit_mm();
   output.predicted_error_mm = choice.forecast.error_mm;
   output.predicted_at_mm = choice.forecast.at_mm;
   output.step = table_step_[choice.candidate];

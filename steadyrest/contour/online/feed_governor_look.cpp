@@ -126,6 +126,7 @@ Outset FeedGovernor::outset(const Frame& frame) const noexcept {
   for (std::size_t i = 0; i < 3; ++i) {
     outset.servo.error_mm[i] = frame.axis[i].command_mm - frame.axis[i].actual_mm;
     outset.servo.velocity_mm_s[i] = state_.velocity_mm_s[i];
+    outset.play_mm[i] = state_.table_mm[i] - frame.axis[i].actual_mm;
   }
   if (state_.last.path_known) {
     outset.position_mm = frame.path_position_mm;

@@ -104,13 +104,12 @@ double walking_1_s(const kernel::machine::OverrideTable& table,
   return slowest;
 }
 
-/// Backlash between the encoders on the motors and the tool: half of it either way.
-double unseen_by_encoders_mm(Axes axes) noexcept {
-  double backlash_mm = 0.0;
+double largest_count_mm(Axes axes) noexcept {
+  double count_mm = 0.0;
   for (const Axis& axis : path_axes(axes)) {
-    backlash_mm = std::max(backlash_mm, axis.backlash_au);
+    count_mm = std::max(count_mm, axis.encoder.count_au);
   }
-  return 0.5 * backlash_mm;
+  return count_mm;
 }
 
 kernel::outcome::Result<void> check(const FeedGovernor::Config& config) {
@@ -225,7 +224,14 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
     }
   }
   softest_gain_1_s_ = softest(m.axes);
-  unseen_mm_ = unseen_by_encoders_mm(m.axes);
+  for (std::size_t i = 0; i < path_axes(m.axes).size(); ++i) {
+    half_backlash_mm_[i] = 0.5 * m.axes[i].backlash_au;
+  }
+  forecast_.set_half_backlash(half_backlash_mm_);
+  reserve_ = Reserve({.limit_mm = m.contour.limit_mm,
+                      .margin = m.contour.margin,
+                      .half_backlash_mm = std::ranges::max(half_backlash_mm_),
+                      .count_mm = largest_count_mm(m.axes)});
   // Deciding more often than the control scans the word changes nothing.
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);

@@ -165,6 +165,9 @@ struct Forecast::Walk {
     if (tool) {
       command = commanded_for_tool(command);
     }
+    for (std::size_t i = 0; i < 3; ++i) {
+      table[i] = command[i] - servo.error_mm[i] + from.play_mm[i];
+    }
   }
 
   /// Until the override has completed the plan and everything has settled.
@@ -254,7 +257,8 @@ struct Forecast::Walk {
     return out;
   }
 
-  /// The servos follow the commanded point, which was at the path length `from_mm`; the actual one.
+  /// The servos follow the commanded point, which was at the path length `from_mm`, and the table
+  /// follows them; where it is.
   // The tool point's command has no velocity of its own: its mean over the step before stands in.
   Point follow(double from_mm) noexcept {
     const double h = of.timing_.step_s;
@@ -268,7 +272,6 @@ struct Forecast::Walk {
       command = commanded_for_tool(command);
       velocity1 = geometry::scale(geometry::subtract(command, before), 1.0 / h);
     }
-    Point actual;
     for (std::size_t i = 0; i < 3; ++i) {
       const AxisStep& step = of.step_[i];
       const double mean = (command[i] - before[i]) / h;
@@ -278,10 +281,12 @@ struct Forecast::Walk {
       servo.error_mm[i] = step.ee * e + step.ew * w + step.e_mean * mean + step.e_change * change;
       servo.velocity_mm_s[i] =
           step.we * e + step.ww * w + step.w_mean * mean + step.w_change * change;
-      actual[i] = command[i] - servo.error_mm[i];
+      const double motor = command[i] - servo.error_mm[i];
+      const double play = of.half_backlash_mm_[i];
+      table[i] = std::clamp(table[i], motor - play, motor + play);
     }
     velocity = velocity1;
-    return actual;
+    return table;
   }
 
   /// Keeps the largest error; false when it exceeds the limit here.
@@ -323,6 +328,7 @@ struct Forecast::Walk {
   Point command;
   Point velocity;
   ServoState servo;
+  Point table{};
   FootTracker foot;
   std::optional<ToolPoint::State> tool;
   double worst = 0.0;  ///< error squared
@@ -348,7 +354,7 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     const Cell& under = path.cell(walk.foot.cell());
     walk.result.steps = n;
     // In air the error does not matter; within the dead time nothing can change it.
-    if (!under.cutting || t <= timing_.dead_s) {
+    if (!under.cutting || t <= std::max(timing_.dead_s, plan.judged_from_s)) {
       continue;
     }
     if (record != nullptr) {

@@ -24,6 +24,7 @@ struct RatioPlan {
   double target = 1.0;
   double floor = 0.1;
   double hold_s = 0.02;
+  double judged_from_s = 0.0;  ///< errors before it do not count; those in the dead time never do
 };
 
 /// The machine's state at the beginning of a forecast.
@@ -33,6 +34,7 @@ struct Outset {
   double rapid_ratio = 1.0;
   double panel_ratio = 1.0;  ///< the override never acts above it
   ServoState servo;
+  std::array<double, 3> play_mm{};  ///< table − motor, within half of the backlash
   std::size_t command_cell = 0;
   std::size_t foot_cell = 0;
   /// Where the tool point is, while offsets cancel the contour error; empty: they do not.
@@ -42,19 +44,20 @@ struct Outset {
 /// Simulates the control's speed and the servos along the cells ahead, for one candidate.
 ///
 /// Speed: target = min(cap, feed·r); changes at most by a·h; keeps v² ≤ min(cap², square + 2a·left)
-/// and the next cell's target. Servo: exact linear step (AxisStep). Contour error: distance from
-/// the predicted actual point to the parabola of the foot's cell; the foot moves forward only, over
-/// corners by comparison with the first cell behind the corner, as ContourError would find it.
-/// Where offsets cancel the error (Outset::tool) the servos follow the tool point's command, held
-/// to the largest offset: what remains is what the offsets cannot do.
+/// and the next cell's target. Servo: exact linear step (AxisStep). The table follows the motors
+/// within the play of the backlash. Contour error: distance from the predicted table to the
+/// parabola of the foot's cell; the foot moves forward only, over corners by comparison with the
+/// first cell behind the corner, as ContourError would find it. Where offsets cancel the error
+/// (Outset::tool) the servos follow the tool point's command, held to the largest offset: what
+/// remains is what the offsets cannot do.
 ///
 /// Accuracy against the closed forms of constant curvature: 0.1 % of ε and 0.1 µm (test). Not
-/// modelled: jerk beyond its mean delay, friction, backlash, drive saturation; the governor
-/// measures the rest.
+/// modelled: jerk beyond its mean delay, friction, drive saturation; the governor measures the
+/// rest.
 class Forecast {
  public:
   static constexpr std::size_t kMaxSteps = 512;
-  static constexpr std::size_t kMaxTable = 64;
+  static constexpr std::size_t kMaxTable = 256;
 
   struct Timing {
     double step_s = 0.002;
@@ -88,6 +91,10 @@ class Forecast {
   void set_model(std::span<const AxisModel, 3> model) noexcept;
   /// How the offsets would be chosen, and how large one may be.
   void set_tool_point(const ToolPoint& tool_point, double most_mm) noexcept;
+  /// The table follows the motor within this play, either way.
+  void set_half_backlash(const std::array<double, 3>& half_mm) noexcept {
+    half_backlash_mm_ = half_mm;
+  }
   /// Ratios of the table's steps in rising order.
   void set_table(std::span<const double> ratio) noexcept;
   /// Ratios already on their way: entry n acts at most until n·step_s; 0 = nothing pending.
@@ -113,6 +120,7 @@ class Forecast {
   std::array<AxisStep, 3> step_{};
   ToolPoint tool_point_;
   double most_offset_mm_ = 0.0;
+  std::array<double, 3> half_backlash_mm_{};
   std::array<double, kMaxTable> table_{};
   std::size_t table_count_ = 0;
   std::array<double, kMaxSteps> pending_{};

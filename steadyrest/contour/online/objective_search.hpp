@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -9,19 +10,19 @@ namespace steadyrest::contour::online {
 /// Finds the step of a table with the lowest value, one look at a time, so that it can be
 /// interrupted and resumed.
 ///
-/// Up to `exhaustive_steps` it looks at all; in larger tables in strides of kStride, then ever
-/// closer around the best: where the values form one valley it finds the best. Values within `tie`
-/// of each other are equal; among equals the highest step wins.
+/// Up to `exhaustive_steps` it looks at all; in larger tables in kStrides strides or fewer, then
+/// ever closer around the best: where the values form one valley it finds the best. Values within
+/// `tie` of each other are equal; among equals the highest step wins.
 class ObjectiveSearch {
  public:
-  /// n/s + 2·log₂ s looks: for 64 steps 14 at s = 8, 20 at 4, 12 at 16, which sees only every
-  /// sixteenth step of a narrow valley.
-  static constexpr std::size_t kStride = 8;
+  /// n/s + 2·log₂ s looks: for 64 steps 14 at s = 8, 20 at 4, 12 at 16, which sees only a quarter
+  /// of the range's valleys; for 201 steps 17 at s = 32.
+  static constexpr std::size_t kStrides = 8;
 
   void begin(std::size_t steps, std::size_t exhaustive_steps) noexcept {
     *this = {};
     steps_ = steps;
-    stride_ = steps <= exhaustive_steps ? 1 : kStride;
+    stride_ = steps <= exhaustive_steps ? 1 : std::bit_ceil((steps + kStrides - 1) / kStrides);
   }
   [[nodiscard]] bool done() const noexcept { return stride_ == 0; }
   /// The next step to look at, unless done.

@@ -103,6 +103,59 @@ TEST(Forecast, RoundsACornerAsTheServoDoes) {
   EXPECT_NEAR(std::abs(result.error_mm), 0.4 / std::exp(1.0), 0.003);
 }
 
+// Play holds the table b/2 behind each motor: on a counter-clockwise circle that moves it inwards
+// by b/2·(sin θ − cos θ) in the first quadrant, and so on round: ±b/2 on either side of a reversal.
+TEST(Forecast, OfBacklashTakesTheTableHalfOfItBehindTheMotors) {
+  constexpr double kRadius = 10.0;
+  constexpr double kSpeed = 20.0;
+  constexpr double kHalf = 0.001;
+  const AxisModel model{50.0, 0.0, 0.0};
+  const auto path = PathMaker({kRadius, 0, 0}, kSpeed).arc({0, 0, 0}, 1.25 * kTurn).path();
+  Scene s = scene(path, model, 1.0);
+  s.plan.hold_s = kTurn / 4.0 * kRadius / kSpeed;  // a quarter of the circle, after settling
+  const auto errors = [&](double half_mm) {
+    s.forecast.set_half_backlash({half_mm, half_mm, half_mm});
+    Forecast::Trace trace;
+    EXPECT_TRUE(s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, &trace).kept);
+    // Without the first fifth of the way, on which the axes start from no lag.
+    const auto begin = trace.error_mm.begin() + static_cast<std::ptrdiff_t>(trace.count / 5);
+    const auto end = trace.error_mm.begin() + static_cast<std::ptrdiff_t>(trace.count);
+    return std::pair(*std::min_element(begin, end), *std::max_element(begin, end));
+  };
+  const double ideal = closed_form_mm(model, kRadius, kSpeed);
+  const auto [least, most] = errors(kHalf);
+  // Within 5 % of b/2: a step passes 0.05 mm of the quarter, and its slope is b/2 per 45°.
+  EXPECT_NEAR(most, ideal + kHalf, 0.05 * kHalf);
+  EXPECT_NEAR(least, ideal - kHalf, 0.05 * kHalf);
+  const auto [same, too] = errors(0.0);
+  EXPECT_NEAR(same, ideal, 2e-4);
+  EXPECT_NEAR(too, ideal, 2e-4);
+}
+
+// At the outset the table lies where the last reversal has left it.
+TEST(Forecast, BeginsWithThePlayThatItIsGiven) {
+  const auto path = PathMaker({0, 0, 0}, 20.0).line_to({60, 0, 0}).path();
+  Scene s = scene(path, {50.0, 0.0, 0.0}, 1.0);
+  s.forecast.set_half_backlash({0.001, 0.001, 0.001});
+  s.outset.play_mm = {0.0, -0.001, 0.0005};  // X alone moves; Y and Z stay within their play
+  Forecast::Trace trace;
+  ASSERT_TRUE(s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, &trace).kept);
+  EXPECT_NEAR(trace.error_mm[trace.count - 1], std::hypot(0.001, 0.0005), 1e-9);
+}
+
+// The objective compares what steps are worth once what came before has settled.
+TEST(Forecast, CountsErrorsOnlyFromWhereItIsToldTo) {
+  const auto path = PathMaker({10, 0, 0}, 20.0).arc({0, 0, 0}, kTurn).path();
+  const AxisModel model{50.0, 0.0, 0.0};
+  Scene s = scene(path, model, 1.0);
+  s.outset.servo.error_mm = {0.1, 0.0, 0.0};  // 100 µm off the path at first
+  const auto all = s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, nullptr);
+  EXPECT_GT(std::abs(all.error_mm), 0.05);
+  s.plan.judged_from_s = 8.0 / model.gain_1_s;  // e⁻⁸ of it, 0.03 µm, is left
+  const auto settled = s.forecast.run(s.ahead, s.outset, s.plan, 1e9, false, nullptr, nullptr);
+  EXPECT_NEAR(settled.error_mm, closed_form_mm(model, 10.0, 20.0), 2e-4);
+}
+
 // ε on the arc of R = 5 mm rises to v²/(2Rk²) = 0.064 mm; it exceeds 0.010 mm within the first two
 // millimetres of the arc, seen from a foot that lags by 0.8 mm.
 TEST(Forecast, StopsWhereTheLimitIsBrokenAndSaysWhere) {

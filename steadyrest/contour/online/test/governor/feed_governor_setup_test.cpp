@@ -63,13 +63,26 @@ TEST(FeedGovernorSteps, BeginAtTheStricterOfTheLowerLimits) {
   EXPECT_EQ(lowest(0.10, 0.35), 0.40);
 }
 
-// A percent word has 201 steps; 64 of them are searched, including both ends, with gaps of at most
-// 4 %.
-TEST(FeedGovernorSteps, OfAFineTableAreSpreadOverItsWholeRange) {
+// A percent word has 201 steps: each can be chosen.
+TEST(FeedGovernorSteps, OfAPercentWordAreAllThere) {
   Machine machine = test::mill();
   machine.feed_override.ratio.clear();
   for (int percent = 0; percent <= 200; ++percent) {
     machine.feed_override.ratio.push_back(percent / 100.0);
+  }
+  machine.contour.max_ratio = machine.envelope.max_feed_ratio = 2.0;
+  for (const double most : {2.0, 1.0, 0.73, 0.41, 0.11}) {
+    machine.contour.max_ratio = most;
+    EXPECT_EQ(settled(machine, 500.0).request.ratio, most);
+  }
+}
+
+// Of 1001 steps 256 are searched, including both ends, with gaps of at most 0.8 %.
+TEST(FeedGovernorSteps, OfAVeryFineTableAreSpreadOverItsWholeRange) {
+  Machine machine = test::mill();
+  machine.feed_override.ratio.clear();
+  for (int i = 0; i <= 1000; ++i) {
+    machine.feed_override.ratio.push_back(i / 500.0);
   }
   machine.contour.max_ratio = machine.envelope.max_feed_ratio = 2.0;
   EXPECT_EQ(settled(machine, 500.0).request.ratio, 2.0) << "the last step";
@@ -77,7 +90,7 @@ TEST(FeedGovernorSteps, OfAFineTableAreSpreadOverItsWholeRange) {
     machine.contour.max_ratio = most;
     const auto out = settled(machine, 500.0);
     EXPECT_LE(out.request.ratio, most);
-    EXPECT_GE(out.request.ratio, most - 0.04);
+    EXPECT_GE(out.request.ratio, most - 0.008);
     EXPECT_EQ(machine.feed_override.ratio[out.step], out.request.ratio) << "a step of the table";
   }
 }
