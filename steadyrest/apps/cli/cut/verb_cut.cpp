@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <steadyrest/apps/cli/cut/cut_chatter.hpp>
 #include <steadyrest/apps/cli/cut/cut_plan.hpp>
 #include <steadyrest/apps/cli/cut/cut_runs.hpp>
+#include <steadyrest/apps/cli/cut/cut_ways.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/program_options.hpp>
@@ -43,6 +45,7 @@ struct Options {
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
   AgainstOptions against;
+  WaysOptions ways;
   CutChatterOptions chatter;
   CutBatchOptions batch;
 };
@@ -95,12 +98,40 @@ struct Cuts {
   std::optional<Recorder> original;  ///< without the layer; only with --against
   Recorder without;
   Recorder with;
+  Ways ways;  ///< empty where they are not compared
 };
+
+/// The cuts that are made anyway are ways too.
+void add_ways(Cuts& cuts, const Setup& setup) {
+  using trial::cut::Way;
+  const bool offsets = permits_offsets(setup);
+  auto& ways = cuts.ways.ways;
+  if (cuts.original) {
+    ways.push_back({Way::alone, cuts.original->figures()});
+    ways.push_back({Way::changed, cuts.without.figures()});
+    ways.push_back(
+        {offsets ? Way::changed_path_offsets : Way::changed_feed_override, cuts.with.figures()});
+  } else {
+    ways.push_back({Way::alone, cuts.without.figures()});
+    ways.push_back({offsets ? Way::path_offsets : Way::feed_override, cuts.with.figures()});
+  }
+  cuts.ways.sort();
+}
+
+/// A report compares the ways by itself where there is more than one to choose from.
+bool wants_ways(const Options& options, const Setup& setup) {
+  const bool worth = !options.against.file.empty() || permits_offsets(setup);
+  return options.ways.ways || options.ways.curve || (!options.report.empty() && worth);
+}
 
 Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
                      const std::shared_ptr<const trial::cut::Original>& against,
-                     Progress& progress) {
-  CutRuns runs(setup, progress, against ? 3 : 2);
+                     const Options& options, Progress& progress) {
+  std::vector<Further> further;
+  if (wants_ways(options, setup)) {
+    further = further_runs(setup, against ? against->path : path, against != nullptr, options.ways);
+  }
+  CutRuns runs(setup, progress, (against ? 3 : 2) + further.size());
   std::optional<Recorder> original;
   if (against) {
     auto cut = runs.run({.what = "cutting the original", .path = against->path});
@@ -118,7 +149,22 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
   if (!with) {
     return std::unexpected(with.error());
   }
-  return Cuts{std::move(original), std::move(*without), std::move(*with)};
+  Cuts cuts{std::move(original), std::move(*without), std::move(*with), {}};
+  for (const Further& one : further) {
+    const auto cut = runs.run(one.asked);
+    if (!cut) {
+      return std::unexpected(cut.error());
+    }
+    if (one.curve_limit_um > 0.0) {
+      cuts.ways.curve.push_back({one.curve_limit_um, cut->figures()});
+    } else {
+      cuts.ways.ways.push_back({one.way, cut->figures()});
+    }
+  }
+  if (wants_ways(options, setup)) {
+    add_ways(cuts, setup);
+  }
+  return cuts;
 }
 
 /// The figures of all cuts, as JSON and as text.
@@ -135,8 +181,24 @@ void put_cuts(Answer& answer, const Cuts& cuts, const Machine& machine) {
   put("with", cuts.original ? "changed, with" : "with the layer", cuts.with);
   answer.json["motion"] = json_of(cuts.with.motion());
   answer.json["probes"] = json_of(cuts.with.probes());
-  answer.text += text_of(columns, machine.contour.limit_mm) + text_of(cuts.with.motion(), machine) +
-                 text_of(cuts.with.probes()) + put_withdrawn(answer, cuts.with);
+  const double limit_mm = machine.contour.limit_mm;
+  answer.text += text_of(columns, limit_mm) + put_ways(answer, cuts.ways, limit_mm) +
+                 text_of(cuts.with.motion(), machine) + text_of(cuts.with.probes()) +
+                 put_withdrawn(answer, cuts.with);
+}
+
+/// The report: the comparison, and what belongs to the whole command.
+void put_page(Answer& answer, const Options& options, const Machine& machine, const Cuts& cuts) {
+  trial::cut::ReportData data =
+      trial::cut::compare(options.program.file, machine, cuts.without, cuts.with);
+  data.against = std::filesystem::path(options.against.file).filename().string();
+  data.ways = cuts.ways.ways;
+  data.curve = cuts.ways.curve;
+  page::Json page = page::to_page(data);
+  // The page shows the warnings too; they are not part of the comparison.
+  page["warnings"] = answer.json["warnings"];
+  page["warning_count"] = answer.json["warning_count"];
+  put_report(answer, options.report, std::move(page));
 }
 
 Outcome run(const Options& options, Progress& progress) {
@@ -162,7 +224,7 @@ Outcome run(const Options& options, Progress& progress) {
                            chatter->warnings.end());
   planned->warning_count += chatter->warnings.size();
   const Setup setup{std::move(*machine), std::move(*believed), std::move(*chatter)};
-  const auto cuts = cut_all(setup, planned->path, *against, progress);
+  const auto cuts = cut_all(setup, planned->path, *against, options, progress);
   if (!cuts) {
     return refused(cuts.error());
   }
@@ -184,12 +246,7 @@ Outcome run(const Options& options, Progress& progress) {
     return refused(done.error());
   }
   if (!options.report.empty()) {
-    page::Json page = page::to_page(
-        trial::cut::compare(options.program.file, setup.machine, cuts->without, cuts->with));
-    // The page shows the warnings too; they are not part of the comparison.
-    page["warnings"] = answer.json["warnings"];
-    page["warning_count"] = answer.json["warning_count"];
-    put_report(answer, options.report, std::move(page));
+    put_page(answer, options, setup.machine, *cuts);
   }
   return answer;
 }
@@ -202,6 +259,7 @@ void add_verb_cut(Session& session, Verb& verb) {
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
   cut::add_against_options(verb, options->against);
+  cut::add_ways_options(verb, options->ways);
   verb.reports(options->report, [options](const std::string& folder) {
     std::vector<PlannedFile> files = report_files(folder);
     // A batch has its own report in a folder below, which must be declared before the work.
