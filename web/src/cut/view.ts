@@ -106,7 +106,7 @@ const EXPLANATION: readonly Term[] = [
     'Distance from the actual tool position to the nearest point of the commanded path: the error that ends up in the part. On arcs it is positive towards the centre, on lines to the left of the direction of travel.',
   ],
   ['Tracking error', 'Distance from the actual tool position to the position commanded at the same instant. It can be a hundred times the contour error, and leaves no mark on the part as long as the tool merely lags along the path.'],
-  ['Without, with', "The same program on the same simulated machine with the same random seed: first on the operator's override alone, then with the corrective layer, which moves nothing but the overrides."],
+  ['Without, with', "The same program on the same simulated machine with the same random seed: first on the operator's override alone, then with the corrective layer, which acts through the overrides and, where the machine file permits it, through offsets of the axes."],
   ['Limit', 'The contour error that the layer must hold, from the machine file. Error figures count cutting moves (G1 to G3) only. Rapids are drawn thin and grey; they leave a gap in the error plot and run off the top of the feed plot.'],
   [
     'Worst lines',
