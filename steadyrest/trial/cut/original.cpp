@@ -35,11 +35,12 @@ kernel::outcome::Result<Original> Original::make(
                   "give two programs for one part, or a wider tube");
   }
   const PathPairing::Farthest farthest = pairing->farthest();
-  return Original{.path = original,
+  const std::uint32_t original_line = original->segments[farthest.original_segment].line;
+  return Original{.path = std::move(original),
                   .pairing = std::move(*pairing),
                   .farthest_mm = farthest.distance_mm,
                   .changed_line = changed.segments[farthest.changed_segment].line,
-                  .original_line = original->segments[farthest.original_segment].line};
+                  .original_line = original_line};
 }
 
 }  // namespace steadyrest::trial::cut
