@@ -279,6 +279,18 @@ export function makeReport(samples: number): Report {
       velocity_coverage_ratio: axis === 'X' ? 1 : 0.99996,
       acceleration_coverage_ratio: axis === 'X' ? 0.5 : null,
     })),
+    ways: [
+      { way: 'alone', ...without.figures },
+      { way: 'feed_override', ...layer.figures },
+      { way: 'path_offsets', ...without.figures, contour_error_max_mm: 0.009, contour_error_rms_mm: 0.0012, samples_over_limit: 0 },
+    ],
+    curve: [5, 20].map((limit_um) => ({
+      limit_um,
+      ...layer.figures,
+      cycle_time_s: layer.figures.cycle_time_s * (limit_um < 10 ? 1.3 : 0.85),
+      contour_error_max_mm: limit_um / 1000,
+      contour_error_rms_mm: limit_um / 4000,
+    })),
   };
 }
 
@@ -288,5 +300,5 @@ export function emptyReport(): Report {
     over_limit_s: 0, samples: 0, samples_over_limit: 0, override_changes: 0,
   };
   const run = (): Run => ({ figures: { ...figures }, trace: emptyTrace(), reasons: [] });
-  return { ...makeReport(50), without: run(), with: run(), worst_lines: [], override_table: [], motion: [], probes: [] };
+  return { ...makeReport(50), without: run(), with: run(), worst_lines: [], override_table: [], motion: [], probes: [], ways: [], curve: [] };
 }

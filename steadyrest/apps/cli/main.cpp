@@ -47,7 +47,9 @@ constexpr Entry kVerbs[] = {
      "Cut a part twice on the simulated machine, without and with the layer, and compare",
      add_verb_cut,
      {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --report "
-      "out/rib-pocket"}},
+      "out/rib-pocket",
+      "examples/programs/circle-r10-larger.mpf --against examples/programs/circle-r10.mpf "
+      "--machine examples/machines/ideal-k50.toml"}},
     {"doctor",
      "Check a machine file and this computer's clock, and measure whether the layer fits in the "
      "control cycle",

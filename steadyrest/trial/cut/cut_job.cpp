@@ -11,10 +11,11 @@
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>
 #include <steadyrest/trial/cut/motion_score.hpp>
+#include <steadyrest/trial/cut/true_error.hpp>
 
 // One cut of a program on the simulated machine, with or without the layer. The judge is
 // independent of both: it measures the true tool, which no control can see, against the program's
-// path without the layer's offsets.
+// path without the layer's offsets, or against that of the program it was made from.
 namespace steadyrest::trial::cut {
 namespace {
 
@@ -22,6 +23,9 @@ using contour::online::ContourError;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::Frame;
+using kernel::signal::Motion;
+using kernel::signal::PathSegment;
+using kernel::signal::PathView;
 using kernel::signal::Point;
 
 constexpr double kStandstillLimit_s = 600.0;
@@ -31,66 +35,39 @@ Point first_three(const kernel::signal::AxisValues& values) {
   return {values[0], values[1], values[2]};
 }
 
-/// Measures the true tool, cycle by cycle. The product's own foot search, but fed with the truth:
-/// tool, heat and backlash, which no encoder shows.
-/// encoder shows.
-class TrueError {
- public:
-  static Result<TrueError> make(const kernel::machine::Machine& machine) {
-    ContourError::Config config;
-    // The slowest axis lags most.
-    config.servo_gain_1_s = std::ranges::min(machine.axes, {}, [](const auto& axis) {
-                              return axis.servo_gain_1_s;
-                            }).servo_gain_1_s;
-    auto error = ContourError::make(config);
-    if (!error) {
-      return std::unexpected(error.error());
-    }
-    return TrueError(*error);
-  }
-
-  ContourError::Output update(const Frame& frame, const sim::Truth& truth) noexcept {
-    ContourError::Input input = contour::online::contour_input(frame);
-    // The program's command: an axis offset is a correction, not an error of the path.
-    input.command_mm = first_three(truth.program_mm);
-    input.actual_mm = first_three(truth.tool_mm);
-    return error_.update(input);
-  }
-
- private:
-  explicit TrueError(const ContourError& error) : error_(error) {}
-  ContourError error_;
-};
-
 /// The piece of path that the tool is on; null if there is none.
-const kernel::signal::PathSegment* segment_of(const Frame& frame,
-                                              const ContourError::Output& error) {
-  const bool on_path = error.from_path && error.foot_index < frame.path.size();
-  return on_path ? &frame.path[error.foot_index] : nullptr;
+const PathSegment* segment_of(PathView path, const ContourError::Output& error) {
+  const bool on_path = error.from_path && error.foot_index < path.size();
+  return on_path ? &path[error.foot_index] : nullptr;
 }
 
-/// The motion that a sample counts for: it is a cut only if the control cuts and the tool is there.
-/// Just after a rapid the tool still lags on the rapid's path and leaves no surface.
-kernel::signal::Motion motion_of(const Frame& frame, const kernel::signal::PathSegment* segment) {
-  const bool cuts = frame.motion == kernel::signal::Motion::feed;
-  return cuts && segment != nullptr ? segment->motion : frame.motion;
+/// The motion that a sample counts for: it is a cut only if the control cuts and the tool is there,
+/// on each path that is asked. Just after a rapid the tool still lags on the rapid's path and
+/// leaves no surface.
+Motion motion_of(Motion commanded, const PathSegment* segment) {
+  return commanded == Motion::feed && segment != nullptr ? segment->motion : commanded;
 }
 
-Sample sample_of(const Frame& frame, const sim::Truth& truth, const ContourError::Output& error,
-                 kernel::outcome::Reason reason) {
-  const kernel::signal::PathSegment* const segment = segment_of(frame, error);
+Sample sample_of(const Frame& frame, const sim::Truth& truth, const TrueError::Output& errors,
+                 const Original* original, kernel::outcome::Reason reason) {
+  const PathSegment* const segment = segment_of(frame.path, errors.own);
+  Motion motion = motion_of(frame.motion, segment);
+  if (original != nullptr && errors.original) {
+    motion = motion_of(motion, segment_of(original->path->segments, *errors.original));
+  }
+  const ContourError::Output& error = errors.original ? *errors.original : errors.own;
   const bool arc = segment != nullptr && segment->geometry == kernel::signal::Geometry::arc;
   return {.time_s = frame.time_s,
           .position_mm = first_three(truth.tool_mm),
           .path_position_mm = frame.path_position_mm,
           .contour_error_mm = error.valid ? error.error_mm : 0.0,
-          .tracking_error_mm = error.tracking_error_mm,
+          .tracking_error_mm = errors.own.tracking_error_mm,
           .feed_ratio = frame.feed.effective_ratio,
           .path_speed_mm_s = frame.path_speed_mm_s,
           .arc_radius_mm = arc ? segment->radius_mm : 0.0,
           .arc_length_mm = arc ? segment->length_mm : 0.0,
           .line = segment != nullptr ? segment->line : frame.program_line,
-          .motion = motion_of(frame, segment),
+          .motion = motion,
           .reason = reason};
 }
 
@@ -207,7 +184,7 @@ Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
 Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
                  const OnSample& on_sample, MotionScore* motion = nullptr,
                  VibrationRecord* vibration = nullptr) {
-  auto error = TrueError::make(job.machine);
+  auto error = TrueError::make(job.machine, job.against);
   if (!error) {
     return std::unexpected(error.error());
   }
@@ -236,7 +213,8 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
       vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
     }
     // The truth is that at the end of this cycle; the command acts in the next.
-    on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()), reason));
+    on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()),
+                        job.against.get(), reason));
     if (standstill.too_long(*frame)) {
       return refuse("", frame->program_line, "no motion for ten simulated minutes in this line",
                     "look for a 0 % override or a very long dwell");

@@ -14,6 +14,7 @@
 #include <steadyrest/sim/cut/cutting_vibration.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
 #include <steadyrest/trial/cut/recorder.hpp>
+#include <steadyrest/trial/cut/true_error.hpp>
 
 namespace steadyrest::trial::cut {
 
@@ -29,6 +30,7 @@ struct Job {
   std::optional<sim::CuttingVibration::Config> cutting = {};  ///< empty: it cuts air
   std::vector<ChatterChoice> choices = {};  ///< the modulator's law for each programmed speed
   std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration
+  std::shared_ptr<const Original> against = {};  ///< contour errors refer to it; empty: `path`
   // NOLINTEND(readability-redundant-member-init)
   /// Called now and then with the share of the path done, 0 … 1.
   std::function<void(double share)> progress = [](double) {};
@@ -40,7 +42,8 @@ using Layer = std::function<kernel::signal::Command(kernel::signal::Frame&)>;
 using OnSample = std::function<void(const Sample&)>;
 
 /// Cuts the part and keeps the record. The contour error is the true tool's against the commanded
-/// path, which no layer can see; the layer has only the encoders.
+/// path, or against that of the original (true_error.hpp), which no layer can see; the layer has
+/// only the encoders, and only the program's own path.
 ///
 /// Refuses what the simulated machine or the supervisor refuse, and a cut that makes no progress
 /// for ten simulated minutes.

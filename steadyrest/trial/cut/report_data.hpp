@@ -128,6 +128,28 @@ struct OverrideStep {
   double percent = 100.0;
 };
 
+/// A way to cut the part.
+enum class Way : std::uint8_t {
+  alone,          ///< the program, or the original of a changed one, without the layer
+  feed_override,  ///< the same with the layer, which has the feed override alone
+  path_offsets,   ///< the same with the layer, which has offsets of the axes too
+  changed,        ///< the changed program without the layer …
+  changed_feed_override,
+  changed_path_offsets
+};
+
+struct WayFigures {
+  Way way = Way::alone;
+  Figures figures;
+};
+
+/// The feed override alone, told to keep another limit. Samples over the limit are those over the
+/// report's limit.
+struct CurvePoint {
+  double limit_um = 10.0;
+  Figures figures;
+};
+
 /// Everything in the report except its provenance (provenance.hpp).
 struct ReportData {
   std::string program;
@@ -140,6 +162,9 @@ struct ReportData {
   std::vector<WorstLine> worst_lines;  ///< the worst with and without the layer
   std::vector<MotionFigures> motion;   ///< of the run with the layer; only axes with counts
   std::vector<ProbeFigures> probes;    ///< of the run with the layer
+  std::string against;                 ///< the original of a changed program; empty: none
+  std::vector<WayFigures> ways;        ///< empty: not compared
+  std::vector<CurvePoint> curve;       ///< by rising limit; empty: not asked for
 };
 
 }  // namespace steadyrest::trial::cut

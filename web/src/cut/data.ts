@@ -121,6 +121,18 @@ export interface OverrideStep {
   percent: number;
 }
 
+/** A way to cut the part; `changed…`: by the changed program, the others by its original or the only program. */
+export type WayName = 'alone' | 'feed_override' | 'path_offsets' | 'changed' | 'changed_feed_override' | 'changed_path_offsets';
+
+export interface WayFigures extends Figures {
+  way: WayName;
+}
+
+/** The feed override alone, told to keep another limit. */
+export interface CurvePoint extends Figures {
+  limit_um: number;
+}
+
 export interface Report extends Head {
   program: string;
   machine: string;
@@ -133,6 +145,12 @@ export interface Report extends Head {
   worst_lines: WorstLine[];
   motion: MotionFigures[];
   probes: ProbeFigures[];
+  /** The original of a changed program, by whose path errors are judged. */
+  against?: string;
+  /** Empty if they were not compared. */
+  ways: WayFigures[];
+  /** By rising limit; empty if not asked for. */
+  curve: CurvePoint[];
   /** The first few, and how many there are in all. */
   warnings?: Warning[];
   warning_count?: number;

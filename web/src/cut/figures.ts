@@ -82,8 +82,8 @@ export function motionRows(motion: readonly MotionFigures[]): MotionRow[] {
   });
 }
 
-/** What the layer gained, in one sentence. */
-export function verdict(without: Figures, withLayer: Figures, limit_um: number): string {
+/** What the layer, or a change of the program, gained, in one sentence. */
+export function verdict(without: Figures, withLayer: Figures, limit_um: number, how = 'With the layer'): string {
   if (without.samples === 0 && withLayer.samples === 0) {
     return 'The program does not cut, so there is nothing to compare.';
   }
@@ -96,7 +96,7 @@ export function verdict(without: Figures, withLayer: Figures, limit_um: number):
     : `exceeds the ${um(limit_um)} limit for ${seconds(withLayer.over_limit_s)}`;
   const sameTime = time === '–' || time === '0.0\u00a0%';
   return (
-    `With the layer, the contour error peaks at ${micrometres(after)} instead of ${micrometres(before)} ` +
+    `${how}, the contour error peaks at ${micrometres(after)} instead of ${micrometres(before)} ` +
     `and ${limit}; the cycle takes ${seconds(withLayer.cycle_time_s)} instead of ` +
     `${seconds(without.cycle_time_s)}${sameTime ? '' : ` (${time})`}.`
   );

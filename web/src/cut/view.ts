@@ -6,11 +6,12 @@ import { change, fixed, percent, um } from '../frame/numbers';
 import { type Cell, numbers, numeric, table, valued } from '../frame/table';
 import { type Term, type View, said } from '../frame/view';
 import { host, panels, plot } from '../plot/plot';
-import { RUNS, type ReasonTime, type Report, type WorstLine } from './data';
+import { type Figures, RUNS, type ReasonTime, type Report, type WorstLine } from './data';
 import { type FigureRow, figureRows, micrometres, motionRows, seconds, verdict, vibrationRows, vibrationVerdict } from './figures';
 import type { Plane } from './path';
 import { type Abscissa, COURSES, VIBRATIONS, coursePlot, pathPlot, vibrationPlot } from './plots';
 import { errorClasses } from './scale';
+import { WAYS_TERM, WAY_PLOTS, comparesWays, wayPlot, waysSection } from './ways';
 
 function headline(key: string, label: string, before: number, after: number, show: (v: number) => string): string {
   return `<div class="worth" data-key="${key}"><h3>${label}</h3>
@@ -105,7 +106,7 @@ const EXPLANATION: readonly Term[] = [
     'Distance from the actual tool position to the nearest point of the commanded path: the error that ends up in the part. On arcs it is positive towards the centre, on lines to the left of the direction of travel.',
   ],
   ['Tracking error', 'Distance from the actual tool position to the position commanded at the same instant. It can be a hundred times the contour error, and leaves no mark on the part as long as the tool merely lags along the path.'],
-  ['Without, with', "The same program on the same simulated machine with the same random seed: first on the operator's override alone, then with the corrective layer, which moves nothing but the overrides."],
+  ['Without, with', "The same program on the same simulated machine with the same random seed: first on the operator's override alone, then with the corrective layer, which acts through the overrides and, where the machine file permits it, through offsets of the axes."],
   ['Limit', 'The contour error that the layer must hold, from the machine file. Error figures count cutting moves (G1 to G3) only. Rapids are drawn thin and grey; they leave a gap in the error plot and run off the top of the feed plot.'],
   [
     'Worst lines',
@@ -125,8 +126,13 @@ const VIBRATION: Term = [
 
 const PROBE: Term = ['Probe readings', 'What each reading found, how much of it the thermal model had not foreseen, and the band within which a reading is accepted. Beyond the band, a chip or a bad touch is more likely than heat.'];
 
+const AGAINST: Term = [
+  'Against',
+  "The program was changed on purpose, so its own path is not what the part should have. Errors are the tool's distance from the path of the original, as the control plans it, while both programs cut. The layer sees the changed program alone: where it holds that program's path, it undoes the change.",
+];
+
 function explanation(report: Report): readonly Term[] {
-  return [...EXPLANATION, ...(report.with.vibration ? [VIBRATION] : []), ...(report.probes.length > 0 ? [PROBE] : [])];
+  return [...(report.against === undefined ? [] : [AGAINST]), ...EXPLANATION, ...(comparesWays(report) ? [WAYS_TERM] : []), ...(report.with.vibration ? [VIBRATION] : []), ...(report.probes.length > 0 ? [PROBE] : [])];
 }
 
 /** What the program asks for and the machine will not do. */
@@ -140,13 +146,21 @@ function largestError(report: Report): number {
   return inCut.reduce<number>((most, e) => Math.max(most, Math.abs(e ?? 0)), 0);
 }
 
+/** What the headlines compare: the original and the changed program, else the cut without and with the layer. */
+function compared(report: Report): [Figures, Figures] {
+  const original = report.against === undefined ? undefined : report.ways.find((w) => w.way === 'alone');
+  return original ? [original, report.without.figures] : [report.without.figures, report.with.figures];
+}
+
 function body(report: Report): string {
   const { without, with: layer } = report;
   const [a, b] = [without.figures, layer.figures];
-  return `<div class="worths">${headline('contour_error_max_mm', 'Contour error, max', a.contour_error_max_mm, b.contour_error_max_mm, micrometres)}
-      ${headline('contour_error_rms_mm', 'Contour error, RMS', a.contour_error_rms_mm, b.contour_error_rms_mm, micrometres)}
-      ${headline('cycle_time_s', 'Cycle time', a.cycle_time_s, b.cycle_time_s, seconds)}</div>
+  const [before, after] = compared(report);
+  return `<div class="worths">${headline('contour_error_max_mm', 'Contour error, max', before.contour_error_max_mm, after.contour_error_max_mm, micrometres)}
+      ${headline('contour_error_rms_mm', 'Contour error, RMS', before.contour_error_rms_mm, after.contour_error_rms_mm, micrometres)}
+      ${headline('cycle_time_s', 'Cycle time', before.cycle_time_s, after.cycle_time_s, seconds)}</div>
     ${warnings(report)}
+    ${waysSection(report)}
     ${section('Path, coloured by contour error', panels(RUNS.map((run) => `path-${run}`), 'square'), '<span class="on-screen">Point at the path to read its line and values.</span>', buttons('plane', 'View', [['xy', 'XY'], ['xz', 'XZ'], ['yz', 'YZ']], 'xy'))}
     ${section('Along the program', `${host('course-error')}${host('course-override', 'low')}${host('course-feed', 'low')}`, '', buttons('abscissa', 'Horizontal axis', [['path_mm', 'Path length'], ['time_s', 'Time']], 'path_mm'))}
     ${section('Worst lines', worstTable(report), '<span class="on-screen">Click a column head to sort.</span>')}
@@ -160,14 +174,17 @@ export function cutView(report: Report): View {
   return {
     product: 'Steadyrest cut',
     title: report.program,
-    facts: `Machine <b>${escapeHtml(report.machine)}</b> · strategy <b>${escapeHtml(report.strategy)}</b> · contour limit <b>${um(report.limit_um)}</b>`,
-    verdict: [verdict(report.without.figures, report.with.figures, report.limit_um), vibrationVerdict(report.without.vibration?.figures, report.with.vibration?.figures)].filter(Boolean).join(' '),
+    facts: `Machine <b>${escapeHtml(report.machine)}</b> · strategy <b>${escapeHtml(report.strategy)}</b> · contour limit <b>${um(report.limit_um)}</b>${report.against === undefined ? '' : ` · against <b>${escapeHtml(report.against)}</b>`}`,
+    verdict: [verdict(...compared(report), report.limit_um, report.against === undefined ? 'With the layer' : 'With the changed program'), vibrationVerdict(report.without.vibration?.figures, report.with.vibration?.figures)].filter(Boolean).join(' '),
     body: body(report),
     explanation: explanation(report),
     draw: (theme) => {
       const classes = errorClasses(report.limit_um, largest_um, theme.scheme);
       RUNS.forEach((run) => plot(`path-${run}`, pathPlot(report, run, state.plane, classes, theme), theme));
       COURSES.forEach((course) => plot(course.id, coursePlot(report, course, state.abscissa, theme), theme));
+      if (comparesWays(report)) {
+        WAY_PLOTS.forEach((id, i) => plot(id, wayPlot(report, i, theme), theme));
+      }
       if (report.without.vibration && report.with.vibration) {
         VIBRATIONS.forEach((v) => plot(v.id, vibrationPlot(report, v, state.abscissa, theme), theme));
       }

@@ -7,7 +7,7 @@ import { type OpenPage, closeBrowser, colours, haveWritten, openFromDisk, writte
 
 /** Where each is, and how many plots it has. */
 const PAGES: Record<string, number> = {
-  sample: 5, batch: 5, 'batch/batch': 4, vibration: 8,
+  sample: 7, changed: 7, batch: 5, 'batch/batch': 4, vibration: 8,
   lobes: 1, modulated: 1, growth: 2, simulate: 6, detect: 3, 'chatter-plan': 1, tap: 5,
   forecast: 2, 'thermal-fit': 4, replay: 3, 'thermal-plan': 3, bench: 14, estimate: 3,
 };

@@ -64,7 +64,7 @@ describe('a report with data', () => {
 
   it('draws its charts and complains about nothing', async () => {
     const seen = await colours(open);
-    for (const plot of ['path-without', 'path-with', 'course-error', 'course-override', 'course-feed']) {
+    for (const plot of ['ways-max', 'ways-rms', 'path-without', 'path-with', 'course-error', 'course-override', 'course-feed']) {
       expect(seen[plot], plot).toBeGreaterThan(20);
     }
     expect(open.complaints).toEqual([]);
@@ -93,6 +93,15 @@ describe('a report with data', () => {
     const worth = await text(open.page, '.worth[data-key="contour_error_max_mm"]');
     expect(worth).toContain(micrometres(report.without.figures.contour_error_max_mm));
     expect(worth).toContain(micrometres(report.with.figures.contour_error_max_mm));
+  });
+
+  it('compares the ways as a table, in the order of the report', async () => {
+    const rows = await open.page.locator('#ways tbody tr').allTextContents();
+    expect(rows).toHaveLength(report.ways.length + report.curve.length);
+    for (const [i, name] of ['Alone', 'With feed override', 'With path offsets', 'Feed override for 5 µm'].entries()) {
+      expect(rows[i]?.startsWith(name), rows[i]).toBe(true);
+    }
+    expect(rows[2]).toContain(micrometres(report.ways[2]?.contour_error_max_mm ?? 0));
   });
 
   it('lists the worst lines by what the layer left, and by any column that is pressed', async () => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,36 +9,33 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/cut/cut_against.hpp>
+#include <steadyrest/apps/cli/cut/cut_answer.hpp>
 #include <steadyrest/apps/cli/cut/cut_batch.hpp>
 #include <steadyrest/apps/cli/cut/cut_chatter.hpp>
+#include <steadyrest/apps/cli/cut/cut_plan.hpp>
+#include <steadyrest/apps/cli/cut/cut_runs.hpp>
+#include <steadyrest/apps/cli/cut/cut_ways.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/apps/cli/shared/report_option.hpp>
-#include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/cut/report.hpp>
-#include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
-#include <steadyrest/nc/plan/check/idle_override.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/trial/cut/comparison.hpp>
-#include <steadyrest/trial/cut/cut_job.hpp>
 
 namespace steadyrest::apps::cli {
 // The main job. One path is planned once, cut twice on the same simulated machine with the same
-// noise, and only the layer differs; so every difference in the figures comes from the layer.
+// noise, and only the layer differs; so every difference in the figures comes from the layer. A
+// changed program is judged by its original's path, and the original is cut too.
 namespace cut {
 namespace {
 
 using kernel::machine::ContourStrategy;
 using kernel::machine::Machine;
-using kernel::outcome::Kind;
-using kernel::outcome::Reason;
-using nc::plan::PlannedPath;
-using trial::cut::Figures;
+using kernel::outcome::Result;
 using trial::cut::Recorder;
-using PathPointer = std::shared_ptr<const PlannedPath>;
 
 struct Options {
   ProgramOptions program;
@@ -47,6 +44,8 @@ struct Options {
   std::string report;
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
+  AgainstOptions against;
+  WaysOptions ways;
   CutChatterOptions chatter;
   CutBatchOptions batch;
 };
@@ -69,197 +68,6 @@ std::optional<Refusal> apply(const Options& options, Machine& machine) {
     machine.contour.strategy = kStrategies.at(*options.strategy);
   }
   return std::nullopt;
-}
-
-/// The program as the machine's control plans it, with warnings about what the machine cannot do.
-struct Planned {
-  PathPointer path;
-  std::vector<nc::plan::Warning> warnings;
-  std::size_t warning_count = 0;
-};
-
-/// One pass through the program feeds the planner and the check. A refused block ends the job: a
-/// part with a block left out is not the part.
-std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine& machine) {
-  Answer answer;
-  const auto config = program_config(options, machine);
-  if (!config) {
-    answer.refusals.push_back(config.error());
-    answer.exit_code = kRefused;
-    return std::unexpected(std::move(answer));
-  }
-  nc::plan::PathBuilder builder(machine);
-  nc::plan::MachineCheck check(machine, known_in_simulation());
-  nc::plan::Both both(builder, check);
-  const auto report = nc::interpret::run_file(options.file, *config, both);
-  if (!report) {
-    answer.refusals.push_back(report.error());
-    // A missing file is the user's mistake; a disk that fails while it is read is not.
-    answer.exit_code = report.error().kind == Kind::bad_input ? kRefused : kFailed;
-    return std::unexpected(std::move(answer));
-  }
-  if (!report->refused.empty()) {
-    put_report(answer, *report, options.file);
-    say_dialect(answer, options, machine);
-    return std::unexpected(std::move(answer));
-  }
-  auto path = builder.take();
-  if (!path) {
-    Refusal refusal = path.error();
-    refusal.file = options.file;
-    answer.refusals.push_back(std::move(refusal));
-    answer.exit_code = kRefused;
-    return std::unexpected(std::move(answer));
-  }
-  if (path->segments.empty()) {
-    answer.refusals.push_back(bad_input(options.file, "the program moves no axis",
-                                        "give a program with at least one motion"));
-    answer.exit_code = kRefused;
-    return std::unexpected(std::move(answer));
-  }
-  Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
-              check.count()};
-  // If the feed override hardly acts because the axes never reach the programmed feed, the layer
-  // has little to work with; that warning comes first.
-  if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
-    out.warnings.insert(out.warnings.begin(), std::move(*idle));
-    ++out.warning_count;
-  }
-  return out;
-}
-
-/// Keys that scripts rely on; see the list in the command line's documentation.
-Json json_of(const Figures& figures) {
-  return {{"cycle_time_s", figures.cycle_time_s},
-          {"contour_error_max_mm", figures.contour_error_max_mm},
-          {"contour_error_rms_mm", figures.contour_error_rms_mm},
-          {"tracking_error_max_mm", figures.tracking_error_max_mm},
-          {"over_limit_s", figures.over_limit_s},
-          {"override_changes", figures.override_changes},
-          {"cutting_time_s", figures.cutting_time_s},
-          {"samples", figures.samples},
-          {"samples_over_limit", figures.samples_over_limit}};
-}
-
-/// Coverage is the share of samples whose true value lies within the stated bound: 1, or a
-/// guarantee was broken.
-Json json_of(const std::vector<trial::cut::MotionFigures>& motion) {
-  Json axes = Json::array();
-  for (const trial::cut::MotionFigures& m : motion) {
-    axes.push_back(page::to_object(m));
-  }
-  return axes;
-}
-
-/// Innovation: reading less forecast. A reading outside the band is not believed, and `reason` says
-/// so.
-Json json_of(const std::vector<trial::cut::ProbeFigures>& probes) {
-  Json out = Json::array();
-  for (const trial::cut::ProbeFigures& p : probes) {
-    out.push_back({{"time_s", p.time_s},
-                   {"line", p.line},
-                   {"axis", p.axis},
-                   {"displacement_um", p.displacement_um},
-                   {"innovation_um", p.innovation_um},
-                   {"band_um", p.band_um},
-                   {"reason", kernel::outcome::name(p.reason)}});
-  }
-  return out;
-}
-
-/// The two cuts side by side: what the layer gained in error and what it cost in time.
-std::string text_of(const Figures& without, const Figures& with, double limit_mm) {
-  using kernel::units::um_from_mm;
-  const auto um = [](double mm) { return fmt::format("{:.1f} µm", um_from_mm(mm)); };
-  const auto seconds = [](double s) { return fmt::format("{:.2f} s", s); };
-  return Table({"", "without the layer", "with the layer"})
-      .row({"cycle time", seconds(without.cycle_time_s), seconds(with.cycle_time_s)})
-      .row({"contour error, largest", um(without.contour_error_max_mm),
-            um(with.contour_error_max_mm)})
-      .row({"contour error, RMS", um(without.contour_error_rms_mm), um(with.contour_error_rms_mm)})
-      .row({"tracking error, largest", um(without.tracking_error_max_mm),
-            um(with.tracking_error_max_mm)})
-      .row({fmt::format("over the limit of {}", um(limit_mm)), seconds(without.over_limit_s),
-            seconds(with.over_limit_s)})
-      .row({"override changes", fmt::format("{}", without.override_changes),
-            fmt::format("{}", with.override_changes)})
-      .text();
-}
-
-/// How good the estimates of each axis's motion were in the cut with the layer, against the
-/// differences of counts that a control without time stamps would use.
-std::string text_of(const std::vector<trial::cut::MotionFigures>& motion, const Machine& machine) {
-  if (motion.empty()) {
-    return {};
-  }
-  Table table({"motion estimate error, RMS", "estimate", "by differencing counts"});
-  for (const trial::cut::MotionFigures& m : motion) {
-    // Inside, a rotary axis is in rad; people read degrees.
-    const bool rotary = std::ranges::any_of(
-        machine.axes, [&](const auto& axis) { return axis.rotary && axis.name == m.axis; });
-    const auto both = [rotary](double velocity, double acceleration) {
-      using kernel::units::deg_from_rad;
-      return rotary ? fmt::format("{:.3g} °/s, {:.3g} °/s²", deg_from_rad(velocity),
-                                  deg_from_rad(acceleration))
-                    : fmt::format("{:.3g} mm/s, {:.3g} mm/s²", velocity, acceleration);
-    };
-    table.row({m.axis, both(m.velocity_rms_mm_s, m.acceleration_rms_mm_s2),
-               both(m.difference_velocity_rms_mm_s, m.difference_acceleration_rms_mm_s2)});
-  }
-  return "\n" + table.text();
-}
-
-/// What became of the probe's readings: found, how much of it the model had not forecast, and the
-/// band within which a reading is believed.
-std::string text_of(const std::vector<trial::cut::ProbeFigures>& probes) {
-  if (probes.empty()) {
-    return {};
-  }
-  Table table({"probe", "line", "finds", "not forecast", "accepted within", ""});
-  for (const trial::cut::ProbeFigures& p : probes) {
-    table.row({fmt::format("{} at {:.1f} s", p.axis, p.time_s), fmt::format("{}", p.line),
-               fmt::format("{:.2f} µm", p.displacement_um),
-               fmt::format("{:.2f} µm", p.innovation_um), fmt::format("±{:.2f} µm", p.band_um),
-               std::string{kernel::outcome::name(p.reason)}});
-  }
-  return "\n" + table.text();
-}
-
-/// Why and how long the layer withdrew because of its input. Withdrawing outside of cuts is normal
-/// and not reported.
-std::string put_withdrawn(Answer& answer, const Recorder& with) {
-  answer.json["withdrawn"] = Json::array();
-  std::string text;
-  for (const Reason reason :
-       {Reason::input_not_finite, Reason::input_out_of_range, Reason::input_stale}) {
-    const auto found = with.time_by_reason().find(reason);
-    if (found == with.time_by_reason().end()) {
-      continue;
-    }
-    answer.json["withdrawn"].push_back(
-        {{"reason", kernel::outcome::name(reason)}, {"seconds", found->second}});
-    text += fmt::format("the layer withdrew for {:.1f} s: {}: {}\n", found->second,
-                        kernel::outcome::name(reason), kernel::outcome::sentence(reason));
-  }
-  return text.empty() ? text : "\n" + text;
-}
-
-/// One run of the simulated machine over the whole path.
-Result<Recorder> cut_once(const Machine& machine, const std::optional<Machine>& believed,
-                          const PathPointer& path, const CutChatter& chatter, bool with_layer,
-                          Progress& progress) {
-  // Each cut takes about half of the time.
-  const double from = with_layer ? 0.5 : 0.0;
-  const char* what = with_layer ? "cutting with the layer" : "cutting without the layer";
-  return trial::cut::run(
-      {.machine = machine,
-       .path = path,
-       .with_layer = with_layer,
-       .believed = believed,
-       .cutting = chatter.cutting,
-       .choices = chatter.choices,
-       .listener = chatter.listener,
-       .progress = [&](double share) { progress.update(from + share / 2, what); }});
 }
 
 /// A machine file with the command line's options.
@@ -285,9 +93,117 @@ std::expected<std::optional<Machine>, Refusals> believed_machine(const Options& 
   return std::move(*machine);
 }
 
+/// The cuts of one command.
+struct Cuts {
+  std::optional<Recorder> original;  ///< without the layer; only with --against
+  Recorder without;
+  Recorder with;
+  Ways ways;  ///< empty where they are not compared
+};
+
+/// The cuts that are made anyway are ways too.
+void add_ways(Cuts& cuts, const Setup& setup) {
+  using trial::cut::Way;
+  const bool offsets = permits_offsets(setup);
+  auto& ways = cuts.ways.ways;
+  if (cuts.original) {
+    ways.push_back({Way::alone, cuts.original->figures()});
+    ways.push_back({Way::changed, cuts.without.figures()});
+    ways.push_back(
+        {offsets ? Way::changed_path_offsets : Way::changed_feed_override, cuts.with.figures()});
+  } else {
+    ways.push_back({Way::alone, cuts.without.figures()});
+    ways.push_back({offsets ? Way::path_offsets : Way::feed_override, cuts.with.figures()});
+  }
+  cuts.ways.sort();
+}
+
+/// A report compares the ways by itself where there is more than one to choose from.
+bool wants_ways(const Options& options, const Setup& setup) {
+  const bool worth = !options.against.file.empty() || permits_offsets(setup);
+  return options.ways.ways || options.ways.curve || (!options.report.empty() && worth);
+}
+
+Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
+                     const std::shared_ptr<const trial::cut::Original>& against,
+                     const Options& options, Progress& progress) {
+  std::vector<Further> further;
+  if (wants_ways(options, setup)) {
+    further = further_runs(setup, against ? against->path : path, against != nullptr, options.ways);
+  }
+  CutRuns runs(setup, progress, (against ? 3 : 2) + further.size());
+  std::optional<Recorder> original;
+  if (against) {
+    auto cut = runs.run({.what = "cutting the original", .path = against->path});
+    if (!cut) {
+      return std::unexpected(cut.error());
+    }
+    original = std::move(*cut);
+  }
+  auto without = runs.run({.what = "cutting without the layer", .path = path, .against = against});
+  if (!without) {
+    return std::unexpected(without.error());
+  }
+  auto with = runs.run(
+      {.what = "cutting with the layer", .path = path, .with_layer = true, .against = against});
+  if (!with) {
+    return std::unexpected(with.error());
+  }
+  Cuts cuts{std::move(original), std::move(*without), std::move(*with), {}};
+  for (const Further& one : further) {
+    const auto cut = runs.run(one.asked);
+    if (!cut) {
+      return std::unexpected(cut.error());
+    }
+    if (one.curve_limit_um > 0.0) {
+      cuts.ways.curve.push_back({one.curve_limit_um, cut->figures()});
+    } else {
+      cuts.ways.ways.push_back({one.way, cut->figures()});
+    }
+  }
+  if (wants_ways(options, setup)) {
+    add_ways(cuts, setup);
+  }
+  return cuts;
+}
+
+/// The figures of all cuts, as JSON and as text.
+void put_cuts(Answer& answer, const Cuts& cuts, const Machine& machine) {
+  std::vector<Column> columns;
+  const auto put = [&](const char* key, const std::string& head, const Recorder& cut) {
+    answer.json[key] = json_of(cut.figures());
+    columns.push_back({head, cut.figures()});
+  };
+  if (cuts.original) {
+    put("original", "original", *cuts.original);
+  }
+  put("without", cuts.original ? "changed, without" : "without the layer", cuts.without);
+  put("with", cuts.original ? "changed, with" : "with the layer", cuts.with);
+  answer.json["motion"] = json_of(cuts.with.motion());
+  answer.json["probes"] = json_of(cuts.with.probes());
+  const double limit_mm = machine.contour.limit_mm;
+  answer.text += text_of(columns, limit_mm) + put_ways(answer, cuts.ways, limit_mm) +
+                 text_of(cuts.with.motion(), machine) + text_of(cuts.with.probes()) +
+                 put_withdrawn(answer, cuts.with);
+}
+
+/// The report: the comparison, and what belongs to the whole command.
+void put_page(Answer& answer, const Options& options, const Machine& machine, const Cuts& cuts) {
+  trial::cut::ReportData data =
+      trial::cut::compare(options.program.file, machine, cuts.without, cuts.with);
+  data.against = std::filesystem::path(options.against.file).filename().string();
+  data.ways = cuts.ways.ways;
+  data.curve = cuts.ways.curve;
+  page::Json page = page::to_page(data);
+  // The page shows the warnings too; they are not part of the comparison.
+  page["warnings"] = answer.json["warnings"];
+  page["warning_count"] = answer.json["warning_count"];
+  put_report(answer, options.report, std::move(page));
+}
+
 Outcome run(const Options& options, Progress& progress) {
   auto machine = machine_from(options.machine, options);
-  const auto believed = believed_machine(options);
+  auto believed = believed_machine(options);
   if (!machine || !believed) {
     return std::unexpected(machine ? believed.error() : machine.error());
   }
@@ -295,50 +211,42 @@ Outcome run(const Options& options, Progress& progress) {
   if (!planned) {
     return std::move(planned.error());
   }
-  const PathPointer& path = planned->path;
-  // This may switch the machine's modulator on, so it comes before both cuts.
-  const auto chatter = cut_chatter(options.chatter, *path, *machine, progress);
+  const auto against = read_original(options.against, options.program, planned->path, *machine);
+  if (!against) {
+    return against.error();
+  }
+  // This may switch the machine's modulator on, so it comes before all cuts.
+  auto chatter = cut_chatter(options.chatter, *planned->path, *machine, progress);
   if (!chatter) {
     return std::unexpected(chatter.error());
   }
   planned->warnings.insert(planned->warnings.begin(), chatter->warnings.begin(),
                            chatter->warnings.end());
   planned->warning_count += chatter->warnings.size();
-  const auto without = cut_once(*machine, *believed, path, *chatter, false, progress);
-  if (!without) {
-    return refused(without.error());
-  }
-  const auto with = cut_once(*machine, *believed, path, *chatter, true, progress);
-  if (!with) {
-    return refused(with.error());
+  const Setup setup{std::move(*machine), std::move(*believed), std::move(*chatter)};
+  const auto cuts = cut_all(setup, planned->path, *against, options, progress);
+  if (!cuts) {
+    return refused(cuts.error());
   }
   // The batch draws its own bar.
   progress.clear();
   Answer answer;
   answer.json["program"] = options.program.file;
-  answer.json["machine"] = machine->name;
-  answer.json["limit_um"] = kernel::units::um_from_mm(machine->contour.limit_mm);
-  answer.json["without"] = json_of(without->figures());
-  answer.json["with"] = json_of(with->figures());
-  answer.json["motion"] = json_of(with->motion());
-  answer.json["probes"] = json_of(with->probes());
-  answer.text = text_of(without->figures(), with->figures(), machine->contour.limit_mm) +
-                text_of(with->motion(), *machine) + text_of(with->probes()) +
-                put_withdrawn(answer, *with) +
-                put_warnings(answer, planned->warnings, planned->warning_count);
-  put_vibration(answer, *chatter, *without, *with);
-  if (auto done =
-          put_batch(answer, options.batch, options.program, *machine, options.report, progress);
+  answer.json["machine"] = setup.machine.name;
+  answer.json["limit_um"] = kernel::units::um_from_mm(setup.machine.contour.limit_mm);
+  if (*against) {
+    answer.text += put_against(answer, options.against, **against);
+  }
+  put_cuts(answer, *cuts, setup.machine);
+  answer.text += put_warnings(answer, planned->warnings, planned->warning_count);
+  put_vibration(answer, setup.chatter, cuts->without, cuts->with);
+  if (auto done = put_batch(answer, options.batch, options.program, setup.machine, options.report,
+                            progress);
       !done) {
     return refused(done.error());
   }
   if (!options.report.empty()) {
-    page::Json page =
-        page::to_page(trial::cut::compare(options.program.file, *machine, *without, *with));
-    // The page shows the warnings too; they are not part of the comparison.
-    page["warnings"] = answer.json["warnings"];
-    page["warning_count"] = answer.json["warning_count"];
-    put_report(answer, options.report, std::move(page));
+    put_page(answer, options, setup.machine, *cuts);
   }
   return answer;
 }
@@ -350,6 +258,8 @@ void add_verb_cut(Session& session, Verb& verb) {
   auto options = std::make_shared<cut::Options>();
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
+  cut::add_against_options(verb, options->against);
+  cut::add_ways_options(verb, options->ways);
   verb.reports(options->report, [options](const std::string& folder) {
     std::vector<PlannedFile> files = report_files(folder);
     // A batch has its own report in a folder below, which must be declared before the work.

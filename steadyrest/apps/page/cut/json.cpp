@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/apps/page/cut/report.hpp>
 
@@ -10,6 +11,7 @@
 namespace steadyrest::apps::page {
 namespace {
 
+using trial::cut::CurvePoint;
 using trial::cut::Figures;
 using trial::cut::HeldBy;
 using trial::cut::MotionFigures;
@@ -21,6 +23,8 @@ using trial::cut::Run;
 using trial::cut::TracePoint;
 using trial::cut::VibrationFigures;
 using trial::cut::VibrationPoint;
+using trial::cut::Way;
+using trial::cut::WayFigures;
 using trial::cut::WorstLine;
 
 /// Rounded to a decimal place, so that the double's shortest text is short. nlohmann-json writes
@@ -175,7 +179,38 @@ Json to_object(const WorstLine& w) {
           {"held_by", name_of(w.held_by)}};
 }
 
+/// Public: scripts and the page tell the ways by it.
+std::string_view name_of(Way way) {
+  switch (way) {
+    case Way::alone:
+      return "alone";
+    case Way::feed_override:
+      return "feed_override";
+    case Way::path_offsets:
+      return "path_offsets";
+    case Way::changed:
+      return "changed";
+    case Way::changed_feed_override:
+      return "changed_feed_override";
+    case Way::changed_path_offsets:
+      return "changed_path_offsets";
+  }
+  return "";
+}
+
 }  // namespace
+
+Json to_object(const WayFigures& way) {
+  Json out = {{"way", name_of(way.way)}};
+  out.update(to_object(way.figures));
+  return out;
+}
+
+Json to_object(const CurvePoint& point) {
+  Json out = {{"limit_um", rounded(point.limit_um, 1e6)}};
+  out.update(to_object(point.figures));
+  return out;
+}
 
 Json to_object(const MotionFigures& figures) {
   return {{"axis", figures.axis},
@@ -198,18 +233,13 @@ Json to_page(const ReportData& data) {
   for (const OverrideStep& step : data.override_table) {
     table.push_back({{"code", step.code}, {"percent", rounded(step.percent, 1e6)}});
   }
-  Json worst = Json::array();
-  for (const WorstLine& line : data.worst_lines) {
-    worst.push_back(to_object(line));
-  }
-  Json motion = Json::array();
-  for (const MotionFigures& figures : data.motion) {
-    motion.push_back(to_object(figures));
-  }
-  Json probes = Json::array();
-  for (const ProbeFigures& probe : data.probes) {
-    probes.push_back(to_object(probe));
-  }
+  const auto list = [](const auto& values) {
+    Json out = Json::array();
+    for (const auto& value : values) {
+      out.push_back(to_object(value));
+    }
+    return out;
+  };
   Json page = page_head("steadyrest-report/1");
   page.update({{"program", data.program},
                {"machine", data.machine},
@@ -218,9 +248,14 @@ Json to_page(const ReportData& data) {
                {"override_table", std::move(table)},
                {"without", to_object(data.without)},
                {"with", to_object(data.with)},
-               {"worst_lines", std::move(worst)},
-               {"motion", std::move(motion)},
-               {"probes", std::move(probes)}});
+               {"worst_lines", list(data.worst_lines)},
+               {"motion", list(data.motion)},
+               {"probes", list(data.probes)},
+               {"ways", list(data.ways)},
+               {"curve", list(data.curve)}});
+  if (!data.against.empty()) {
+    page["against"] = data.against;
+  }
   return page;
 }
 

@@ -13,6 +13,8 @@ namespace steadyrest::apps::page {
 /// s, 1e-4 mm, 0.01 µm). Schema: web/src/cut/data.ts.
 [[nodiscard]] Json to_page(const trial::cut::ReportData& data);
 [[nodiscard]] Json to_object(const trial::cut::MotionFigures& figures);
+[[nodiscard]] Json to_object(const trial::cut::WayFigures& way);
+[[nodiscard]] Json to_object(const trial::cut::CurvePoint& point);
 /// One object as text; null where there is no number.
 [[nodiscard]] std::string to_json(const trial::cut::VibrationFigures& vibration);
 

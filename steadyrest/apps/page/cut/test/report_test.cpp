@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -71,6 +72,34 @@ TEST_F(Report, JsonSaysWhatTheDataSay) {
   EXPECT_TRUE(json["motion"][0]["acceleration_coverage_ratio"].is_null()) << "no bound";
   EXPECT_EQ(json["probes"][0]["innovation_um"], 2.94);
   EXPECT_EQ(json["probes"][0]["reason"], "thermal_reading_taken");
+  EXPECT_EQ(json["ways"][1]["way"], "feed_override");
+  EXPECT_EQ(json["ways"][1]["contour_error_max_mm"], data.with.figures.contour_error_max_mm);
+  EXPECT_EQ(json["curve"][1]["limit_um"], 50.0);
+  EXPECT_EQ(json["curve"][1]["samples_over_limit"], data.without.figures.samples_over_limit);
+  EXPECT_FALSE(json.contains("against"));
+}
+
+// The names are public.
+TEST_F(Report, EveryWayHasItsName) {
+  using trial::cut::Way;
+  const std::pair<Way, const char*> names[] = {
+      {Way::alone, "alone"},
+      {Way::feed_override, "feed_override"},
+      {Way::path_offsets, "path_offsets"},
+      {Way::changed, "changed"},
+      {Way::changed_feed_override, "changed_feed_override"},
+      {Way::changed_path_offsets, "changed_path_offsets"}};
+  ReportData data = sample_report(1);
+  data.against = "original.mpf";
+  data.ways.clear();
+  for (const auto& [way, name] : names) {
+    data.ways.push_back({.way = way, .figures = {}});
+  }
+  const auto json = nlohmann::json::parse(text(data));
+  EXPECT_EQ(json["against"], "original.mpf");
+  for (std::size_t i = 0; i < data.ways.size(); ++i) {
+    EXPECT_EQ(json["ways"][i]["way"], names[i].second);
+  }
 }
 
 // The page draws column against column; a short one would shift everything behind it.

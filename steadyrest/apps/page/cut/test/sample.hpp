@@ -69,6 +69,10 @@ inline trial::cut::ReportData sample_report(std::size_t points) {
                   .innovation_um = 2.94,
                   .band_um = 5.21,
                   .reason = kernel::outcome::Reason::thermal_reading_taken}};
+  data.ways = {{trial::cut::Way::alone, data.without.figures},
+               {trial::cut::Way::feed_override, data.with.figures}};
+  data.curve = {{.limit_um = 5.0, .figures = data.with.figures},
+                {.limit_um = 50.0, .figures = data.without.figures}};
   return data;
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/cut/cut_against.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli::cut {
+namespace {
+
+constexpr double kTube_mm = 1.0;
+
+double tube_of(const AgainstOptions& options) {
+  return options.tube_mm.value_or(kTube_mm);
+}
+
+}  // namespace
+
+void add_against_options(Verb& verb, AgainstOptions& options) {
+  CLI::Option* const against = verb.reads(
+      "--against", options.file,
+      "The original of a changed FILE. Errors are the tool's distance from the original's path as "
+      "the control plans it, while both programs cut (G1 to G3); rapids and rotary axes do not "
+      "count. The layer sees FILE alone");
+  verb.add_option("--tube-mm", options.tube_mm,
+                  "Refuse programs farther apart than this where they cut, 0.01 … 5; default: 1")
+      ->needs(against);
+}
+
+std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original(
+    const AgainstOptions& options, const ProgramOptions& changed, const PathPointer& path,
+    const kernel::machine::Machine& machine) {
+  if (options.file.empty()) {
+    return nullptr;
+  }
+  ProgramOptions program = changed;
+  program.file = options.file;
+  auto planned = plan(program, machine);
+  if (!planned) {
+    return std::unexpected(std::move(planned.error()));
+  }
+  auto original = trial::cut::Original::make(*path, planned->path, tube_of(options));
+  if (!original) {
+    Refusal refusal = std::move(original.error());
+    refusal.file = refusal.line > 0 ? changed.file : "--tube-mm";
+    Answer answer;
+    answer.refusals.push_back(std::move(refusal));
+    answer.exit_code = kRefused;
+    return std::unexpected(std::move(answer));
+  }
+  return std::make_shared<const trial::cut::Original>(std::move(*original));
+}
+
+std::string put_against(Answer& answer, const AgainstOptions& options,
+                        const trial::cut::Original& original) {
+  answer.json["against"] = {{"program", options.file},
+                            {"tube_mm", tube_of(options)},
+                            {"farthest_mm", original.farthest_mm},
+                            {"line", original.changed_line},
+                            {"original_line", original.original_line}};
+  return fmt::format(
+      "errors are against the path of {}, from which this program is up to {:.1f} µm away (line "
+      "{}, there line {})\n",
+      options.file, kernel::units::um_from_mm(original.farthest_mm), original.changed_line,
+      original.original_line);
+}
+
+}  // namespace steadyrest::apps::cli::cut
