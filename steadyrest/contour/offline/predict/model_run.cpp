@@ -57,11 +57,12 @@ class Runner {
         period_s_(run.machine.control.interpolator_period_s),
         every_(static_cast<std::size_t>(
             std::max(1.0, std::floor(kSampleOfLag / softest_gain_1_s(run.model) / period_s_)))),
+        step_s_(period_s_ * static_cast<double>(every_)),
         contour_(contour),
-        axes_(run.model, period_s_),
+        axes_(run.model, step_s_),
         other_error_mm_(run.others.size()) {
     for (const ServoModels& other : run.others) {
-      others_.emplace_back(other, period_s_);
+      others_.emplace_back(other, step_s_);
     }
   }
 
@@ -70,7 +71,11 @@ class Runner {
     if (count_ == 0) {
       before_ = command;
     }
-    const Point mean = geometry::scale(geometry::subtract(command, before_), 1.0 / period_s_);
+    ++count_;
+    if (count_ % every_ != 0) {
+      return;
+    }
+    const Point mean = geometry::scale(geometry::subtract(command, before_), 1.0 / step_s_);
     const Point change = geometry::subtract(mean, mean_);
     axes_.step(mean, change);
     for (Axes& other : others_) {
@@ -78,10 +83,7 @@ class Runner {
     }
     before_ = command;
     mean_ = mean;
-    ++count_;
-    if (count_ % every_ == 0) {
-      sample(s, command, on_sample);
-    }
+    sample(s, command, on_sample);
   }
   [[nodiscard]] double time_s() const noexcept { return static_cast<double>(count_) * period_s_; }
 
@@ -134,7 +136,8 @@ class Runner {
 
   const ModelRun& run_;
   double period_s_;
-  std::size_t every_;
+  std::size_t every_;  ///< periods between two samples
+  double step_s_;
   online::ContourError contour_;
   Axes axes_;
   std::vector<Axes> others_;

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/rewrite/replace/block_text.hpp>
+#include <steadyrest/nc/rewrite/text/source_lines.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+using kernel::outcome::Result;
+using kernel::signal::Geometry;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+using nc::rewrite::CutBlock;
+using nc::rewrite::NewLines;
+using nc::rewrite::NewMove;
+using nc::rewrite::Stays;
+
+/// The pieces of each line, and which of them each new line writes.
+class Writer {
+ public:
+  Writer(const Program& program, const std::vector<Piece>& pieces)
+      : program_(program), pieces_(pieces) {}
+
+  Result<NewLines> lines() {
+    auto source = nc::rewrite::SourceLines::open(program_.file);
+    if (!source) {
+      return std::unexpected(source.error());
+    }
+    NewLines out;
+    std::size_t segment = 0;
+    while (source->next()) {
+      const CutBlock* block = program_.blocks.find(source->number());
+      if (block == nullptr) {
+        continue;
+      }
+      if (next_ < pieces_.size() && pieces_[next_].segment.line == block->line) {
+        out[block->line] = texts_of(*block, source->line(), segment);
+      } else if (block->stays == Stays::free && moves_nothing(*block) && led_) {
+        // The same point again: the command is elsewhere now.
+        out[block->line] = block->feed_inherited
+                               ? std::vector{nc::rewrite::BlockText::feed_word(*block, 1.0)}
+                               : std::vector<std::string>{};
+        written_.emplace_back();
+      } else {
+        led_ = false;
+      }
+    }
+    return out;
+  }
+
+  /// For each replaced line in order, the piece that each of its new lines writes.
+  [[nodiscard]] const std::vector<std::vector<std::size_t>>& written() const { return written_; }
+
+ private:
+  static bool moves_nothing(const CutBlock& block) noexcept {
+    return math::geometry::distance(block.start_mm, block.end_mm) < 1e-9;
+  }
+
+  std::vector<std::string> texts_of(const CutBlock& block, std::string_view line,
+                                    std::size_t& segment) {
+    const auto& segments = program_.path.segments;
+    while (segment + 1 < segments.size() && segments[segment].line != block.line) {
+      ++segment;
+    }
+    const double feed = segments[segment].feed_mm_s;
+    if (!led_ || pieces_[next_].begins_run) {
+      at_mm_ = block.start_mm;
+    }
+    std::vector<NewMove> moves;
+    const nc::rewrite::BlockText writer(
+        program_.config.dialect, nc::rewrite::decimals_of(program_.config.dialect, block.unit_mm));
+    std::vector<std::string> texts;
+    written_.emplace_back();
+    for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
+      const PathSegment& of = pieces_[next_].segment;
+      const NewMove move = {.geometry = of.geometry,
+                            .end_mm = of.end_mm,
+                            .centre_mm = of.centre_mm,
+                            .clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0,
+                            .feed_ratio = feed > 0.0 ? of.feed_mm_s / feed : 1.0};
+      const auto text = writer.write(block, texts.empty() ? line : "", {&move, 1}, at_mm_);
+      if (!text.empty()) {
+        texts.push_back(text.front());
+        written_.back().push_back(next_);
+        moves.push_back(move);
+      }
+    }
+    led_ = true;
+    // Where the next block is not replaced it may take motion and feed over.
+    if (next_ == pieces_.size() || pieces_[next_].begins_run) {
+      if (auto restore = writer.restore(block, moves); !restore.empty()) {
+        texts.push_back(std::move(restore));
+      }
+    }
+    return texts;
+  }
+
+  const Program& program_;
+  const std::vector<Piece>& pieces_;
+  std::size_t next_ = 0;
+  bool led_ = false;  ///< the blocks so far are replaced, back to a block that is not
+  Point at_mm_{};
+  std::vector<std::vector<std::size_t>> written_;
+};
+
+/// Which original length each segment of the changed path stands for.
+class Mapping {
+ public:
+  Mapping(const Program& program, const std::vector<Piece>& pieces, const NewLines& lines,
+          const std::vector<std::vector<std::size_t>>& written, Changed& changed)
+      : original_(program.path.segments), pieces_(pieces), changed_(changed) {
+    // The piece of each line of the changed program; the comment that keeps the original first.
+    piece_of_.assign(changed.replaced.origin.size(), kNone);
+    std::size_t group = 0;
+    std::uint32_t before = 0;
+    for (std::size_t number = 1; number < changed.replaced.origin.size(); ++number) {
+      const std::uint32_t origin = changed.replaced.origin[number];
+      if (origin != before && lines.contains(origin)) {
+        const auto& of = written[group++];
+        for (std::size_t i = 0; i < of.size(); ++i) {
+          piece_of_[number + 1 + i] = of[i];
+        }
+      }
+      before = origin;
+    }
+  }
+
+  void run() {
+    const auto& segments = changed_.path.segments;
+    changed_.start_mm.resize(segments.size());
+    changed_.end_mm.resize(segments.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const std::size_t piece =
+          segments[i].line < piece_of_.size() ? piece_of_[segments[i].line] : kNone;
+      const auto [start, end] = piece == kNone ? kept(i) : of_piece(piece, i);
+      changed_.start_mm[i] = start;
+      changed_.end_mm[i] = std::max(start, end);
+    }
+    // Where the control put an arc between two or merged some, the next one's start decides.
+    for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
+      changed_.end_mm[i] = std::max(changed_.start_mm[i], changed_.start_mm[i + 1]);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr double kNear_mm = 10.0;  ///< more than a correction moves anything
+  struct Range {
+    double start_mm = 0.0;
+    double end_mm = 0.0;
+  };
+
+  /// The control may have divided a piece: in proportion to length.
+  Range of_piece(std::size_t piece, std::size_t i) {
+    const Piece& of = pieces_[piece];
+    const auto& segments = changed_.path.segments;
+    if (i == 0 || segments[i - 1].line != segments[i].line) {
+      passed_mm_ = 0.0;
+    }
+    const double span = of.progress_end_mm - of.progress_start_mm;
+    const double whole = std::max(of.segment.length_mm, 1e-9);
+    const double from = std::min(1.0, passed_mm_ / whole);
+    passed_mm_ += segments[i].length_mm;
+    const double to = std::min(1.0, passed_mm_ / whole);
+    while (index_ + 1 < original_.size() &&
+           original_[index_].position_mm + original_[index_].length_mm <
+               of.progress_end_mm - 1e-6) {
+      ++index_;
+    }
+    return {of.progress_start_mm + from * span, of.progress_start_mm + to * span};
+  }
+
+  /// A block that stays: the next segment of the original with its line.
+  Range kept(std::size_t i) {
+    const std::uint32_t line = origin_of(changed_.path.segments[i].line);
+    std::size_t next = index_;
+    const double at = i == 0 ? 0.0 : changed_.end_mm[i - 1];
+    const auto is_it = [&](const PathSegment& of) {
+      return of.line == line && of.position_mm + of.length_mm >= at - 1e-6;
+    };
+    while (next < original_.size() && original_[next].position_mm < at + kNear_mm &&
+           (!is_it(original_[next]) || taken_ == next)) {
+      ++next;
+    }
+    if (next == original_.size() || !is_it(original_[next])) {
+      return {at, at + changed_.path.segments[i].length_mm};
+    }
+    index_ = next;
+    taken_ = next;
+    return {original_[next].position_mm, original_[next].position_mm + original_[next].length_mm};
+  }
+
+  [[nodiscard]] std::uint32_t origin_of(std::uint32_t line) const noexcept {
+    return line < changed_.replaced.origin.size() ? changed_.replaced.origin[line] : 0;
+  }
+
+  const std::vector<PathSegment>& original_;
+  const std::vector<Piece>& pieces_;
+  Changed& changed_;
+  std::vector<std::size_t> piece_of_;
+  std::size_t index_ = 0;
+  std::size_t taken_ = kNone;
+  double passed_mm_ = 0.0;
+};
+
+}  // namespace
+
+Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& pieces) {
+  Writer writer(program, pieces);
+  auto lines = writer.lines();
+  if (!lines) {
+    return std::unexpected(lines.error());
+  }
+  auto replaced = nc::rewrite::replace(program.file, program.config.dialect, *lines, program.told);
+  if (!replaced) {
+    return std::unexpected(replaced.error());
+  }
+  nc::plan::PathBuilder builder(program.machine);
+  const auto report = nc::interpret::run_text(replaced->text, program.config, builder);
+  if (!report) {
+    return std::unexpected(report.error());
+  }
+  if (!report->refused.empty()) {
+    return std::unexpected(nc::interpret::first_refusal(*report, program.file));
+  }
+  auto path = builder.take();
+  if (!path) {
+    return std::unexpected(path.error());
+  }
+  Changed changed{
+      .replaced = std::move(*replaced), .path = std::move(*path), .start_mm = {}, .end_mm = {}};
+  Mapping(program, pieces, *lines, writer.written(), changed).run();
+  return changed;
+}
+
+}  // namespace steadyrest::contour::offline

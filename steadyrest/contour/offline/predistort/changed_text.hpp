@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <steadyrest/contour/offline/predistort/piece.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+#include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
+#include <steadyrest/nc/rewrite/replace/replace.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// A changed program, planned, and what its path stands for.
+struct Changed {
+  nc::rewrite::Replaced replaced;
+  nc::plan::PlannedPath path;
+  /// By segment of the path: original path length at its start and end.
+  std::vector<double> start_mm;
+  std::vector<double> end_mm;
+};
+
+/// What is needed to write pieces into a program and to plan it again.
+struct Program {
+  const std::string& file;
+  const nc::interpret::Config& config;
+  const kernel::machine::Machine& machine;
+  const nc::rewrite::CutBlocks& blocks;
+  const nc::plan::PlannedPath& path;  ///< of the original
+  const std::vector<nc::rewrite::Told>& told;
+};
+
+/// The program with the pieces in place of their blocks, read and planned as the control would.
+/// Refused: what the interpreter or the planner refuses of it.
+[[nodiscard]] kernel::outcome::Result<Changed> write_pieces(const Program& program,
+                                                            const std::vector<Piece>& pieces);
+
+}  // namespace steadyrest::contour::offline

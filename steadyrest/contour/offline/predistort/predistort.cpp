@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <steadyrest/contour/offline/predistort/command_shape.hpp>
+#include <steadyrest/contour/offline/predistort/joints.hpp>
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/contour/offline/predistort/shift.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/path/limits.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+using kernel::machine::Machine;
+using kernel::outcome::Result;
+using kernel::signal::Motion;
+using nc::plan::PlannedPath;
+using nc::rewrite::CutBlock;
+using nc::rewrite::Stays;
+
+constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
+constexpr double kInPlane = 0.999999;  ///< of an arc's axis along the plane's normal
+constexpr double kWorse_mm = 5e-4;     ///< an error that grows by less is rounding of the text
+constexpr int kMostRevisions = 2;      ///< lines that must stay are found at most so often …
+constexpr int kRevisionRounds = 2;     ///< … each with so many rounds
+constexpr std::size_t kMostRemaining = 1000;
+constexpr double kCornerReach = 2.0;  ///< of the lag, that belongs to a corner
+constexpr double kCornerSpare_mm = 0.3;
+/// Tried at corners besides the default; parts that take longer are left with the default.
+constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
+constexpr double kLongestTried_s = 1200.0;
+
+/// A run on the servo model.
+struct Run {
+  ErrorFigures figures;
+  CommandSpeed speed;
+  std::vector<double> corner_mm;  ///< largest error near each corner
+  double seconds = 0.0;
+};
+
+/// The largest error near each corner while the tool passes it.
+class CornerErrors {
+ public:
+  explicit CornerErrors(const std::vector<Corner>& corners)
+      : corners_(corners), error_mm_(corners.size(), 0.0) {}
+
+  void add(const ModelSample& sample) {
+    while (next_ < corners_.size() && sample.foot_mm > corners_[next_].at_mm + reach_mm(next_)) {
+      ++next_;
+    }
+    if (sample.cuts && next_ < corners_.size() &&
+        sample.foot_mm > corners_[next_].at_mm - reach_mm(next_)) {
+      error_mm_[next_] = std::max(error_mm_[next_], std::abs(sample.error_mm));
+    }
+  }
+  std::vector<double> take() { return std::move(error_mm_); }
+
+ private:
+  [[nodiscard]] double reach_mm(std::size_t i) const {
+    return kCornerReach * corners_[i].behind_mm + kCornerSpare_mm;
+  }
+
+  const std::vector<Corner>& corners_;
+  std::vector<double> error_mm_;
+  std::size_t next_ = 0;
+};
+
+/// All axes' gains off by the share, each up or down.
+std::vector<ServoModels> uncertain(const ServoModels& model, double share) {
+  std::vector<ServoModels> out;
+  for (unsigned signs = 0; share > 0.0 && signs < 8U; ++signs) {
+    ServoModels other = model;
+    for (std::size_t i = 0; i < 3; ++i) {
+      other[i].gain_1_s *= (signs >> i & 1U) != 0U ? 1.0 + share : 1.0 - share;
+    }
+    out.push_back(other);
+  }
+  return out;
+}
+
+/// Gains within the uncertainty that are as equal as they can be. Unequal gains bend straight
+/// lines; a difference that may not be there must not be corrected, or a machine without it would
+/// get it.
+ServoModels cautious(const ServoModels& model, double share) {
+  double low = 0.0;
+  double high = 1e300;
+  for (const online::AxisModel& axis : model) {
+    low = std::max(low, axis.gain_1_s * (1.0 - share));
+    high = std::min(high, axis.gain_1_s * (1.0 + share));
+  }
+  // They have a value in common where low ≤ high; else each takes its nearest to both ends.
+  ServoModels out = model;
+  for (online::AxisModel& axis : out) {
+    const double least = axis.gain_1_s * (1.0 - share);
+    const double most = axis.gain_1_s * (1.0 + share);
+    axis.gain_1_s = std::clamp(0.5 * (low + high), least, most);
+  }
+  return out;
+}
+
+class Predistortion {
+ public:
+  Predistortion(const std::string& file, const nc::interpret::Config& config,
+                const Machine& machine, const PredistortConfig& how)
+      : file_(file),
+        config_(config),
+        machine_(machine),
+        how_(how),
+        model_(servo_models(machine.axes)),
+        others_(uncertain(model_, how.gain_uncertainty)),
+        inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)) {}
+
+  Result<Predistorted> run() {
+    if (auto read = this->read(); !read) {
+      return std::unexpected(read.error());
+    }
+    auto before = follow(path_, same_path(path_), {});
+    if (!before) {
+      return std::unexpected(before.error());
+    }
+    out_.before = std::move(before->figures);
+    out_.seconds_before = before->seconds;
+    if (out_.before.nominal().samples == 0) {
+      return kernel::outcome::refuse(file_, "the program cuts nothing",
+                                     "give a program with feed moves");
+    }
+    speed_ = std::move(before->speed);
+    for (int revision = 0; revision <= kMostRevisions; ++revision) {
+      if (auto done = rounds(revision == 0 ? how_.rounds : kRevisionRounds); !done) {
+        return std::unexpected(done.error());
+      }
+      if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
+        if (auto done = try_corners(); !done) {
+          return std::unexpected(done.error());
+        }
+      }
+      if (revision == kMostRevisions || !bar_worse()) {
+        break;
+      }
+      best_mm_ = -1.0;  // what was found has blocks that must stay
+    }
+    report();
+    return std::move(out_);
+  }
+
+ private:
+  static std::array<double, 3> backlash_mm(const std::vector<kernel::machine::Axis>& axes) {
+    std::array<double, 3> out{};
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+      out[i] = axes[i].backlash_au;
+    }
+    return out;
+  }
+
+  Result<void> read() {
+    auto blocks = nc::rewrite::cut_blocks(file_, config_);
+    if (!blocks) {
+      return std::unexpected(blocks.error());
+    }
+    blocks_ = std::move(*blocks);
+    // Merged lines would have no segment of their own. The changed program is planned as it is.
+    shaped_as_ = machine_;
+    shaped_as_.control.merge_share = 0.0;
+    nc::plan::PathBuilder builder(shaped_as_);
+    const auto report = nc::interpret::run_file(file_, config_, builder);
+    if (!report) {
+      return std::unexpected(report.error());
+    }
+    if (!report->refused.empty()) {
+      return std::unexpected(nc::interpret::first_refusal(*report, file_));
+    }
+    auto path = builder.take();
+    if (!path) {
+      kernel::outcome::Refusal refusal = path.error();
+      refusal.file = file_;
+      return std::unexpected(std::move(refusal));
+    }
+    path_ = std::move(*path);
+    for (const CutBlock& block : blocks_.blocks) {
+      if (block.stays != Stays::free) {
+        out_.stays[block.stays].push_back(block.line);
+      }
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::vector<SegmentUse> use() const {
+    std::vector<SegmentUse> use(path_.segments.size());
+    for (std::size_t i = 0; i < use.size(); ++i) {
+      const auto& segment = path_.segments[i];
+      const CutBlock* block = blocks_.find(segment.line);
+      const bool turned = block != nullptr && block->rotation_deg != 0.0 &&
+                          block->plane != nc::interpret::Plane::xy;
+      use[i].free = segment.motion == Motion::feed && block != nullptr &&
+                    block->stays == Stays::free && !turned && !barred_.contains(segment.line);
+      use[i].stops = segment.exit_speed_limit_mm_s <= 0.0;
+      use[i].plane = block != nullptr ? block->plane : nc::interpret::Plane::xy;
+    }
+    // An arc in space by which the control rounds a corner cannot be written: its neighbours stay.
+    for (std::size_t i = 0; i < use.size(); ++i) {
+      const auto& segment = path_.segments[i];
+      const std::size_t normal = nc::interpret::axes_of(use[i].plane).normal;
+      if (use[i].free && segment.geometry == kernel::signal::Geometry::arc &&
+          std::abs(segment.axis[normal]) < kInPlane) {
+        keep_line(use, i);
+        keep_line(use, i + 1);
+      }
+    }
+    for (const nc::plan::PathEvent& event : path_.events) {
+      if (event.segment > 0 && event.segment <= use.size()) {
+        use[event.segment - 1].stops = true;
+      }
+    }
+    return use;
+  }
+
+  /// All segments of this one's block stay.
+  void keep_line(std::vector<SegmentUse>& use, std::size_t segment) const {
+    if (segment >= use.size()) {
+      return;
+    }
+    const std::uint32_t line = path_.segments[segment].line;
+    for (std::size_t i = segment + 1; i-- > 0 && path_.segments[i].line == line;) {
+      use[i].free = false;
+    }
+    for (std::size_t i = segment; i < use.size() && path_.segments[i].line == line; ++i) {
+      use[i].free = false;
+    }
+  }
+
+  Result<Run> follow(const PlannedPath& path, const PathMap& map,
+                     const std::vector<std::uint32_t>& origin) {
+    Run run{.figures = ErrorFigures(how_.limit_mm, others_.size()), .speed = {}, .corner_mm = {}};
+    CornerErrors corner_errors(corners_);
+    const auto seconds =
+        run_model({.machine = machine_,
+                   .path = path,
+                   .original = path_,
+                   .map = map,
+                   .model = model_,
+                   .others = others_},
+                  [&](const ModelSample& sample) {
+                    run.speed.add(sample.progress_mm, sample.command_mm_s);
+                    if (sample.cuts) {
+                      run.figures.add(
+                          sample, sample.line < origin.size() ? origin[sample.line] : sample.line);
+                    }
+                  });
+    if (!seconds) {
+      return std::unexpected(seconds.error());
+    }
+    run.seconds = *seconds;
+    run.corner_mm = corner_errors.take();
+    return run;
+  }
+
+  /// The pieces for a command at this speed.
+  std::vector<Piece> pieces(const std::vector<SegmentUse>& use, const CommandSpeed& speed) {
+    const ToolMotion motion(inverse_, path_, speed);
+    const nc::plan::PathLimits limits(machine_.axes, machine_.control);
+    ShapeConfig shape;
+    shape.across_mm_s2 = kAcrossShare * limits.centripetal_share() *
+                         limits.plane({0.0, 0.0, 1.0}).acceleration_mm_s2;
+    auto made = CommandShape(path_, use, inverse_, motion, shape).pieces();
+    made = lead_corners(made, motion, corners_);
+    return round_kinks(made, limits, kAcrossShare);
+  }
+
+  /// Rounds until the speeds agree; the best is kept.
+  Result<void> rounds(int count) {
+    auto use = this->use();
+    for (int round = 0; round < count; ++round) {
+      how_.progress(static_cast<double>(done_++) / (how_.rounds + kMostRevisions * kRevisionRounds),
+                    "shaping");
+      std::vector<Piece> made = pieces(use, speed_);
+      const Shift shift = shift_of(path_, made, how_.max_shift_mm);
+      if (!shift.too_far.empty()) {
+        out_.too_far.insert(out_.too_far.end(), shift.too_far.begin(), shift.too_far.end());
+        barred_.insert(shift.too_far.begin(), shift.too_far.end());
+        use = this->use();
+        made = pieces(use, speed_);
+      }
+      if (auto done = try_pieces(made, shift.largest_mm); !done) {
+        return done;
+      }
+    }
+    return {};
+  }
+
+  Result<void> try_pieces(const std::vector<Piece>& made, double shift_mm) {
+    auto changed = write_pieces({.file = file_,
+                                 .config = config_,
+                                 .machine = machine_,
+                                 .blocks = blocks_,
+                                 .path = path_,
+                                 .told = how_.told},
+                                made);
+    if (!changed) {
+      return std::unexpected(changed.error());
+    }
+    auto run = follow(changed->path, {.start_mm = changed->start_mm, .end_mm = changed->end_mm},
+                      changed->replaced.origin);
+    if (!run) {
+      return std::unexpected(run.error());
+    }
+    const auto& figures = run->figures.nominal();
+    const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
+    if (best_mm_ < 0.0 || score_mm < best_mm_) {
+      best_mm_ = score_mm;
+      out_.replaced = std::move(changed->replaced);
+      out_.after = std::move(run->figures);
+      out_.seconds_after = run->seconds;
+      out_.largest_shift_mm = std::min(shift_mm, how_.max_shift_mm);
+    }
+    speed_ = std::move(run->speed);
+    corner_mm_ = std::move(run->corner_mm);
+    return {};
+  }
+
+  /// Tries other shares at all corners and keeps the best at each.
+  Result<void> try_corners() {
+    std::vector<Corner> best = corners_;
+    std::vector<double> best_mm = corner_mm_;
+    for (const double beyond : kBeyond) {
+      for (Corner& corner : corners_) {
+        corner.beyond = beyond;
+      }
+      if (auto done = rounds(1); !done) {
+        return done;
+      }
+      for (std::size_t i = 0; i < std::min(best.size(), corner_mm_.size()); ++i) {
+        if (corner_mm_[i] < best_mm[i]) {
+          best_mm[i] = corner_mm_[i];
+          best[i].beyond = beyond;
+        }
+      }
+    }
+    corners_ = std::move(best);
+    return rounds(kRevisionRounds);
+  }
+
+  /// Blocks whose largest error over all models grows stay. True when there are new ones.
+  bool bar_worse() {
+    const auto worst = [](const ErrorFigures& figures, std::size_t line) {
+      double most = figures.nominal().line_mm(line);
+      for (const auto& of : figures.others()) {
+        most = std::max(most, of.line_mm(line));
+      }
+      return most;
+    };
+    bool fresh = false;
+    for (const CutBlock& block : blocks_.blocks) {
+      if (block.stays == Stays::free && !barred_.contains(block.line) &&
+          worst(out_.after, block.line) > worst(out_.before, block.line) + kWorse_mm) {
+        barred_.insert(block.line);
+        out_.worse.push_back(block.line);
+        fresh = true;
+      }
+    }
+    return fresh;
+  }
+
+  void report() {
+    const auto worst = [](const ErrorFigures& figures, auto&& value) {
+      double most = value(figures.nominal());
+      for (const auto& of : figures.others()) {
+        most = std::max(most, value(of));
+      }
+      return most;
+    };
+    const auto largest = [](const ErrorFigures::Of& of) { return of.max_mm; };
+    const auto rms = [](const ErrorFigures::Of& of) { return of.rms_mm(); };
+    out_.worst_before_mm = worst(out_.before, largest);
+    out_.worst_after_mm = worst(out_.after, largest);
+    out_.worst_rms_before_mm = worst(out_.before, rms);
+    out_.worst_rms_after_mm = worst(out_.after, rms);
+    const auto& after = out_.after.nominal();
+    for (std::size_t line = 0; line < after.by_line_mm.size(); ++line) {
+      if (after.line_mm(line) > how_.limit_mm) {
+        out_.remaining.push_back({.line = static_cast<std::uint32_t>(line),
+                                  .before_mm = out_.before.nominal().line_mm(line),
+                                  .after_mm = after.line_mm(line)});
+      }
+    }
+    std::ranges::stable_sort(out_.remaining, std::ranges::greater{}, &Remaining::after_mm);
+    out_.remaining.resize(std::min(out_.remaining.size(), kMostRemaining));
+    std::ranges::sort(out_.worse);
+    std::ranges::sort(out_.too_far);
+  }
+
+  const std::string& file_;
+  const nc::interpret::Config& config_;
+  const Machine& machine_;
+  const PredistortConfig& how_;
+  ServoModels model_;
+  std::vector<ServoModels> others_;
+  ServoInverse inverse_;
+  Machine shaped_as_;
+  nc::rewrite::CutBlocks blocks_;
+  PlannedPath path_;
+  CommandSpeed speed_;             ///< of the last run
+  std::vector<Corner> corners_;    ///< as led in the last pieces
+  std::vector<double> corner_mm_;  ///< their errors in the last run
+  double best_mm_ = -1.0;
+  int done_ = 0;
+  std::set<std::uint32_t> barred_;  ///< lines that stay after all
+  Predistorted out_;
+};
+
+}  // namespace
+
+Result<Predistorted> predistort(const std::string& program, const nc::interpret::Config& config,
+                                const Machine& machine, const PredistortConfig& how) {
+  return Predistortion(program, config, machine, how).run();
+}
+
+}  // namespace steadyrest::contour::offline

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <steadyrest/contour/offline/predict/error_figures.hpp>
+#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// Writes the inverse of the servos into a program: the contour error cancelled by the text alone.
+///
+/// The planned motion of the control gives the command's speed, ToolMotion the motion of a tool
+/// that stays on the path, CommandShape the curve that must be commanded for it, as lines and arcs.
+/// Kinks are rounded and corners led beyond (joints). The changed text is planned again: the
+/// control now moves at another speed, so the curve is made for that speed, a few rounds. The best
+/// round is kept.
+///
+/// Bounded: where the command would leave the path by more than `max_shift_mm` the block stays. The
+/// control plans what is written, so no axis exceeds its speed, acceleration or jerk. Robust: the
+/// error of the changed program is worked out for every model whose gains are all off by
+/// `gain_uncertainty`, each axis up or down; a block that any of them makes worse stays.
+struct PredistortConfig {
+  double limit_mm = 0.01;
+  double max_shift_mm = 0.5;
+  double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
+  int rounds = 4;
+  std::vector<nc::rewrite::Told> told;  ///< for the mark in the program
+  std::function<void(double share, std::string_view what)> progress = [](double, auto) {};
+};
+
+/// A block whose predicted error stays above the limit.
+struct Remaining {
+  std::uint32_t line = 0;
+  double before_mm = 0.0;
+  double after_mm = 0.0;
+};
+
+struct Predistorted {
+  nc::rewrite::Replaced replaced;
+  double seconds_before = 0.0;
+  double seconds_after = 0.0;
+  ErrorFigures before;
+  ErrorFigures after;
+  /// Over all models within the uncertainty.
+  double worst_before_mm = 0.0;
+  double worst_after_mm = 0.0;
+  double worst_rms_before_mm = 0.0;
+  double worst_rms_after_mm = 0.0;
+  double largest_shift_mm = 0.0;
+  std::vector<Remaining> remaining;    ///< the worst first
+  std::vector<std::uint32_t> too_far;  ///< lines that stay, since the shift would be too large
+  std::vector<std::uint32_t> worse;    ///< lines that stay, since some model makes them worse
+  std::map<nc::rewrite::Stays, std::vector<std::uint32_t>> stays;
+};
+
+/// Refused: what the interpreter or planner refuses; a program that cuts nothing.
+[[nodiscard]] kernel::outcome::Result<Predistorted> predistort(
+    const std::string& program, const nc::interpret::Config& config,
+    const kernel::machine::Machine& machine, const PredistortConfig& how);
+
+}  // namespace steadyrest::contour::offline

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <steadyrest/contour/offline/predistort/piece.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// How far pieces are from the path that they stand for.
+struct Shift {
+  double largest_mm = 0.0;
+  std::vector<std::uint32_t> too_far;  ///< lines with a piece beyond the bound, ascending
+};
+
+/// At five points of each piece, to the nearest point of the path within a reach of four times the
+/// bound (at least 1 mm) of where the piece belongs.
+[[nodiscard]] Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& pieces,
+                             double bound_mm);
+
+}  // namespace steadyrest::contour::offline
