@@ -6,9 +6,11 @@
 #include <utility>
 
 #include <steadyrest/contour/offline/predistort/command_shape.hpp>
+#include <steadyrest/contour/offline/predistort/corner_errors.hpp>
 #include <steadyrest/contour/offline/predistort/joints.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
+#include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
@@ -30,8 +32,6 @@ constexpr double kWorse_mm = 5e-4;     ///< an error that grows by less is round
 constexpr int kMostRevisions = 2;      ///< lines that must stay are found at most so often …
 constexpr int kRevisionRounds = 2;     ///< … each with so many rounds
 constexpr std::size_t kMostRemaining = 1000;
-constexpr double kCornerReach = 2.0;  ///< of the lag, that belongs to a corner
-constexpr double kCornerSpare_mm = 0.3;
 /// Tried at corners besides the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
@@ -44,66 +44,6 @@ struct Run {
   std::vector<double> corner_mm;  ///< largest error near each corner
   double seconds = 0.0;
 };
-
-/// The largest error near each corner while the tool passes it.
-class CornerErrors {
- public:
-  explicit CornerErrors(const std::vector<Corner>& corners)
-      : corners_(corners), error_mm_(corners.size(), 0.0) {}
-
-  void add(const ModelSample& sample) {
-    while (next_ < corners_.size() && sample.foot_mm > corners_[next_].at_mm + reach_mm(next_)) {
-      ++next_;
-    }
-    if (sample.cuts && next_ < corners_.size() &&
-        sample.foot_mm > corners_[next_].at_mm - reach_mm(next_)) {
-      error_mm_[next_] = std::max(error_mm_[next_], std::abs(sample.error_mm));
-    }
-  }
-  std::vector<double> take() { return std::move(error_mm_); }
-
- private:
-  [[nodiscard]] double reach_mm(std::size_t i) const {
-    return kCornerReach * corners_[i].behind_mm + kCornerSpare_mm;
-  }
-
-  const std::vector<Corner>& corners_;
-  std::vector<double> error_mm_;
-  std::size_t next_ = 0;
-};
-
-/// All axes' gains off by the share, each up or down.
-std::vector<ServoModels> uncertain(const ServoModels& model, double share) {
-  std::vector<ServoModels> out;
-  for (unsigned signs = 0; share > 0.0 && signs < 8U; ++signs) {
-    ServoModels other = model;
-    for (std::size_t i = 0; i < 3; ++i) {
-      other[i].gain_1_s *= (signs >> i & 1U) != 0U ? 1.0 + share : 1.0 - share;
-    }
-    out.push_back(other);
-  }
-  return out;
-}
-
-/// Gains within the uncertainty that are as equal as they can be. Unequal gains bend straight
-/// lines; a difference that may not be there must not be corrected, or a machine without it would
-/// get it.
-ServoModels cautious(const ServoModels& model, double share) {
-  double low = 0.0;
-  double high = 1e300;
-  for (const online::AxisModel& axis : model) {
-    low = std::max(low, axis.gain_1_s * (1.0 - share));
-    high = std::min(high, axis.gain_1_s * (1.0 + share));
-  }
-  // They have a value in common where low ≤ high; else each takes its nearest to both ends.
-  ServoModels out = model;
-  for (online::AxisModel& axis : out) {
-    const double least = axis.gain_1_s * (1.0 - share);
-    const double most = axis.gain_1_s * (1.0 + share);
-    axis.gain_1_s = std::clamp(0.5 * (low + high), least, most);
-  }
-  return out;
-}
 
 class Predistortion {
  public:
