@@ -25,6 +25,22 @@ using nc::rewrite::Told;
 constexpr std::array kReadingOptions = {"tools",       "variables",    "data-units",
                                         "subprograms", "block-delete", "least-increment"};
 
+/// Hands on moves with a share of their feed.
+class Slower final : public nc::interpret::Sink {
+ public:
+  Slower(const std::vector<double>& ratio, nc::interpret::Sink& to) : ratio_(ratio), to_(to) {}
+  void on_move(const nc::interpret::Move& move) override {
+    nc::interpret::Move slower = move;
+    slower.feed_mm_s *= move.line < ratio_.size() ? ratio_[move.line] : 1.0;
+    to_.on_move(slower);
+  }
+  void on_event(const nc::interpret::Event& event) override { to_.on_event(event); }
+
+ private:
+  const std::vector<double>& ratio_;
+  nc::interpret::Sink& to_;
+};
+
 /// Planned from what `run` sends to the builder.
 template <class Run>
 Result<nc::plan::PlannedPath> planned(const kernel::machine::Machine& machine,
@@ -105,6 +121,31 @@ Result<nc::plan::PlannedPath> plan_text(const std::string& text, const SourcePro
   return planned(program.machine, file, [&](nc::plan::PathBuilder& builder) {
     return nc::interpret::run_text(text, program.config, builder);
   });
+}
+
+Result<nc::plan::PlannedPath> plan_at_feeds(const SourceProgram& program, const std::string& file,
+                                            const std::vector<double>& ratio) {
+  auto path = planned(program.machine, file, [&](nc::plan::PathBuilder& builder) {
+    Slower slower(ratio, builder);
+    return nc::interpret::run_file(file, program.config, slower);
+  });
+  if (!path) {
+    return path;
+  }
+  std::vector<double> feed(ratio.size(), 0.0);  // of the program, by line
+  for (std::size_t i = 0; i < program.path.segments.size(); ++i) {
+    const std::uint32_t line = program.path.segments[i].line;
+    if (line < feed.size()) {
+      feed[line] = std::max(feed[line], program.path.plans[i].feed_mm_s);
+    }
+  }
+  for (std::size_t i = 0; i < path->segments.size(); ++i) {
+    const std::uint32_t line = path->segments[i].line;
+    if (line < feed.size() && ratio[line] != 1.0 && feed[line] > 0.0) {
+      path->plans[i].feed_mm_s = feed[line];
+    }
+  }
+  return path;
 }
 
 std::expected<std::vector<Told>, Refusals> told_of_change(const std::string& changes,

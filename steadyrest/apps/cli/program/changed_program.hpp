@@ -36,6 +36,12 @@ struct SourceProgram {
                                                       const SourceProgram& program,
                                                       const std::string& file);
 
+/// The path of the program when each line's feed is this share of its own; `ratio` by line, 1
+/// beyond its end. The feeds of the path stay the program's: only the rounding of corners differs.
+[[nodiscard]] Result<nc::plan::PlannedPath> plan_at_feeds(const SourceProgram& program,
+                                                          const std::string& file,
+                                                          const std::vector<double>& ratio);
+
 /// For the changed program's mark: what it is, how it was read, and `more`.
 [[nodiscard]] std::expected<std::vector<nc::rewrite::Told>, Refusals> told_of_change(
     const std::string& changes, const CLI::App& verb, const SourceProgram& program,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <steadyrest/apps/cli/program/feeds_ahead.hpp>
@@ -25,6 +26,7 @@ using nc::rewrite::FeedUse;
 constexpr double kSearched = 0.995;
 /// A text whose error is above the limit is searched again …
 constexpr int kRepairs = 2;
+constexpr int kPlans = 2;
 /// … unless it is so far above that the search has met the lowest feed.
 constexpr double kHopeless = 1.2;
 /// … with so much less.
@@ -88,12 +90,14 @@ class Writer {
          const std::vector<nc::rewrite::Told>& told)
       : program_(program), file_(file), limit_mm_(limit_mm), told_(told) {}
 
-  Result<void> write(const FeedPlan& plan, FeedsAhead& out) {
+  /// `planned`: what the plan was made of.
+  Result<void> write(const FeedPlan& plan, const PlannedPath& planned, FeedsAhead& out) {
+    planned_ = &planned;
     stretches_.clear();
     for (const FeedPart& part : plan.parts()) {
       stretches_.push_back({part.segment, part.from_mm, part.to_mm, part.ratio});
     }
-    const auto lines = nc::rewrite::feed_lines(file_, program_.config.dialect, program_.path,
+    const auto lines = nc::rewrite::feed_lines(file_, program_.config.dialect, planned,
                                                program_.blocks, stretches_);
     if (!lines) {
       return std::unexpected(lines.error());
@@ -119,7 +123,7 @@ class Writer {
 
   /// Segments whose error in the text asks for lower feeds that are permitted, with other limits.
   std::vector<std::pair<std::size_t, double>> to_tighten(double lowest_ratio) {
-    const auto& segments = program_.path.segments;
+    const auto& segments = planned_->segments;
     std::map<std::uint32_t, double> fresh_mm;  // by line
     bool before = false;                       // the feed before could fall
     for (const auto& stretch : stretches_) {
@@ -145,6 +149,20 @@ class Writer {
     }
     return out;
   }
+
+  /// The ratio that each line ends with; the corner behind it is rounded for that feed.
+  [[nodiscard]] std::vector<double> ratios() const {
+    std::vector<double> out;
+    double before = 1.0;
+    for (const auto& stretch : stretches_) {
+      const std::uint32_t line = planned_->segments[stretch.segment].line;
+      // Lines without a segment have become part of the one before.
+      out.resize(std::max<std::size_t>(out.size(), line + std::size_t{1}), before);
+      out[line] = before = stretch.ratio;
+    }
+    return out;
+  }
+  [[nodiscard]] bool keeps_limit() const noexcept { return of_feed_mm_.empty(); }
 
   [[nodiscard]] std::vector<OverLimit> over(const ErrorFigures& figures) const {
     std::vector<OverLimit> out;
@@ -173,9 +191,75 @@ class Writer {
   const std::string& file_;
   double limit_mm_;
   const std::vector<nc::rewrite::Told>& told_;
+  const PlannedPath* planned_ = nullptr;
   std::vector<nc::rewrite::FeedStretch> stretches_;
   std::map<std::uint32_t, double> of_feed_mm_;  ///< above the limit in the text, by line
   std::map<std::uint32_t, double> tight_mm_;    ///< limits lowered for the repair, by line
+};
+
+/// The search on the program's path, or on one planned at given feeds.
+class Search {
+ public:
+  Search(const SourceProgram& program, double limit_mm)
+      : lowest(std::clamp(program.machine.contour.min_ratio, kLeastRatio, 1.0)),
+        program_(program),
+        limit_mm_(limit_mm) {}
+
+  /// `ratio`: by line; empty: as programmed.
+  Result<void> plan(const std::vector<double>& ratio, const std::string& file) {
+    found.reset();
+    if (!ratio.empty()) {
+      auto planned = plan_at_feeds(program_, file, ratio);
+      if (!planned) {
+        return std::unexpected(planned.error());
+      }
+      slower_ = std::move(*planned);
+    }
+    at_feeds_ = !ratio.empty();
+    map_ = contour::offline::same_path(path());
+    const auto uses = nc::rewrite::feed_uses(path(), program_.blocks);
+    rounds_corners = rounds_corners || std::ranges::count(uses, FeedUse::joined) > 0;
+    std::vector<double> start;
+    for (const auto& segment : path().segments) {
+      if (at_feeds_) {
+        start.push_back(segment.line < ratio.size() ? ratio[segment.line] : 1.0);
+      }
+    }
+    auto made = FeedPlan::make(
+        {.machine = program_.machine,
+         .path = path(),
+         .original = path(),
+         .map = map_,
+         .model = contour::offline::servo_models(program_.machine.axes),
+         .room = {.kind = kinds_of(uses),
+                  .ends_mm = nc::rewrite::rounding_ends(path(), program_.blocks,
+                                                        program_.machine.control.blend_share)},
+         .limit_mm = kSearched * limit_mm_,
+         .start = std::move(start),
+         .rough = rounds_corners && !at_feeds_,
+         .floor_ratio = lowest});
+    if (!made) {
+      return std::unexpected(made.error());
+    }
+    found.emplace(std::move(*made));
+    return {};
+  }
+  [[nodiscard]] const PlannedPath& path() const noexcept {
+    return at_feeds_ ? slower_ : program_.path;
+  }
+
+  std::optional<FeedPlan> found;
+  bool rounds_corners = false;
+  double lowest;
+
+ private:
+  static constexpr double kLeastRatio = 0.01;
+
+  const SourceProgram& program_;
+  double limit_mm_;
+  PlannedPath slower_;
+  bool at_feeds_ = false;
+  contour::offline::PathMap map_;
 };
 
 }  // namespace
@@ -202,33 +286,33 @@ Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& 
   }
   out.seconds_before = out.seconds_after = before->seconds;
   out.before = out.after = std::move(before->figures);
-  const auto map = contour::offline::same_path(program.path);
-  const double lowest = std::clamp(program.machine.contour.min_ratio, 0.01, 1.0);
-  progress.update(0.2, "searching feeds");
-  auto plan = FeedPlan::make(
-      {.machine = program.machine,
-       .path = program.path,
-       .original = program.path,
-       .map = map,
-       .model = contour::offline::servo_models(program.machine.axes),
-       .room = {.kind = kinds_of(nc::rewrite::feed_uses(program.path, program.blocks))},
-       .limit_mm = kSearched * limit_mm,
-       .floor_ratio = lowest});
-  if (!plan) {
-    return std::unexpected(plan.error());
-  }
+  Search search(program, limit_mm);
   Writer writer(program, file, limit_mm, told);
-  for (int i = 0; i <= kRepairs; ++i) {
-    progress.update(0.7 + 0.1 * i, "checking the text");
-    if (const auto written = writer.write(*plan, out); !written) {
+  // Slower corners are rounded less: the feeds of a path that is planned at them fit better.
+  for (int i = 0; i <= kPlans; ++i) {
+    progress.update(0.2 + 0.2 * i, "searching feeds");
+    if (const auto planned = search.plan(i == 0 ? std::vector<double>{} : writer.ratios(), file);
+        !planned) {
+      return std::unexpected(planned.error());
+    }
+    if (const auto written = writer.write(*search.found, search.path(), out); !written) {
       return std::unexpected(written.error());
     }
-    const auto tighten = writer.to_tighten(lowest);
-    if (plan->unchanged() || tighten.empty() || i == kRepairs) {
+    if (!search.rounds_corners || writer.keeps_limit()) {
       break;
     }
-    if (const auto done = plan->tighten(tighten); !done) {
+  }
+  for (int i = 0; i < kRepairs && !search.found->unchanged(); ++i) {
+    progress.update(0.8 + 0.1 * i, "mending feeds");
+    const auto tighten = writer.to_tighten(search.lowest);
+    if (tighten.empty()) {
+      break;
+    }
+    if (const auto done = search.found->tighten(tighten); !done) {
       return std::unexpected(done.error());
+    }
+    if (const auto written = writer.write(*search.found, search.path(), out); !written) {
+      return std::unexpected(written.error());
     }
   }
   out.over = writer.over(out.after);

@@ -37,6 +37,24 @@ double station_of(const PlannedPath& path, const FeedRoom& room) noexcept {
   return std::max(room.station_mm, free_mm / static_cast<double>(more));
 }
 
+/// Where the cells of a segment begin and end, mm from its start.
+void borders_of(const PathSegment& segment, FeedKind kind, const std::array<float, 2>& ends_mm,
+                double station_mm, std::vector<double>& out) {
+  const double from = static_cast<double>(ends_mm[0]);
+  const double to = segment.length_mm - static_cast<double>(ends_mm[1]);
+  out.assign(1, 0.0);
+  if (kind == FeedKind::free && to > from) {
+    const double pieces = std::max(1.0, std::ceil((to - from) / station_mm - 1e-9));
+    for (double j = from > 0.0 ? 0.0 : 1.0; j < pieces; ++j) {
+      out.push_back(from + (to - from) * j / pieces);
+    }
+    if (to < segment.length_mm) {
+      out.push_back(to);
+    }
+  }
+  out.push_back(segment.length_mm);
+}
+
 }  // namespace
 
 PathSegment part_of(const PathSegment& segment, double from_mm, double to_mm) noexcept {
@@ -67,6 +85,7 @@ PathSegment part_of(const PathSegment& segment, double from_mm, double to_mm) no
 FeedCells feed_cells(const PlannedPath& path, const PathMap& map, const FeedRoom& room) {
   FeedCells cells;
   const double station = station_of(path, room);
+  std::vector<double> borders;
   std::size_t event = 0;
   const auto pass_events = [&](std::size_t segment) {
     for (; event < path.events.size() && path.events[event].segment <= segment; ++event) {
@@ -78,28 +97,29 @@ FeedCells feed_cells(const PlannedPath& path, const PathMap& map, const FeedRoom
     pass_events(i);
     const PathSegment& segment = path.segments[i];
     const FeedKind kind = kind_of(path, i, room);
-    const double pieces =
-        kind == FeedKind::free ? std::max(1.0, std::ceil(segment.length_mm / station - 1e-9)) : 1.0;
+    borders_of(segment, kind, i < room.ends_mm.size() ? room.ends_mm[i] : std::array<float, 2>{},
+               station, borders);
     const double map_mm = map.end_mm[i] - map.start_mm[i];
-    for (double j = 0.0; j < pieces; ++j) {
-      const double from = j / pieces;
-      const double to = (j + 1.0) / pieces;
-      PathSegment part = pieces == 1.0
-                             ? segment
-                             : part_of(segment, from * segment.length_mm,
-                                       to < 1.0 ? to * segment.length_mm : segment.length_mm);
+    const auto share = [&](double at_mm) {
+      return segment.length_mm > 0.0 ? at_mm / segment.length_mm : 0.0;
+    };
+    for (std::size_t j = 0; j + 1 < borders.size(); ++j) {
+      const bool last = j + 2 == borders.size();
+      PathSegment part =
+          borders.size() == 2 ? segment : part_of(segment, borders[j], borders[j + 1]);
       SegmentPlan plan = path.plans[i];
       plan.length_mm = part.length_mm;
-      if (to < 1.0) {
+      if (!last) {
         part.exit_speed_limit_mm_s = plan.exit_speed_limit_mm_s = plan.speed_limit_mm_s;
       }
       cells.path.segments.push_back(part);
       cells.path.plans.push_back(plan);
-      cells.map.start_mm.push_back(map.start_mm[i] + from * map_mm);
-      cells.map.end_mm.push_back(map.start_mm[i] + to * map_mm);
+      cells.map.start_mm.push_back(map.start_mm[i] + share(borders[j]) * map_mm);
+      cells.map.end_mm.push_back(last ? map.end_mm[i]
+                                      : map.start_mm[i] + share(borders[j + 1]) * map_mm);
       cells.of.push_back(static_cast<std::uint32_t>(i));
       cells.kind.push_back(kind);
-      cells.from_mm.push_back(from * segment.length_mm);
+      cells.from_mm.push_back(borders[j]);
       cells.ceiling.push_back(plan.feed_mm_s);
     }
   }

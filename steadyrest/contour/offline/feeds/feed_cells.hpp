@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,7 +21,9 @@ enum class FeedKind : std::uint8_t {
 
 /// What can be chosen where.
 struct FeedRoom {
-  std::vector<FeedKind> kind;        ///< by segment; empty: all free
+  std::vector<FeedKind> kind;  ///< by segment; empty: all free
+  /// By segment: at least so much at its start and its end has one feed; empty: none.
+  std::vector<std::array<float, 2>> ends_mm;
   double station_mm = 0.25;          ///< longest cell, > 0
   std::size_t most_cells = 400'000;  ///< cells are longer where there would be more
 };

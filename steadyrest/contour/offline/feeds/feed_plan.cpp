@@ -17,16 +17,23 @@ using kernel::outcome::Result;
 
 constexpr int kCellRuns = 4;
 constexpr int kGroupRuns = 6;
-constexpr int kTightenRuns = 3;
+/// From feeds that nearly fit.
+constexpr int kNearRuns = 3;
+/// The search's interpolator period, in 1/k.
+constexpr double kPeriodOfLag = 0.05;
 /// Part of a segment shorter than this is no block of its own, in interpolator periods.
 constexpr double kShortestPeriods = 3.0;
 
 /// Cells are more blocks than the program will have: the look-ahead reaches as far along the path.
-kernel::machine::Machine with_look_ahead(kernel::machine::Machine machine, std::size_t segments,
-                                         std::size_t cells) {
+/// A period far below 1/k would only cost time.
+kernel::machine::Machine searched(kernel::machine::Machine machine, const ServoModels& models,
+                                  std::size_t segments, std::size_t cells) {
+  kernel::machine::Control& control = machine.control;
   const std::size_t times = (cells + segments - 1) / std::max<std::size_t>(1, segments);
-  machine.control.look_ahead_blocks = static_cast<std::uint32_t>(
-      std::min<std::size_t>(machine.control.look_ahead_blocks * times, 1U << 16U));
+  control.look_ahead_blocks = static_cast<std::uint32_t>(
+      std::min<std::size_t>(control.look_ahead_blocks * times, 1U << 16U));
+  const double periods = kPeriodOfLag / softest_gain_1_s(models) / control.interpolator_period_s;
+  control.interpolator_period_s *= std::max(1.0, std::floor(periods));
   return machine;
 }
 
@@ -35,7 +42,7 @@ kernel::machine::Machine with_look_ahead(kernel::machine::Machine machine, std::
 struct FeedPlan::Parts {
   explicit Parts(const FeedTask& task)
       : cells(feed_cells(task.path, task.map, task.room)),
-        machine(with_look_ahead(task.machine, task.path.segments.size(), cells.of.size())),
+        machine(searched(task.machine, task.model, task.path.segments.size(), cells.of.size())),
         search(machine, cells, task.original, task.model,
                {.limit_mm = task.limit_mm, .floor_ratio = task.floor_ratio}),
         few{.most_loss_s = 0.0,
@@ -65,16 +72,23 @@ Result<FeedPlan> FeedPlan::make(const FeedTask& task) {
   FeedPlan plan;
   plan.of_ = std::make_unique<Parts>(task);
   FeedSearch& search = plan.of_->search;
+  if (!task.start.empty()) {
+    std::vector<double> ratio;
+    for (const std::uint32_t segment : plan.of_->cells.of) {
+      ratio.push_back(std::clamp(task.start[segment], task.floor_ratio, 1.0));
+    }
+    search.set_ratios(std::move(ratio));
+  }
   auto seconds = search.measure();
   if (!seconds) {
     return std::unexpected(seconds.error());
   }
   plan.seconds_before_ = plan.seconds_ = *seconds;
-  plan.unchanged_ = search.keeps_limit();
+  plan.unchanged_ = task.start.empty() && search.keeps_limit();
   if (plan.unchanged_) {
     return plan;
   }
-  for (int i = 1; i < kCellRuns; ++i) {
+  for (int i = 1; i < (task.start.empty() ? kCellRuns : kNearRuns); ++i) {
     search.adjust(i > 1);
     seconds = search.measure();
     if (!seconds) {
@@ -85,7 +99,10 @@ Result<FeedPlan> FeedPlan::make(const FeedTask& task) {
   std::vector<double> ratio = search.ratio();
   search.set_groups(group_feeds(plan.of_->cells, search, plan.of_->few, ratio));
   search.set_ratios(std::move(ratio));
-  if (const auto done = plan.search(kGroupRuns); !done) {
+  if (const auto done = plan.search(task.rough           ? 1
+                                    : task.start.empty() ? kGroupRuns
+                                                         : kNearRuns);
+      !done) {
     return std::unexpected(done.error());
   }
   return plan;
@@ -113,7 +130,7 @@ Result<void> FeedPlan::tighten(const std::vector<std::pair<std::size_t, double>>
     of_->search.set_limit(segment, limit);
   }
   unchanged_ = false;
-  return search(kTightenRuns);
+  return search(kNearRuns);
 }
 
 std::vector<FeedPart> FeedPlan::parts() const {

@@ -23,6 +23,8 @@ struct FeedTask {
   ServoModels model;
   FeedRoom room;
   double limit_mm = 0.01;     ///< of the contour error; > 0
+  std::vector<double> start;  ///< by segment: the ratio that the search begins with; empty: 1
+  bool rough = false;         ///< it will be searched again on another path
   double floor_ratio = 0.1;   ///< lowest feed, of the programmed one; above 0, at most 1
   double loss_share = 0.004;  ///< of the cycle time that fewer feeds may cost
 };
@@ -39,7 +41,7 @@ struct FeedPart {
 /// written.
 ///
 /// First each cell (FeedCells) has its own feed, then neighbours are united (group_feeds) and their
-/// common feeds are searched again (FeedSearch). Twelve runs at most. The feeds are never above the
+/// common feeds are searched again (FeedSearch). Ten runs at most. The feeds are never above the
 /// path's own; where not even `floor_ratio` keeps the limit, that is the feed.
 class FeedPlan {
  public:

@@ -18,6 +18,7 @@ using kernel::outcome::Result;
 using kernel::signal::Geometry;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
+using kernel::signal::Point;
 using plan::PlannedPath;
 
 /// An arc whose radius changes by more has a centre that its parts would not share.
@@ -242,6 +243,25 @@ std::vector<FeedUse> feed_uses(const PlannedPath& path, const CutBlocks& blocks)
     }
   }
   return uses;
+}
+
+std::vector<std::array<float, 2>> rounding_ends(const PlannedPath& path, const CutBlocks& blocks,
+                                                double blend_share) {
+  constexpr double kSpare = 1.05;
+  std::vector<std::array<float, 2>> ends(path.segments.size());
+  const double more = kSpare * (1.0 / std::clamp(blend_share, 0.01, 1.0) - 1.0);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const PathSegment& segment = path.segments[i];
+    const CutBlock* block = cuts(segment) ? blocks.find(segment.line) : nullptr;
+    if (block != nullptr) {
+      const auto taken = [more](const Point& a, const Point& b) {
+        const double mm = geometry::norm(geometry::subtract(a, b));
+        return mm > kBeyond_mm ? static_cast<float>(more * mm) : 0.0F;
+      };
+      ends[i] = {taken(segment.start_mm, block->start_mm), taken(segment.end_mm, block->end_mm)};
+    }
+  }
+  return ends;
 }
 
 Result<NewLines> feed_lines(const std::string& program, read::Dialect dialect,

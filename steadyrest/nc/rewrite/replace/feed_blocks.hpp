@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,6 +26,12 @@ enum class FeedUse : std::uint8_t {
 /// By segment.
 [[nodiscard]] std::vector<FeedUse> feed_uses(const plan::PlannedPath& path,
                                              const CutBlocks& blocks);
+
+/// By segment: how much at its start and its end must keep one feed, so that the rounding of the
+/// corners there finds its share of the block (Control::blend_share), mm.
+[[nodiscard]] std::vector<std::array<float, 2>> rounding_ends(const plan::PlannedPath& path,
+                                                              const CutBlocks& blocks,
+                                                              double blend_share);
 
 /// A feed along part of a segment, as a share of the programmed one.
 struct FeedStretch {
