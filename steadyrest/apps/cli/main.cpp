@@ -19,6 +19,7 @@
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
 #include <steadyrest/apps/cli/program/verb_program_check.hpp>
 #include <steadyrest/apps/cli/program/verb_program_compensate.hpp>
+#include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_moves.hpp>
 #include <steadyrest/apps/cli/program/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/program/verb_program_time.hpp>
@@ -156,6 +157,11 @@ constexpr Entry kVerbs[] = {
      add_verb_program_compensate,
      {"examples/programs/rib-pocket.ngc --dialect linuxcnc --plan examples/plans/rib-pocket.json "
       "--machine examples/machines/linuxcnc-mill.toml -o rib-pocket-compensated.ngc"}},
+    {"program feeds",
+     "Write the fastest feeds that keep a contour error into an NC program",
+     add_verb_program_feeds,
+     {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --max-error-mm "
+      "0.010 -o rib-pocket-feeds.mpf"}},
     {"program strip",
      "Take the corrections out of an NC program, byte for byte",
      add_verb_program_strip,

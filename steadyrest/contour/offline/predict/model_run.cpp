@@ -122,15 +122,16 @@ class Runner {
       other_error_mm_[i] = geometry::norm(across);
     }
     if (error.valid) {
-      on_sample({.time_s = time_s(),
-                 .command_mm_s = s.path_speed_mm_s,
-                 .progress_mm = progress_mm_,
-                 .foot_mm = error.foot_position_mm,
-                 .error_mm = error.error_mm,
-                 .line = s.line,
-                 .segment = s.path_index,
-                 .cuts = s.motion == Motion::feed,
-                 .other_error_mm = other_error_mm_});
+      on_sample(
+          {.time_s = time_s(),
+           .command_mm_s = s.path_speed_mm_s,
+           .progress_mm = progress_mm_,
+           .foot_mm = error.foot_position_mm,
+           .error_mm = error.error_mm,
+           .line = s.line,
+           .segment = s.path_index,
+           .cuts = s.motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
+           .other_error_mm = other_error_mm_});
     }
   }
 

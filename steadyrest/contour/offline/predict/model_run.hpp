@@ -50,7 +50,7 @@ struct ModelSample {
   double error_mm = 0.0;      ///< contour error, signed as in online::ContourError
   std::uint32_t line = 0;     ///< of the path that is run
   std::size_t segment = 0;
-  bool cuts = false;                       ///< the command is in a feed move
+  bool cuts = false;                       ///< the command is in a feed move, and so is the tool
   std::span<const double> other_error_mm;  ///< magnitudes, for each of `others`
 };
 
