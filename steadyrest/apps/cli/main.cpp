@@ -21,6 +21,7 @@
 #include <steadyrest/apps/cli/program/verb_program_compensate.hpp>
 #include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_moves.hpp>
+#include <steadyrest/apps/cli/program/verb_program_predistort.hpp>
 #include <steadyrest/apps/cli/program/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/program/verb_program_time.hpp>
 #include <steadyrest/apps/cli/program/verb_program_verify.hpp>
@@ -157,6 +158,11 @@ constexpr Entry kVerbs[] = {
      add_verb_program_compensate,
      {"examples/programs/rib-pocket.ngc --dialect linuxcnc --plan examples/plans/rib-pocket.json "
       "--machine examples/machines/linuxcnc-mill.toml -o rib-pocket-compensated.ngc"}},
+    {"program predistort",
+     "Cancel the contour error by the program's text: the path that the axes must be commanded",
+     add_verb_program_predistort,
+     {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --max-error-mm "
+      "0.010 -o out.mpf"}},
     {"program feeds",
      "Write the fastest feeds that keep a contour error into an NC program",
      add_verb_program_feeds,

@@ -147,4 +147,29 @@ double parameter_at(const PathSegment& segment, double distance_mm) noexcept {
   return u;
 }
 
+kernel::signal::PathSegment part_of(const kernel::signal::PathSegment& segment, double from_mm,
+                                    double to_mm) noexcept {
+  const double u0 = parameter_at(segment, from_mm);
+  const double u1 = to_mm >= segment.length_mm ? 1.0 : parameter_at(segment, to_mm);
+  kernel::signal::PathSegment part = segment;
+  part.start_mm = u0 == 0.0 ? segment.start_mm : point_at(segment, u0);
+  part.end_mm = u1 == 1.0 ? segment.end_mm : point_at(segment, u1);
+  if (segment.geometry == kernel::signal::Geometry::arc) {
+    const double wider = segment.radius_end_mm - segment.radius_mm;
+    part.centre_mm = add_scaled(segment.centre_mm, segment.axis, u0 * segment.rise_mm);
+    part.radius_mm = segment.radius_mm + u0 * wider;
+    part.radius_end_mm = segment.radius_mm + u1 * wider;
+    part.sweep_rad = (u1 - u0) * segment.sweep_rad;
+    part.rise_mm = (u1 - u0) * segment.rise_mm;
+  }
+  for (std::size_t i = 0; i < part.other_start.size(); ++i) {
+    const double way = segment.other_end[i] - segment.other_start[i];
+    part.other_start[i] = segment.other_start[i] + u0 * way;
+    part.other_end[i] = segment.other_start[i] + u1 * way;
+  }
+  part.position_mm = segment.position_mm + from_mm;
+  part.length_mm = to_mm - from_mm;
+  return part;
+}
+
 }  // namespace steadyrest::math::geometry

@@ -45,4 +45,10 @@ struct ArcFrame {
 /// The inverse of parameter_at: path length from the start to u.
 [[nodiscard]] double distance_at(const kernel::signal::PathSegment& segment, double u) noexcept;
 
+/// The part of a segment between two distances from its start, 0 ≤ from < to ≤ length. Its ends are
+/// the segment's own where it begins or ends with it; axes beyond the third and `position_mm` go in
+/// proportion, what limits the speed is the segment's.
+[[nodiscard]] kernel::signal::PathSegment part_of(const kernel::signal::PathSegment& segment,
+                                                  double from_mm, double to_mm) noexcept;
+
 }  // namespace steadyrest::math::geometry

@@ -57,31 +57,6 @@ void borders_of(const PathSegment& segment, FeedKind kind, const std::array<floa
 
 }  // namespace
 
-PathSegment part_of(const PathSegment& segment, double from_mm, double to_mm) noexcept {
-  namespace geometry = math::geometry;
-  const double u0 = geometry::parameter_at(segment, from_mm);
-  const double u1 = to_mm >= segment.length_mm ? 1.0 : geometry::parameter_at(segment, to_mm);
-  PathSegment part = segment;
-  part.start_mm = u0 == 0.0 ? segment.start_mm : geometry::point_at(segment, u0);
-  part.end_mm = u1 == 1.0 ? segment.end_mm : geometry::point_at(segment, u1);
-  if (segment.geometry == Geometry::arc) {
-    const double wider = segment.radius_end_mm - segment.radius_mm;
-    part.centre_mm = geometry::add_scaled(segment.centre_mm, segment.axis, u0 * segment.rise_mm);
-    part.radius_mm = segment.radius_mm + u0 * wider;
-    part.radius_end_mm = segment.radius_mm + u1 * wider;
-    part.sweep_rad = (u1 - u0) * segment.sweep_rad;
-    part.rise_mm = (u1 - u0) * segment.rise_mm;
-  }
-  for (std::size_t i = 0; i < part.other_start.size(); ++i) {
-    const double way = segment.other_end[i] - segment.other_start[i];
-    part.other_start[i] = segment.other_start[i] + u0 * way;
-    part.other_end[i] = segment.other_start[i] + u1 * way;
-  }
-  part.position_mm = segment.position_mm + from_mm;
-  part.length_mm = to_mm - from_mm;
-  return part;
-}
-
 FeedCells feed_cells(const PlannedPath& path, const PathMap& map, const FeedRoom& room) {
   FeedCells cells;
   const double station = station_of(path, room);
@@ -105,8 +80,9 @@ FeedCells feed_cells(const PlannedPath& path, const PathMap& map, const FeedRoom
     };
     for (std::size_t j = 0; j + 1 < borders.size(); ++j) {
       const bool last = j + 2 == borders.size();
-      PathSegment part =
-          borders.size() == 2 ? segment : part_of(segment, borders[j], borders[j + 1]);
+      PathSegment part = borders.size() == 2
+                             ? segment
+                             : math::geometry::part_of(segment, borders[j], borders[j + 1]);
       SegmentPlan plan = path.plans[i];
       plan.length_mm = part.length_mm;
       if (!last) {

@@ -41,10 +41,6 @@ struct FeedCells {
   std::vector<double> ceiling;  ///< the segment's own feed, in its unit
 };
 
-/// Part of a segment, between two distances from its start.
-[[nodiscard]] kernel::signal::PathSegment part_of(const kernel::signal::PathSegment& segment,
-                                                  double from_mm, double to_mm) noexcept;
-
 /// Only feed moves that an override acts on are divided; all others are `fixed`.
 [[nodiscard]] FeedCells feed_cells(const nc::plan::PlannedPath& path, const PathMap& map,
                                    const FeedRoom& room);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
@@ -23,6 +24,9 @@ using nc::rewrite::CutBlock;
 using nc::rewrite::NewLines;
 using nc::rewrite::NewMove;
 using nc::rewrite::Stays;
+
+/// Rounding could leave a smaller arc without a centre.
+constexpr double kLeastArc_mm = 0.005;
 
 /// The pieces of each line, and which of them each new line writes.
 class Writer {
@@ -82,7 +86,9 @@ class Writer {
     written_.emplace_back();
     for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
       const PathSegment& of = pieces_[next_].segment;
-      const NewMove move = {.geometry = of.geometry,
+      const bool arc = of.geometry == Geometry::arc && of.radius_mm > kLeastArc_mm &&
+                       of.radius_mm * of.sweep_rad > kLeastArc_mm;
+      const NewMove move = {.geometry = arc ? Geometry::arc : Geometry::line,
                             .end_mm = of.end_mm,
                             .centre_mm = of.centre_mm,
                             .clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0,
@@ -134,69 +140,79 @@ class Mapping {
     }
   }
 
+  /// The first segment of each piece and of each block that stays has its place. What the control
+  /// put between them, or divided, or merged lies in proportion to length.
   void run() {
     const auto& segments = changed_.path.segments;
-    changed_.start_mm.resize(segments.size());
-    changed_.end_mm.resize(segments.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      const std::size_t piece =
-          segments[i].line < piece_of_.size() ? piece_of_[segments[i].line] : kNone;
-      const auto [start, end] = piece == kNone ? kept(i) : of_piece(piece, i);
-      changed_.start_mm[i] = start;
-      changed_.end_mm[i] = std::max(start, end);
+    changed_.start_mm.assign(segments.size() + 1, 0.0);
+    std::size_t known = 0;
+    double at = 0.0;
+    for (std::size_t i = 0; i <= segments.size(); ++i) {
+      const double place = i < segments.size() ? place_of(i, at) : whole_mm();
+      if (std::isnan(place)) {
+        continue;
+      }
+      at = std::max(at, place);
+      spread(known, i, at);
+      known = i;
     }
-    // Where the control put an arc between two or merged some, the next one's start decides.
-    for (std::size_t i = 0; i + 1 < segments.size(); ++i) {
-      changed_.end_mm[i] = std::max(changed_.start_mm[i], changed_.start_mm[i + 1]);
-    }
+    changed_.end_mm.assign(changed_.start_mm.begin() + 1, changed_.start_mm.end());
+    changed_.start_mm.pop_back();
   }
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   static constexpr double kNear_mm = 10.0;  ///< more than a correction moves anything
-  struct Range {
-    double start_mm = 0.0;
-    double end_mm = 0.0;
-  };
 
-  /// The control may have divided a piece: in proportion to length.
-  Range of_piece(std::size_t piece, std::size_t i) {
-    const Piece& of = pieces_[piece];
+  [[nodiscard]] double whole_mm() const {
+    return original_.empty() ? 0.0 : original_.back().position_mm + original_.back().length_mm;
+  }
+
+  /// From the start of segment `from`, which has its place, to that of `to`, which is at `at_mm`.
+  void spread(std::size_t from, std::size_t to, double at_mm) {
     const auto& segments = changed_.path.segments;
-    if (i == 0 || segments[i - 1].line != segments[i].line) {
-      passed_mm_ = 0.0;
+    double whole = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      whole += segments[i].length_mm;
     }
-    const double span = of.progress_end_mm - of.progress_start_mm;
-    const double whole = std::max(of.segment.length_mm, 1e-9);
-    const double from = std::min(1.0, passed_mm_ / whole);
-    passed_mm_ += segments[i].length_mm;
-    const double to = std::min(1.0, passed_mm_ / whole);
-    while (index_ + 1 < original_.size() &&
-           original_[index_].position_mm + original_[index_].length_mm <
-               of.progress_end_mm - 1e-6) {
-      ++index_;
+    const double start = changed_.start_mm[from];
+    double passed = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      changed_.start_mm[i] = whole > 0.0 ? start + (at_mm - start) * passed / whole : start;
+      passed += segments[i].length_mm;
     }
-    return {of.progress_start_mm + from * span, of.progress_start_mm + to * span};
+    changed_.start_mm[to] = at_mm;
+  }
+
+  /// Where a segment starts, as original path length; not a number where others decide.
+  double place_of(std::size_t i, double at_mm) {
+    const auto& segments = changed_.path.segments;
+    const std::uint32_t line = segments[i].line;
+    if (i > 0 && segments[i - 1].line == line) {
+      return kernel::units::kNan;
+    }
+    const std::size_t piece = line < piece_of_.size() ? piece_of_[line] : kNone;
+    return piece != kNone ? pieces_[piece].progress_start_mm : kept(line, at_mm);
   }
 
   /// A block that stays: the next segment of the original with its line.
-  Range kept(std::size_t i) {
-    const std::uint32_t line = origin_of(changed_.path.segments[i].line);
-    std::size_t next = index_;
-    const double at = i == 0 ? 0.0 : changed_.end_mm[i - 1];
+  double kept(std::uint32_t changed_line, double at_mm) {
+    const std::uint32_t line = origin_of(changed_line);
     const auto is_it = [&](const PathSegment& of) {
-      return of.line == line && of.position_mm + of.length_mm >= at - 1e-6;
+      return of.line == line && of.position_mm >= at_mm - kNear_mm;
     };
-    while (next < original_.size() && original_[next].position_mm < at + kNear_mm &&
-           (!is_it(original_[next]) || taken_ == next)) {
-      ++next;
+    // The last one found stays behind: a block may be run again.
+    while (index_ < original_.size() && original_[index_].position_mm < at_mm - kNear_mm) {
+      ++index_;
     }
-    if (next == original_.size() || !is_it(original_[next])) {
-      return {at, at + changed_.path.segments[i].length_mm};
+    for (std::size_t i = index_;
+         i < original_.size() && original_[i].position_mm < at_mm + kNear_mm; ++i) {
+      if (is_it(original_[i]) && (taken_ == kNone || i > taken_)) {
+        taken_ = i;
+        return original_[i].position_mm;
+      }
     }
-    index_ = next;
-    taken_ = next;
-    return {original_[next].position_mm, original_[next].position_mm + original_[next].length_mm};
+    return kernel::units::kNan;
   }
 
   [[nodiscard]] std::uint32_t origin_of(std::uint32_t line) const noexcept {
@@ -209,7 +225,6 @@ class Mapping {
   std::vector<std::size_t> piece_of_;
   std::size_t index_ = 0;
   std::size_t taken_ = kNone;
-  double passed_mm_ = 0.0;
 };
 
 }  // namespace

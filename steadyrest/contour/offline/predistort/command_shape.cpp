@@ -194,6 +194,7 @@ std::vector<Piece> CommandShape::pieces() {
       piece.segment.feed_mm_s = of.feed_mm_s * ratio;
       piece.segment.line = of.line;
       piece.segment.motion = Motion::feed;
+      piece.plane = use_[i].plane;
       piece.begins_run = begins && j == 0;
       piece.joined = j > 0 || start.led;
       piece.passes = j == 0 && !begins && passes(i - 1);

@@ -23,9 +23,12 @@ constexpr double kSpare = 1.02;  ///< a joint that lets this much of the speed p
 constexpr double kRoom = 0.9;    ///< of a piece that an arc may take
 constexpr double kLeastRadius_mm = 1e-3;
 constexpr double kAnyTolerance_mm = 1.0;
+constexpr double kInPlaneArc = 1.0 - 1e-9;  ///< of the arc's axis along the plane's normal
 constexpr double kLeastPiece_mm = 0.01;
 constexpr double kLeastLag_mm = 1e-3;
-constexpr double kBack = 0.7;       ///< where the command is on the path again, in lags
+constexpr double kBack = 0.7;   ///< where the command is on the path again, in lags
+constexpr double kAlone = 2.0;  ///< room that a corner needs on both sides, in lags
+constexpr double kSamePlace_mm = 1e-3;
 constexpr double kLeastTurn = 0.3;  ///< |t′ − t| of a corner
 
 Point tangent_at(const PathSegment& segment, double u) noexcept {
@@ -38,15 +41,20 @@ AxisValues axis_values(const Point& p) noexcept {
   return out;
 }
 
-/// The piece between both, if the control would slow down at their joint.
-std::optional<nc::plan::CornerArc> rounding(const PathSegment& before, const PathSegment& after,
+/// The piece between both, if the control would slow down at their joint. An arc in space cannot be
+/// written.
+std::optional<nc::plan::CornerArc> rounding(const Piece& from, const Piece& to,
                                             const nc::plan::PathLimits& limits, double share) {
+  const PathSegment& before = from.segment;
+  const PathSegment& after = to.segment;
   const Point in = tangent_at(before, 1.0);
   const Point out = tangent_at(after, 0.0);
   const auto bend = nc::plan::bend_of(in, out);
   const double speed = std::min(before.feed_mm_s, after.feed_mm_s);
-  if (!bend || limits.junction_mm_s(axis_values(in), axis_values(out), before.length_mm,
-                                    after.length_mm) >= kSpare * speed) {
+  const std::size_t normal = nc::interpret::axes_of(to.plane).normal;
+  if (!bend || std::abs(bend->axis[normal]) < kInPlaneArc ||
+      limits.junction_mm_s(axis_values(in), axis_values(out), before.length_mm, after.length_mm) >=
+          kSpare * speed) {
     return std::nullopt;
   }
   const double across =
@@ -86,12 +94,13 @@ std::vector<Piece> round_kinks(const std::vector<Piece>& pieces, const nc::plan:
     }
     if (!out.empty() && next.joined && !next.begins_run) {
       Piece& before = out.back();
-      const auto corner = rounding(before.segment, next.segment, limits, share);
+      const auto corner = rounding(before, next, limits, share);
       if (corner && corner->radius_mm > kLeastRadius_mm) {
         const double feed = std::min(before.segment.feed_mm_s, next.segment.feed_mm_s);
         before = part_of(before, 0.0, geometry::foot_point(before.segment, corner->start_mm).u);
         next = part_of(next, geometry::foot_point(next.segment, corner->end_mm).u, 1.0);
         Piece arc;
+        arc.plane = next.plane;
         arc.segment = arc_of(*corner, next.segment, feed);
         arc.progress_start_mm = before.progress_end_mm;
         arc.progress_end_mm = next.progress_start_mm;
@@ -149,40 +158,67 @@ void lead(std::vector<Piece>& out, const Piece& next, const Corner& corner) {
   out.push_back(rest);
 }
 
+/// The corners between pieces, and the piece behind each.
+struct FoundCorners {
+  std::vector<Corner> corners;
+  std::vector<std::size_t> next;
+};
+
+FoundCorners find_corners(const std::vector<Piece>& pieces, const ToolMotion& motion,
+                          const std::vector<Corner>& given) {
+  FoundCorners found;
+  auto known = given.begin();
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const Piece& before = pieces[i - 1];
+    const Piece& next = pieces[i];
+    const bool is_corner = !next.joined && !next.begins_run && next.passes &&
+                           next.segment.length_mm >= kLeastPiece_mm &&
+                           before.segment.length_mm >= kLeastPiece_mm &&
+                           geometry::distance(tangent_at(before.segment, 1.0),
+                                              tangent_at(next.segment, 0.0)) >= kLeastTurn;
+    if (!is_corner) {
+      continue;
+    }
+    Corner corner{.at_mm = before.progress_end_mm};
+    corner.behind_mm = behind_mm(motion, corner.at_mm);
+    while (known != given.end() && known->at_mm < corner.at_mm - kSamePlace_mm) {
+      ++known;
+    }
+    if (known != given.end() && known->at_mm < corner.at_mm + kSamePlace_mm) {
+      corner.beyond = known->beyond;
+    }
+    found.corners.push_back(corner);
+    found.next.push_back(i);
+  }
+  return found;
+}
+
+/// Its neighbours are further away than the tool lags: else the detour is not over before the next.
+bool is_alone(const std::vector<Corner>& corners, std::size_t i) {
+  const double room = kAlone * corners[i].behind_mm;
+  return (i == 0 || corners[i].at_mm - corners[i - 1].at_mm > room) &&
+         (i + 1 == corners.size() || corners[i + 1].at_mm - corners[i].at_mm > room);
+}
+
 }  // namespace
 
 std::vector<Piece> lead_corners(const std::vector<Piece>& pieces, const ToolMotion& motion,
                                 std::vector<Corner>& corners) {
+  FoundCorners found = find_corners(pieces, motion, corners);
   std::vector<Piece> out;
   out.reserve(pieces.size());
-  std::vector<Corner> found;
-  std::size_t given = 0;
-  for (const Piece& next : pieces) {
-    const bool is_corner = !out.empty() && !next.joined && !next.begins_run && next.passes &&
-                           next.segment.length_mm >= kLeastPiece_mm &&
-                           out.back().segment.length_mm >= kLeastPiece_mm &&
-                           geometry::distance(tangent_at(out.back().segment, 1.0),
-                                              tangent_at(next.segment, 0.0)) >= kLeastTurn;
-    if (!is_corner) {
-      out.push_back(next);
-      continue;
-    }
-    Corner corner{.at_mm = out.back().progress_end_mm};
-    corner.behind_mm = behind_mm(motion, corner.at_mm);
-    while (given < corners.size() && corners[given].at_mm < corner.at_mm - 1e-3) {
-      ++given;
-    }
-    if (given < corners.size() && corners[given].at_mm < corner.at_mm + 1e-3) {
-      corner.beyond = corners[given].beyond;
-    }
-    found.push_back(corner);
-    if (corner.beyond * corner.behind_mm < kLeastLag_mm) {
-      out.push_back(next);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const bool here = at < found.next.size() && found.next[at] == i;
+    const std::size_t corner = here ? at++ : found.corners.size();
+    if (here && is_alone(found.corners, corner) &&
+        found.corners[corner].beyond * found.corners[corner].behind_mm >= kLeastLag_mm) {
+      lead(out, pieces[i], found.corners[corner]);
     } else {
-      lead(out, next, corner);
+      out.push_back(pieces[i]);
     }
   }
-  corners = std::move(found);
+  corners = std::move(found.corners);
   return out;
 }
 

@@ -66,26 +66,11 @@ std::optional<PathSegment> arc_from_tangent(nc::interpret::Plane plane, const Po
   return arc;
 }
 
-PathSegment part_of(const PathSegment& segment, double u, double w) {
-  PathSegment part = segment;
-  part.start_mm = geometry::point_at(segment, u);
-  part.end_mm = geometry::point_at(segment, w);
-  if (segment.geometry == Geometry::arc) {
-    // The centre is at the height of the start.
-    part.centre_mm = geometry::add_scaled(segment.centre_mm, segment.axis, u * segment.rise_mm);
-    part.sweep_rad *= w - u;
-    part.rise_mm *= w - u;
-    const double growth = segment.radius_end_mm - segment.radius_mm;
-    part.radius_mm = segment.radius_mm + u * growth;
-    part.radius_end_mm = segment.radius_mm + w * growth;
-  }
-  part.length_mm = geometry::arc_length_mm(part);
-  return part;
-}
-
 Piece part_of(const Piece& piece, double u, double w) {
   Piece part = piece;
-  part.segment = part_of(piece.segment, u, w);
+  part.segment = geometry::part_of(
+      piece.segment, geometry::distance_at(piece.segment, u),
+      w >= 1.0 ? piece.segment.length_mm : geometry::distance_at(piece.segment, w));
   const double span = piece.progress_end_mm - piece.progress_start_mm;
   part.progress_start_mm = piece.progress_start_mm + u * span;
   part.progress_end_mm = piece.progress_start_mm + w * span;

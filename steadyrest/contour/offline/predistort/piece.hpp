@@ -11,6 +11,7 @@ namespace steadyrest::contour::offline {
 /// A line or an arc that is commanded in place of a part of a block.
 struct Piece {
   kernel::signal::PathSegment segment;  ///< machine coordinates; `feed_mm_s` at 100 %
+  nc::interpret::Plane plane = nc::interpret::Plane::xy;  ///< of the block: of its arcs
   /// Original path length that the command stands for at its ends.
   double progress_start_mm = 0.0;
   double progress_end_mm = 0.0;
@@ -26,10 +27,7 @@ struct Piece {
 [[nodiscard]] std::optional<kernel::signal::PathSegment> arc_from_tangent(
     nc::interpret::Plane plane, const kernel::signal::Point& start,
     const kernel::signal::Point& tangent, const kernel::signal::Point& end);
-/// The part of a segment between two of its parameters 0 ≤ u < w ≤ 1.
-[[nodiscard]] kernel::signal::PathSegment part_of(const kernel::signal::PathSegment& segment,
-                                                  double u, double w);
-/// The same for a piece, its progress in proportion.
+/// The part of a piece between two of its parameters 0 ≤ u < w ≤ 1; its progress in proportion.
 [[nodiscard]] Piece part_of(const Piece& piece, double u, double w);
 
 }  // namespace steadyrest::contour::offline

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include <steadyrest/contour/offline/predistort/corner_errors.hpp>
 #include <steadyrest/contour/offline/predistort/joints.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/contour/offline/predistort/run_errors.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -34,15 +36,39 @@ constexpr int kRevisionRounds = 2;     ///< … each with so many rounds
 constexpr std::size_t kMostRemaining = 1000;
 /// Tried at corners besides the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
 constexpr double kLongestTried_s = 1200.0;
 
 /// A run on the servo model.
-struct Run {
+struct FollowedRun {
   ErrorFigures figures;
   CommandSpeed speed;
   std::vector<double> corner_mm;  ///< largest error near each corner
+  RunErrors runs;
   double seconds = 0.0;
+};
+
+/// Hands moves on without the tolerance by which the control rounds the corners between chords:
+/// these roundings are too small to be led around, and in space they could not be written.
+class WithoutSmallRounding final : public nc::interpret::Sink {
+ public:
+  explicit WithoutSmallRounding(nc::interpret::Sink& to) : to_(to) {}
+  void on_move(const nc::interpret::Move& move) override {
+    if (move.path_mode != nc::interpret::PathMode::continuous || move.path_tolerance_mm <= 0.0 ||
+        move.path_tolerance_mm > kSmall_mm) {
+      to_.on_move(move);
+      return;
+    }
+    nc::interpret::Move exact = move;
+    exact.path_mode = nc::interpret::PathMode::exact_path;
+    to_.on_move(exact);
+  }
+  void on_event(const nc::interpret::Event& event) override { to_.on_event(event); }
+
+ private:
+  static constexpr double kSmall_mm = 0.1;
+  nc::interpret::Sink& to_;
 };
 
 class Predistortion {
@@ -61,7 +87,14 @@ class Predistortion {
     if (auto read = this->read(); !read) {
       return std::unexpected(read.error());
     }
-    auto before = follow(path_, same_path(path_), {});
+    runs_.emplace(path_, use());
+    // The control's own plan of the program as it is, on the path that the shape is made from.
+    auto planned = write({});
+    if (!planned) {
+      return std::unexpected(planned.error());
+    }
+    auto before = follow(planned->path, {.start_mm = planned->start_mm, .end_mm = planned->end_mm},
+                         planned->replaced.origin);
     if (!before) {
       return std::unexpected(before.error());
     }
@@ -72,6 +105,8 @@ class Predistortion {
                                      "give a program with feed moves");
     }
     speed_ = std::move(before->speed);
+    runs_before_ = std::move(before->runs);
+    keep_original(std::move(planned->replaced));
     for (int revision = 0; revision <= kMostRevisions; ++revision) {
       if (auto done = rounds(revision == 0 ? how_.rounds : kRevisionRounds); !done) {
         return std::unexpected(done.error());
@@ -81,16 +116,29 @@ class Predistortion {
           return std::unexpected(done.error());
         }
       }
-      if (revision == kMostRevisions || !bar_worse()) {
+      if (best_mm_ < 0.0 || !bar_worse()) {
         break;
       }
-      best_mm_ = -1.0;  // what was found has blocks that must stay
+      // What was found has blocks that must stay.
+      best_mm_ = -1.0;
+      keep_original({});
     }
     report();
     return std::move(out_);
   }
 
  private:
+  /// The result is the program as it is, until a round is better.
+  void keep_original(nc::rewrite::Replaced replaced) {
+    if (!replaced.text.empty()) {
+      original_ = std::move(replaced);
+    }
+    out_.replaced = original_;
+    out_.after = out_.before;
+    out_.seconds_after = out_.seconds_before;
+    out_.largest_shift_mm = 0.0;
+  }
+
   static std::array<double, 3> backlash_mm(const std::vector<kernel::machine::Axis>& axes) {
     std::array<double, 3> out{};
     for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
@@ -109,7 +157,8 @@ class Predistortion {
     shaped_as_ = machine_;
     shaped_as_.control.merge_share = 0.0;
     nc::plan::PathBuilder builder(shaped_as_);
-    const auto report = nc::interpret::run_file(file_, config_, builder);
+    WithoutSmallRounding moves(builder);
+    const auto report = nc::interpret::run_file(file_, config_, moves);
     if (!report) {
       return std::unexpected(report.error());
     }
@@ -175,9 +224,12 @@ class Predistortion {
     }
   }
 
-  Result<Run> follow(const PlannedPath& path, const PathMap& map,
-                     const std::vector<std::uint32_t>& origin) {
-    Run run{.figures = ErrorFigures(how_.limit_mm, others_.size()), .speed = {}, .corner_mm = {}};
+  Result<FollowedRun> follow(const PlannedPath& path, const PathMap& map,
+                             const std::vector<std::uint32_t>& origin) {
+    FollowedRun run{.figures = ErrorFigures(how_.limit_mm, others_.size()),
+                    .speed = {},
+                    .corner_mm = {},
+                    .runs = RunErrors(*runs_, others_.size())};
     CornerErrors corner_errors(corners_);
     const auto seconds =
         run_model({.machine = machine_,
@@ -234,14 +286,18 @@ class Predistortion {
     return {};
   }
 
+  [[nodiscard]] Result<Changed> write(const std::vector<Piece>& made) const {
+    return write_pieces({.file = file_,
+                         .config = config_,
+                         .machine = machine_,
+                         .blocks = blocks_,
+                         .path = path_,
+                         .told = how_.told},
+                        made);
+  }
+
   Result<void> try_pieces(const std::vector<Piece>& made, double shift_mm) {
-    auto changed = write_pieces({.file = file_,
-                                 .config = config_,
-                                 .machine = machine_,
-                                 .blocks = blocks_,
-                                 .path = path_,
-                                 .told = how_.told},
-                                made);
+    auto changed = write(made);
     if (!changed) {
       return std::unexpected(changed.error());
     }
@@ -252,8 +308,10 @@ class Predistortion {
     }
     const auto& figures = run->figures.nominal();
     const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
-    if (best_mm_ < 0.0 || score_mm < best_mm_) {
+    const bool in_time = run->seconds <= kMostTime * out_.seconds_before;
+    if (in_time && (best_mm_ < 0.0 || score_mm < best_mm_)) {
       best_mm_ = score_mm;
+      runs_after_ = std::move(run->runs);
       out_.replaced = std::move(changed->replaced);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
@@ -286,22 +344,18 @@ class Predistortion {
     return rounds(kRevisionRounds);
   }
 
-  /// Blocks whose largest error over all models grows stay. True when there are new ones.
+  /// Runs whose error grows, over all models, stay. True when there are new ones.
   bool bar_worse() {
-    const auto worst = [](const ErrorFigures& figures, std::size_t line) {
-      double most = figures.nominal().line_mm(line);
-      for (const auto& of : figures.others()) {
-        most = std::max(most, of.line_mm(line));
-      }
-      return most;
-    };
     bool fresh = false;
-    for (const CutBlock& block : blocks_.blocks) {
-      if (block.stays == Stays::free && !barred_.contains(block.line) &&
-          worst(out_.after, block.line) > worst(out_.before, block.line) + kWorse_mm) {
-        barred_.insert(block.line);
-        out_.worse.push_back(block.line);
-        fresh = true;
+    for (std::size_t i = 0; i < runs_->size(); ++i) {
+      const auto before = runs_before_->worst(i);
+      const auto after = runs_after_->worst(i);
+      if (after.rms_mm <= before.rms_mm + kWorse_mm && after.max_mm <= before.max_mm + kWorse_mm) {
+        continue;
+      }
+      for (const std::uint32_t line : runs_->lines(i)) {
+        fresh = barred_.insert(line).second || fresh;
+        out_.worse.push_back(line);
       }
     }
     return fresh;
@@ -345,12 +399,16 @@ class Predistortion {
   Machine shaped_as_;
   nc::rewrite::CutBlocks blocks_;
   PlannedPath path_;
-  CommandSpeed speed_;             ///< of the last run
-  std::vector<Corner> corners_;    ///< as led in the last pieces
-  std::vector<double> corner_mm_;  ///< their errors in the last run
+  nc::rewrite::Replaced original_;  ///< with nothing replaced
+  CommandSpeed speed_;              ///< of the last run
+  std::vector<Corner> corners_;     ///< as led in the last pieces
+  std::vector<double> corner_mm_;   ///< their errors in the last run
   double best_mm_ = -1.0;
   int done_ = 0;
   std::set<std::uint32_t> barred_;  ///< lines that stay after all
+  std::optional<CutRuns> runs_;
+  std::optional<RunErrors> runs_before_;
+  std::optional<RunErrors> runs_after_;  ///< of the best round
   Predistorted out_;
 };
 

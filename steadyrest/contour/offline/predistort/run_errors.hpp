@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include <steadyrest/contour/offline/predict/model_run.hpp>
+#include <steadyrest/contour/offline/predistort/command_shape.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// Which run a line belongs to: the free blocks from one that stays, or a stop, to the next.
+class CutRuns {
+ public:
+  CutRuns(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use) {
+    for (std::size_t i = 0; i < use.size(); ++i) {
+      if (!use[i].free) {
+        continue;
+      }
+      if (i == 0 || !use[i - 1].free || use[i - 1].stops) {
+        lines_.emplace_back();
+      }
+      const std::uint32_t line = path.segments[i].line;
+      if (of_.emplace(line, lines_.size() - 1).second) {
+        lines_.back().push_back(line);
+      }
+    }
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return lines_.size(); }
+  [[nodiscard]] const std::vector<std::uint32_t>& lines(std::size_t run) const {
+    return lines_[run];
+  }
+  /// size() for a line that belongs to none.
+  [[nodiscard]] std::size_t of(std::uint32_t line) const {
+    const auto found = of_.find(line);
+    return found == of_.end() ? lines_.size() : found->second;
+  }
+
+ private:
+  std::vector<std::vector<std::uint32_t>> lines_;
+  std::map<std::uint32_t, std::size_t> of_;
+};
+
+/// The error of each run, for the model and the others beside it.
+class RunErrors {
+ public:
+  RunErrors(const CutRuns& runs, std::size_t others)
+      : runs_(&runs), models_(others + 1), sums_(models_ * runs.size()) {}
+
+  /// `line`: of the original.
+  void add(const ModelSample& sample, std::uint32_t line) {
+    if (line != line_) {
+      line_ = line;
+      run_ = runs_->of(line);
+    }
+    if (run_ == runs_->size()) {
+      return;
+    }
+    put(0, std::abs(sample.error_mm));
+    for (std::size_t i = 0; i < sample.other_error_mm.size(); ++i) {
+      put(i + 1, sample.other_error_mm[i]);
+    }
+  }
+
+  struct Worst {
+    double rms_mm = 0.0;
+    double max_mm = 0.0;
+  };
+  /// Over all models.
+  [[nodiscard]] Worst worst(std::size_t run) const {
+    Worst out;
+    for (std::size_t i = 0; i < models_; ++i) {
+      const Sum& sum = sums_[run * models_ + i];
+      const double mean =
+          sum.samples == 0 ? 0.0 : sum.square_mm2 / static_cast<double>(sum.samples);
+      out.rms_mm = std::max(out.rms_mm, std::sqrt(mean));
+      out.max_mm = std::max(out.max_mm, sum.max_mm);
+    }
+    return out;
+  }
+
+ private:
+  struct Sum {
+    double square_mm2 = 0.0;
+    double max_mm = 0.0;
+    std::size_t samples = 0;
+  };
+  void put(std::size_t model, double error_mm) {
+    Sum& sum = sums_[run_ * models_ + model];
+    sum.square_mm2 += error_mm * error_mm;
+    sum.max_mm = std::max(sum.max_mm, error_mm);
+    ++sum.samples;
+  }
+
+  const CutRuns* runs_;
+  std::size_t models_;
+  std::vector<Sum> sums_;
+  std::uint32_t line_ = 0;
+  std::size_t run_ = static_cast<std::size_t>(-1);
+};
+
+}  // namespace steadyrest::contour::offline
