@@ -34,7 +34,9 @@ struct PredistortConfig {
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
   int rounds = 4;
-  std::vector<nc::rewrite::Told> told;  ///< for the mark in the program
+  // Designated initialisers may leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::vector<nc::rewrite::Told> told = {};  ///< for the mark in the program
   std::function<void(double share, std::string_view what)> progress = [](double, auto) {};
 };
 

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/nc/rewrite/text/put_back.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+using kernel::machine::Machine;
+
+class Desk {
+ public:
+  kernel::outcome::Result<Predistorted> run(const std::string& program,
+                                            PredistortConfig how = {}) const {
+    how.told = {{"changes", "predistort"}};
+    write(file(), program);
+    nc::interpret::Config config;
+    config.dialect = machine.control.dialect;
+    config.axes = "XYZ";
+    return predistort(file(), config, machine, how);
+  }
+  static void write(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  }
+  [[nodiscard]] std::string file() const { return folder_.at("part.ngc"); }
+
+  Machine machine = ideal();
+
+ private:
+  static Machine ideal() {
+    Machine machine;
+    for (const char* name : {"X", "Y", "Z"}) {
+      kernel::machine::Axis axis;
+      axis.name = name;
+      axis.servo_gain_1_s = 50.0;
+      machine.axes.push_back(axis);
+    }
+    machine.control.interpolator_period_s = 0.002;
+    return machine;
+  }
+  kernel::file::testing::OwnFolder folder_;
+};
+
+/// The dwell lets the axes arrive before the cut.
+const std::string kCircle =
+    "G21 G90 G94 G17 G64\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P4\nG1 Y30\nG0 Z5\nM2\n";
+
+// Truth: R′ = R·√(1 + q²) about the same centre, F′ = F·R′/R (contour README).
+TEST(Predistort, WritesTheCircleThatTheClosedFormAsksFor) {
+  const Desk desk;
+  const auto done = desk.run(kCircle);
+  ASSERT_TRUE(done.has_value());
+  EXPECT_NEAR(done->before.nominal().max_mm, 0.0877, 2e-3);
+  EXPECT_LT(done->after.nominal().max_mm, 0.004);
+  EXPECT_LT(done->after.nominal().rms_mm(), 0.001);
+  EXPECT_NEAR(done->seconds_after, done->seconds_before, 0.01 * done->seconds_before);
+  const double q = 4000.0 / 60.0 / (10.0 * 50.0);
+  const double radius = 10.0 * std::sqrt(1.0 + q * q);
+  EXPECT_NEAR(done->largest_shift_mm, radius - 10.0, 0.005);
+  const std::string feed = fmt::format(" F{:.0f}", 4000.0 * radius / 10.0).substr(0, 5);
+  EXPECT_NE(done->replaced.text.find(feed), std::string::npos) << feed;
+}
+
+TEST(Predistort, KeepsTheOriginalInTheText) {
+  const Desk desk;
+  const auto done = desk.run(kCircle);
+  ASSERT_TRUE(done.has_value());
+  Desk::write(desk.file(), done->replaced.text);
+  const auto back = nc::rewrite::put_back(desk.file());
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->text, kCircle);
+}
+
+TEST(Predistort, LeavesStraightLinesOfEqualAxesAlone) {
+  const Desk desk;
+  const auto done = desk.run("G21 G90 G94 G17 G64\nG0 X0 Y0\nG1 X80 Y60 F3000\nG0 Z5\nM2\n");
+  ASSERT_TRUE(done.has_value());
+  EXPECT_LT(done->after.nominal().max_mm, 1e-4);
+  EXPECT_LT(done->largest_shift_mm, 1e-6);
+}
+
+TEST(Predistort, CorrectsUnequalAxesAsFarAsTheirGainsAreSure) {
+  Desk desk;
+  desk.machine.axes[1].servo_gain_1_s = 55.0;
+  const std::string line = "G21 G90 G94 G17 G64\nG0 X0 Y0\nG1 X80 Y80 F3000\nG0 Z5\nM2\n";
+  const auto sure = desk.run(line, {.gain_uncertainty = 0.0});
+  const auto unsure = desk.run(line, {.gain_uncertainty = 0.08});
+  ASSERT_TRUE(sure.has_value() && unsure.has_value());
+  // (v/2)·sin 2θ·|1/kx − 1/ky|
+  EXPECT_NEAR(sure->before.nominal().max_mm, 25.0 * (1.0 / 50.0 - 1.0 / 55.0), 2e-3);
+  EXPECT_LT(sure->after.nominal().rms_mm(), 0.2 * sure->before.nominal().rms_mm());
+  // 50 and 55 may be equal: then a correction would bend a straight line.
+  EXPECT_NEAR(unsure->after.nominal().max_mm, unsure->before.nominal().max_mm, 1e-3);
+}
+
+TEST(Predistort, NeverLetsAnyModelWithinTheUncertaintyGetWorse) {
+  Desk desk;
+  for (const double other : {50.0, 52.0, 60.0}) {
+    desk.machine.axes[1].servo_gain_1_s = other;
+    const auto done = desk.run(kCircle + "", {.gain_uncertainty = 0.05});
+    ASSERT_TRUE(done.has_value());
+    EXPECT_LE(done->worst_after_mm, done->worst_before_mm + 5e-4) << other;
+    for (std::size_t i = 0; i < done->before.others().size(); ++i) {
+      EXPECT_LE(done->after.others()[i].rms_mm(), done->before.others()[i].rms_mm() + 5e-4) << i;
+    }
+  }
+}
+
+TEST(Predistort, LeavesBlocksThatItWouldHaveToShiftTooFar) {
+  const Desk desk;
+  const auto done = desk.run(kCircle, {.max_shift_mm = 0.05});
+  ASSERT_TRUE(done.has_value());
+  // The line before it meets the circle where the circle would have to be.
+  EXPECT_EQ(done->too_far, (std::vector<std::uint32_t>{4, 5}));
+  EXPECT_LE(done->largest_shift_mm, 0.05);
+}
+
+TEST(Predistort, WorksInIncrementsInchesAndATurnedOffset) {
+  const Desk desk;
+  const auto metric = desk.run(kCircle);
+  ASSERT_TRUE(metric.has_value());
+  const std::string incremental =
+      "G20 G90 G94 G17 G64\nG10 L2 P1 R30 X1 Y2\nG54\nG0 X0.4 Y-1.2 Z0\nG4 P0.5\nG91\nG1 Y1.2 F157.48\nG3 "
+      "X0 "
+      "Y0 I-0.3937 J0 P4\nG1 Y1.2\nG90 G0 Z0.2\nG10 L2 P1 R0 X0 Y0\nM2\n";
+  const auto other = desk.run(incremental);
+  ASSERT_TRUE(other.has_value());
+  EXPECT_NEAR(other->before.nominal().rms_mm(), metric->before.nominal().rms_mm(), 1e-3);
+  EXPECT_LT(other->after.nominal().rms_mm(), 0.001);
+  EXPECT_NE(other->replaced.text.find("G3 X"), std::string::npos);
+}
+
+TEST(Predistort, LeavesWhatTheControlDoesByItself) {
+  const Desk desk;
+  const auto done = desk.run(
+      "G21 G90 G94 G17 G64\nG0 X0 Y0 Z5\nG81 X5 Y5 Z-2 R1 F500\nG80\nO100 sub\nG1 X20 "
+      "F2000\nO100 endsub\nO100 call\nO100 call\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P2\nG0 "
+      "Z5\nM2\n");
+  ASSERT_TRUE(done.has_value());
+  EXPECT_EQ(done->stays.at(nc::rewrite::Stays::spline), (std::vector<std::uint32_t>{3}));
+  EXPECT_LT(done->after.nominal().line_mm(13), 0.2 * done->before.nominal().line_mm(13));
+}
+
+TEST(Predistort, RefusesWhatCutsNothing) {
+  const Desk desk;
+  const auto done = desk.run("G21 G90\nG0 X5\nM2\n");
+  ASSERT_FALSE(done.has_value());
+  EXPECT_EQ(done.error().what, "the program cuts nothing");
+}
+
+}  // namespace
+}  // namespace steadyrest::contour::offline
