@@ -51,7 +51,8 @@ class Desk {
 
 /// The dwell lets the axes arrive before the cut.
 const std::string kCircle =
-    "G21 G90 G94 G17 G64\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P4\nG1 Y30\nG0 Z5\nM2\n";
+    "G21 G90 G94 G17 G64\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P4\nG1 Y30\nG0 "
+    "Z5\nM2\n";
 
 // Truth: R′ = R·√(1 + q²) about the same centre, F′ = F·R′/R (contour README).
 TEST(Predistort, WritesTheCircleThatTheClosedFormAsksFor) {
@@ -128,7 +129,8 @@ TEST(Predistort, WorksInIncrementsInchesAndATurnedOffset) {
   const auto metric = desk.run(kCircle);
   ASSERT_TRUE(metric.has_value());
   const std::string incremental =
-      "G20 G90 G94 G17 G64\nG10 L2 P1 R30 X1 Y2\nG54\nG0 X0.4 Y-1.2 Z0\nG4 P0.5\nG91\nG1 Y1.2 F157.48\nG3 "
+      "G20 G90 G94 G17 G64\nG10 L2 P1 R30 X1 Y2\nG54\nG0 X0.4 Y-1.2 Z0\nG4 P0.5\nG91\nG1 Y1.2 "
+      "F157.48\nG3 "
       "X0 "
       "Y0 I-0.3937 J0 P4\nG1 Y1.2\nG90 G0 Z0.2\nG10 L2 P1 R0 X0 Y0\nM2\n";
   const auto other = desk.run(incremental);
@@ -142,7 +144,8 @@ TEST(Predistort, LeavesWhatTheControlDoesByItself) {
   const Desk desk;
   const auto done = desk.run(
       "G21 G90 G94 G17 G64\nG0 X0 Y0 Z5\nG81 X5 Y5 Z-2 R1 F500\nG80\nO100 sub\nG1 X20 "
-      "F2000\nO100 endsub\nO100 call\nO100 call\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P2\nG0 "
+      "F2000\nO100 endsub\nO100 call\nO100 call\nG0 X10 Y-30 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 "
+      "I-10 J0 P2\nG0 "
       "Z5\nM2\n");
   ASSERT_TRUE(done.has_value());
   EXPECT_EQ(done->stays.at(nc::rewrite::Stays::spline), (std::vector<std::uint32_t>{3}));
