@@ -119,6 +119,7 @@ std::vector<OutputRow> of_program() {
        kRib + " --plan " + kRibPlan + " --machine " + kMill,
        {file("out.ngc")},
        {kRib, kRibPlan, kMill}},
+      {"program predistort", kRib + " --machine " + kMill, {file("out.ngc")}, {kRib, kMill}},
       {"program strip", kCorrected, {file("out.ngc")}, {kCorrected}},
   };
 }
