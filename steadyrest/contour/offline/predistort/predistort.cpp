@@ -12,6 +12,7 @@
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/run_errors.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
+#include <steadyrest/contour/offline/predistort/small_rounding.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
@@ -39,37 +40,6 @@ constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
 constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
 constexpr double kLongestTried_s = 1200.0;
-
-/// A run on the servo model.
-struct FollowedRun {
-  ErrorFigures figures;
-  CommandSpeed speed;
-  std::vector<double> corner_mm;  ///< largest error near each corner
-  RunErrors runs;
-  double seconds = 0.0;
-};
-
-/// Hands moves on without the tolerance by which the control rounds the corners between chords:
-/// these roundings are too small to be led around, and in space they could not be written.
-class WithoutSmallRounding final : public nc::interpret::Sink {
- public:
-  explicit WithoutSmallRounding(nc::interpret::Sink& to) : to_(to) {}
-  void on_move(const nc::interpret::Move& move) override {
-    if (move.path_mode != nc::interpret::PathMode::continuous || move.path_tolerance_mm <= 0.0 ||
-        move.path_tolerance_mm > kSmall_mm) {
-      to_.on_move(move);
-      return;
-    }
-    nc::interpret::Move exact = move;
-    exact.path_mode = nc::interpret::PathMode::exact_path;
-    to_.on_move(exact);
-  }
-  void on_event(const nc::interpret::Event& event) override { to_.on_event(event); }
-
- private:
-  static constexpr double kSmall_mm = 0.1;
-  nc::interpret::Sink& to_;
-};
 
 class Predistortion {
  public:

@@ -8,8 +8,10 @@
 #include <map>
 #include <vector>
 
+#include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predict/model_run.hpp>
 #include <steadyrest/contour/offline/predistort/command_shape.hpp>
+#include <steadyrest/contour/offline/predistort/tool_motion.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {
@@ -102,6 +104,15 @@ class RunErrors {
   std::vector<Sum> sums_;
   std::uint32_t line_ = 0;
   std::size_t run_ = static_cast<std::size_t>(-1);
+};
+
+/// A run on the servo model.
+struct FollowedRun {
+  ErrorFigures figures;
+  CommandSpeed speed;
+  std::vector<double> corner_mm;  ///< largest error near each corner
+  RunErrors runs;
+  double seconds = 0.0;
 };
 
 }  // namespace steadyrest::contour::offline

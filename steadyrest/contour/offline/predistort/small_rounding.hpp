@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/nc/interpret/state/move.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// Hands moves on without the tolerance by which the control rounds the corners between chords:
+/// these roundings are too small to be led around, and in space they could not be written.
+class WithoutSmallRounding final : public nc::interpret::Sink {
+ public:
+  explicit WithoutSmallRounding(nc::interpret::Sink& to) : to_(to) {}
+  void on_move(const nc::interpret::Move& move) override {
+    if (move.path_mode != nc::interpret::PathMode::continuous || move.path_tolerance_mm <= 0.0 ||
+        move.path_tolerance_mm > kSmall_mm) {
+      to_.on_move(move);
+      return;
+    }
+    nc::interpret::Move exact = move;
+    exact.path_mode = nc::interpret::PathMode::exact_path;
+    to_.on_move(exact);
+  }
+  void on_event(const nc::interpret::Event& event) override { to_.on_event(event); }
+
+ private:
+  static constexpr double kSmall_mm = 0.1;
+  nc::interpret::Sink& to_;
+};
+
+}  // namespace steadyrest::contour::offline
