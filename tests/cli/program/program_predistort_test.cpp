@@ -24,7 +24,8 @@ TEST(ProgramPredistort, CutsWithoutTheErrorInTheSameTime) {
   const std::string changed = scratch.at("changed.mpf");
   const auto answer = answer_of("program predistort " + kPart + kMill + " -o " + changed);
   EXPECT_FALSE(answer["unchanged"].get<bool>());
-  EXPECT_NEAR(answer["predicted_error_max_before_mm"].get<double>(), 0.0877, 5e-4);
+  // The closed form, and half of the backlash.
+  EXPECT_NEAR(answer["predicted_error_max_before_mm"].get<double>(), 0.0877 + 0.001, 5e-4);
   EXPECT_LT(answer["predicted_error_max_mm"].get<double>(), 0.003);
   EXPECT_LT(answer["uncertain"]["error_max_mm"].get<double>(),
             answer["uncertain"]["error_max_before_mm"].get<double>());

@@ -158,8 +158,10 @@ void add_verb_program_predistort(Session& session, Verb& verb) {
                   "How far the command may leave the programmed path; a block that would need more "
                   "stays")
       ->check(within(0.001, 5.0));
-  verb.add_option("--gain-uncertainty-percent", options->gain_uncertainty_percent,
-                  "How far each servo gain may be off the machine file; no such machine gets worse")
+  verb.add_option(
+          "--gain-uncertainty-percent", options->gain_uncertainty_percent,
+          "How far each servo gain may be off the machine file; blocks are changed only where the "
+          "worst such machine does not get worse")
       ->check(within(0.0, 30.0));
   verb.writes("-o,--output", options->output,
               "The changed program; with --force it may replace the program itself",

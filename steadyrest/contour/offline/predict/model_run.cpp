@@ -23,7 +23,8 @@ constexpr double kSampleOfLag = 0.1;  ///< between two samples, in 1/k
 /// Three axes that follow their commands.
 class Axes {
  public:
-  Axes(const ServoModels& model, double period_s) noexcept {
+  Axes(const ServoModels& model, double period_s, const std::array<double, 3>& backlash_mm) noexcept
+      : backlash_mm_(backlash_mm) {
     for (std::size_t i = 0; i < 3; ++i) {
       step_[i] = AxisStep::of(model[i], period_s);
     }
@@ -41,13 +42,21 @@ class Axes {
           s.we * e + s.ww * w + s.w_mean * mean_mm_s[i] + s.w_change * change_mm_s[i];
     }
   }
-  [[nodiscard]] Point tool_mm(const Point& command_mm) const noexcept {
-    return geometry::subtract(command_mm, state_.error_mm);
+  /// z = min(max(z, x − b/2), x + b/2)
+  void carry(const Point& command_mm) noexcept {
+    const Point motor = geometry::subtract(command_mm, state_.error_mm);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double half = 0.5 * backlash_mm_[i];
+      tool_mm_[i] = std::clamp(tool_mm_[i], motor[i] - half, motor[i] + half);
+    }
   }
+  [[nodiscard]] const Point& tool_mm() const noexcept { return tool_mm_; }
 
  private:
   std::array<AxisStep, 3> step_{};
   online::ServoState state_;
+  std::array<double, 3> backlash_mm_;
+  Point tool_mm_{};
 };
 
 class Runner {
@@ -59,10 +68,10 @@ class Runner {
             std::max(1.0, std::floor(kSampleOfLag / softest_gain_1_s(run.model) / period_s_)))),
         step_s_(period_s_ * static_cast<double>(every_)),
         contour_(contour),
-        axes_(run.model, step_s_),
+        axes_(run.model, step_s_, run.backlash_mm),
         other_error_mm_(run.others.size()) {
     for (const ServoModels& other : run.others) {
-      others_.emplace_back(other, step_s_);
+      others_.emplace_back(other, step_s_, run.backlash_mm);
     }
   }
 
@@ -78,8 +87,10 @@ class Runner {
     const Point mean = geometry::scale(geometry::subtract(command, before_), 1.0 / step_s_);
     const Point change = geometry::subtract(mean, mean_);
     axes_.step(mean, change);
+    axes_.carry(command);
     for (Axes& other : others_) {
       other.step(mean, change);
+      other.carry(command);
     }
     before_ = command;
     mean_ = mean;
@@ -110,13 +121,13 @@ class Runner {
     }
     const auto error = contour_.update({.time_s = time_s(),
                                         .command_mm = command,
-                                        .actual_mm = axes_.tool_mm(command),
+                                        .actual_mm = axes_.tool_mm(),
                                         .path = original,
                                         .path_index = index_,
                                         .path_position_mm = progress_mm_,
                                         .path_speed_mm_s = s.path_speed_mm_s});
     for (std::size_t i = 0; i < others_.size(); ++i) {
-      const Point off = geometry::subtract(others_[i].tool_mm(command), error.foot_mm);
+      const Point off = geometry::subtract(others_[i].tool_mm(), error.foot_mm);
       const Point across =
           geometry::add_scaled(off, error.tangent, -geometry::dot(off, error.tangent));
       other_error_mm_[i] = geometry::norm(across);
@@ -167,6 +178,14 @@ ServoModels servo_models(std::span<const kernel::machine::Axis> axes) {
     }
   }
   return models;
+}
+
+std::array<double, 3> backlash_mm(std::span<const kernel::machine::Axis> axes) noexcept {
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    out[i] = axes[i].backlash_au;
+  }
+  return out;
 }
 
 double softest_gain_1_s(const ServoModels& models) noexcept {

@@ -19,6 +19,9 @@ namespace steadyrest::contour::offline {
 using ServoModels = std::array<online::AxisModel, 3>;
 /// As the machine file has it; axes that it lacks are as stiff as the stiffest.
 [[nodiscard]] ServoModels servo_models(std::span<const kernel::machine::Axis> axes);
+/// Of the first three axes, mm.
+[[nodiscard]] std::array<double, 3> backlash_mm(
+    std::span<const kernel::machine::Axis> axes) noexcept;
 /// The lowest gain, 1/s.
 [[nodiscard]] double softest_gain_1_s(const ServoModels& models) noexcept;
 
@@ -39,6 +42,7 @@ struct ModelRun {
   ServoModels model;
   /// Other models that follow the same commands: what the model's uncertainty makes of it.
   std::vector<ServoModels> others;
+  std::array<double, 3> backlash_mm{};  ///< between the motors and the tool
 };
 
 /// One sample of the run; `other_error_mm` and the sample are valid during the call only.
@@ -61,7 +65,8 @@ struct ModelSample {
 ///
 /// The errors of `others` are taken square to the path at the foot of `model`: good to (k − k′)²v²
 /// /(2Rk⁴), the square of a difference of lags. Samples are 0.1/k of the softest axis apart, at
-/// least one interpolator period. Not in it: friction, backlash, cutting forces. Returns the cycle
+/// least one interpolator period. The tool follows the motors within the
+/// backlash. Not in it: friction, cutting forces. Returns the cycle
 /// time in s; the spindle takes its ramps. Refused: what the planner refuses.
 [[nodiscard]] kernel::outcome::Result<double> run_model(
     const ModelRun& run, const std::function<void(const ModelSample&)>& on_sample);

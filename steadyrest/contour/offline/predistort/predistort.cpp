@@ -24,19 +24,19 @@ namespace {
 
 using kernel::machine::Machine;
 using kernel::outcome::Result;
-using kernel::signal::Motion;
-using nc::plan::PlannedPath;
 using nc::rewrite::CutBlock;
 using nc::rewrite::Stays;
 
 constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
 constexpr double kInPlane = 0.999999;  ///< of an arc's axis along the plane's normal
 constexpr double kWorse_mm = 5e-4;     ///< an error that grows by less is rounding of the text
-constexpr int kMostRevisions = 2;      ///< lines that must stay are found at most so often …
-constexpr int kRevisionRounds = 2;     ///< … each with so many rounds
+constexpr double kLarger = 1.05;   ///< of its largest error, which a run may get as its RMS falls
+constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
+constexpr int kLastRounds = 2;     ///< with the best share at each corner
 constexpr std::size_t kMostRemaining = 1000;
 /// Tried at corners besides the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+constexpr double kWorthwhile = 0.25;      ///< of the limit: a run whose error is less stays
 constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
 constexpr double kLongestTried_s = 1200.0;
@@ -74,11 +74,17 @@ class Predistortion {
       return kernel::outcome::refuse(file_, "the program cuts nothing",
                                      "give a program with feed moves");
     }
-    speed_ = std::move(before->speed);
+    first_speed_ = std::move(before->speed);
     runs_before_ = std::move(before->runs);
+    for (std::size_t i = 0; i < runs_->size(); ++i) {
+      if (runs_before_->worst(i).max_mm <= kWorthwhile * how_.limit_mm) {
+        barred_.insert(runs_->lines(i).begin(), runs_->lines(i).end());
+      }
+    }
     keep_original(std::move(planned->replaced));
     for (int revision = 0; revision <= kMostRevisions; ++revision) {
-      if (auto done = rounds(revision == 0 ? how_.rounds : kRevisionRounds); !done) {
+      speed_ = best_speed_ = first_speed_;
+      if (auto done = rounds(how_.rounds); !done) {
         return std::unexpected(done.error());
       }
       if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
@@ -107,14 +113,6 @@ class Predistortion {
     out_.after = out_.before;
     out_.seconds_after = out_.seconds_before;
     out_.largest_shift_mm = 0.0;
-  }
-
-  static std::array<double, 3> backlash_mm(const std::vector<kernel::machine::Axis>& axes) {
-    std::array<double, 3> out{};
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
-      out[i] = axes[i].backlash_au;
-    }
-    return out;
   }
 
   Result<void> read() {
@@ -157,7 +155,7 @@ class Predistortion {
       const CutBlock* block = blocks_.find(segment.line);
       const bool turned = block != nullptr && block->rotation_deg != 0.0 &&
                           block->plane != nc::interpret::Plane::xy;
-      use[i].free = segment.motion == Motion::feed && block != nullptr &&
+      use[i].free = segment.motion == kernel::signal::Motion::feed && block != nullptr &&
                     block->stays == Stays::free && !turned && !barred_.contains(segment.line);
       use[i].stops = segment.exit_speed_limit_mm_s <= 0.0;
       use[i].plane = block != nullptr ? block->plane : nc::interpret::Plane::xy;
@@ -194,27 +192,31 @@ class Predistortion {
     }
   }
 
-  Result<FollowedRun> follow(const PlannedPath& path, const PathMap& map,
+  Result<FollowedRun> follow(const nc::plan::PlannedPath& path, const PathMap& map,
                              const std::vector<std::uint32_t>& origin) {
     FollowedRun run{.figures = ErrorFigures(how_.limit_mm, others_.size()),
                     .speed = {},
                     .corner_mm = {},
                     .runs = RunErrors(*runs_, others_.size())};
     CornerErrors corner_errors(corners_);
-    const auto seconds =
-        run_model({.machine = machine_,
-                   .path = path,
-                   .original = path_,
-                   .map = map,
-                   .model = model_,
-                   .others = others_},
-                  [&](const ModelSample& sample) {
-                    run.speed.add(sample.progress_mm, sample.command_mm_s);
-                    if (sample.cuts) {
-                      run.figures.add(
-                          sample, sample.line < origin.size() ? origin[sample.line] : sample.line);
-                    }
-                  });
+    const auto seconds = run_model({.machine = machine_,
+                                    .path = path,
+                                    .original = path_,
+                                    .map = map,
+                                    .model = model_,
+                                    .others = others_,
+                                    .backlash_mm = backlash_mm(machine_.axes)},
+                                   [&](const ModelSample& sample) {
+                                     run.speed.add(sample.progress_mm, sample.command_mm_s);
+                                     corner_errors.add(sample);
+                                     if (sample.cuts) {
+                                       const std::uint32_t line = sample.line < origin.size()
+                                                                      ? origin[sample.line]
+                                                                      : sample.line;
+                                       run.figures.add(sample, line);
+                                       run.runs.add(sample, line);
+                                     }
+                                   });
     if (!seconds) {
       return std::unexpected(seconds.error());
     }
@@ -239,8 +241,7 @@ class Predistortion {
   Result<void> rounds(int count) {
     auto use = this->use();
     for (int round = 0; round < count; ++round) {
-      how_.progress(static_cast<double>(done_++) / (how_.rounds + kMostRevisions * kRevisionRounds),
-                    "shaping");
+      how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
       const Shift shift = shift_of(path_, made, how_.max_shift_mm);
       if (!shift.too_far.empty()) {
@@ -278,10 +279,12 @@ class Predistortion {
     }
     const auto& figures = run->figures.nominal();
     const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
-    const bool in_time = run->seconds <= kMostTime * out_.seconds_before;
-    if (in_time && (best_mm_ < 0.0 || score_mm < best_mm_)) {
+    const bool counts = run->seconds <= kMostTime * out_.seconds_before &&
+                        figures.rms_mm() <= out_.before.nominal().rms_mm();
+    if (counts && (best_mm_ < 0.0 || score_mm < best_mm_)) {
       best_mm_ = score_mm;
       runs_after_ = std::move(run->runs);
+      best_speed_ = speed_;
       out_.replaced = std::move(changed->replaced);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
@@ -300,6 +303,7 @@ class Predistortion {
       for (Corner& corner : corners_) {
         corner.beyond = beyond;
       }
+      speed_ = best_speed_;
       if (auto done = rounds(1); !done) {
         return done;
       }
@@ -311,7 +315,8 @@ class Predistortion {
       }
     }
     corners_ = std::move(best);
-    return rounds(kRevisionRounds);
+    speed_ = best_speed_;
+    return rounds(kLastRounds);
   }
 
   /// Runs whose error grows, over all models, stay. True when there are new ones.
@@ -320,7 +325,8 @@ class Predistortion {
     for (std::size_t i = 0; i < runs_->size(); ++i) {
       const auto before = runs_before_->worst(i);
       const auto after = runs_after_->worst(i);
-      if (after.rms_mm <= before.rms_mm + kWorse_mm && after.max_mm <= before.max_mm + kWorse_mm) {
+      if (after.rms_mm <= before.rms_mm + kWorse_mm &&
+          after.max_mm <= kLarger * before.max_mm + kWorse_mm) {
         continue;
       }
       for (const std::uint32_t line : runs_->lines(i)) {
@@ -368,9 +374,11 @@ class Predistortion {
   ServoInverse inverse_;
   Machine shaped_as_;
   nc::rewrite::CutBlocks blocks_;
-  PlannedPath path_;
+  nc::plan::PlannedPath path_;
   nc::rewrite::Replaced original_;  ///< with nothing replaced
+  CommandSpeed first_speed_;        ///< of the program as it is
   CommandSpeed speed_;              ///< of the last run
+  CommandSpeed best_speed_;         ///< that the best round's pieces were made for
   std::vector<Corner> corners_;     ///< as led in the last pieces
   std::vector<double> corner_mm_;   ///< their errors in the last run
   double best_mm_ = -1.0;
