@@ -102,7 +102,10 @@ add_custom_target(threads_tests)
 # steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT): a GoogleTest executable; every test is a
 # ctest entry. Several labels may be given. NOT_HOT: see steadyrest_not_hot.
 function(steadyrest_test)
-  cmake_parse_arguments(T "NOT_HOT" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  cmake_parse_arguments(T "NOT_HOT;ALONE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  if(NOT T_ALONE)
+    set(T_ALONE FALSE)
+  endif()
   if(NOT T_LABEL)
     set(T_LABEL fast)
   endif()
@@ -123,6 +126,7 @@ function(steadyrest_test)
     add_dependencies(threads_tests ${target})
   endif()
   gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${T_LABEL}" TIMEOUT 600
+    RUN_SERIAL ${T_ALONE}
     ENVIRONMENT "RC_PARAMS=seed=${STEADYREST_PROPERTY_SEED} max_success=${STEADYREST_PROPERTY_RUNS}")
 endfunction()
 
