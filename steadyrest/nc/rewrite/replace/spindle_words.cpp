@@ -55,7 +55,7 @@ class SpanSurvey {
       marks_.mark(number, seen_, false);
     }
     const read::Word* speed = word_of(run_.block(), 'S');
-    if (speed != nullptr && run_.executed()) {
+    if (speed != nullptr && run_.executed() && is_speed(*speed)) {
       spans_.push_back({});
       SpindleSpan& span = spans_.back();
       span.speed = {number, speed->value};
@@ -63,7 +63,8 @@ class SpanSurvey {
       span.line_fixed = !span.stays.empty();
       fed_ = false;
     }
-    if (const read::Word* feed = word_of(run_.block(), 'F'); feed != nullptr && run_.executed()) {
+    if (const read::Word* feed = word_of(run_.block(), 'F');
+        feed != nullptr && run_.executed() && !dwells()) {
       add_feed(number, *feed, text);
     }
     for (const Move& move : kept_.moves) {
@@ -94,6 +95,20 @@ class SpanSurvey {
   }
 
  private:
+  /// On a sinumerik F and S of G4 are a time and turns.
+  [[nodiscard]] bool dwells() const {
+    return dialect_ == read::Dialect::sinumerik &&
+           std::ranges::any_of(kept_.moves,
+                               [](const Move& move) { return move.kind == MoveKind::dwell; });
+  }
+  /// Not a limit (G92 S, G25 S) or turns.
+  [[nodiscard]] bool is_speed(const read::Word& word) const {
+    const interpret::State& state = run_.state();
+    const double rpm = kernel::units::rpm_from_rev_s(state.spindle_speed_rev_s);
+    constexpr double kSameSpeed = 1e-6;
+    return !dwells() &&
+           (state.surface_speed || std::abs(rpm - word.value) <= kSameSpeed * (1.0 + rpm));
+  }
   static std::string feed_fault(std::uint32_t line, std::string_view why) {
     return fmt::format("the feed of line {} must stay: {}", line, why);
   }
