@@ -22,7 +22,7 @@ struct SpeedChoice {
   double ratio = 1.0;                    ///< of the S word that is written
   std::string decision;                  ///< keep, constant, nothing; stays: it was not asked for
   std::optional<double> limit_depth_mm;  ///< at the speed written; infinite: none found
-  std::string why;                       ///< why S stays although another would be better, or as it is
+  std::string why;  ///< why S stays although another would be better, or as it is
 };
 
 struct SpeedTask {
@@ -33,9 +33,10 @@ struct SpeedTask {
   std::function<void(double share, std::string_view what)> progress;
 };
 
-/// One choice for each span, in their order. An S word may have any whole number of rpm in the range
-/// of the spindle and the envelope, so the planner is given steps of 1 % in place of the override's;
-/// laws cannot be written. A feed per minute that rises with the speed stays within the machine's.
+/// One choice for each span, in their order. An S word may have any whole number of rpm in the
+/// range of the spindle and the envelope, so the planner is given steps of 1 % in place of the
+/// override's; laws cannot be written. A feed per minute that rises with the speed stays within the
+/// machine's.
 [[nodiscard]] kernel::outcome::Result<std::vector<SpeedChoice>> choose_speeds(
     const SpeedTask& task, const std::vector<nc::rewrite::SpindleSpan>& spans);
 

@@ -146,9 +146,9 @@ Outcome run(const Options& options, Progress& progress) {
     return refused(changed.error());
   }
   done.changed = std::move(*changed);
-  if (const auto proof = nc::rewrite::prove_same_cut(file, done.changed, program->config,
-                                                     nc::rewrite::Changes::speeds,
-                                                     tolerance_mm(*program));
+  if (const auto proof =
+          nc::rewrite::prove_same_cut(file, done.changed, program->config,
+                                      nc::rewrite::Changes::speeds, tolerance_mm(*program));
       !proof) {
     return refused(proof.error());
   }

@@ -62,6 +62,11 @@ std::string_view difference(Move a, const Move& b, Changes changes) {
     a.feed_mm_s = b.feed_mm_s;
   }
   if (changes == Changes::speeds && a.spindle_rev_s * b.spindle_rev_s > 0.0) {
+    // A dwell of so many turns (sinumerik G4 S) is shorter at a higher speed.
+    if (a.kind == MoveKind::dwell &&
+        same_ratio(b.dwell_s * b.spindle_rev_s, a.dwell_s * a.spindle_rev_s)) {
+      a.dwell_s = b.dwell_s;
+    }
     a.spindle_rev_s = b.spindle_rev_s;
   }
   if (a.kind == MoveKind::arc && b.kind == MoveKind::arc && a.turns * b.turns > 0) {
