@@ -22,6 +22,7 @@
 #include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_moves.hpp>
 #include <steadyrest/apps/cli/program/verb_program_predistort.hpp>
+#include <steadyrest/apps/cli/program/verb_program_speeds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/program/verb_program_time.hpp>
 #include <steadyrest/apps/cli/program/verb_program_verify.hpp>
@@ -168,6 +169,11 @@ constexpr Entry kVerbs[] = {
      add_verb_program_feeds,
      {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --max-error-mm "
       "0.010 -o rib-pocket-feeds.mpf"}},
+    {"program speeds",
+     "Write spindle speeds that keep the cuts stable into an NC program",
+     add_verb_program_speeds,
+     {"examples/programs/slot.mpf --machine examples/machines/vmc-840d.toml --process "
+      "examples/processes/slot-922hz.toml --depth-mm 1 -o slot-speeds.mpf"}},
     {"program strip",
      "Take the corrections out of an NC program, byte for byte",
      add_verb_program_strip,

@@ -84,9 +84,9 @@ Answer answer_of(const FeedsAhead& done, const SourceProgram& program, const Fee
   answer.json["unchanged"] = done.changed.replaced == 0;
   answer.json["replaced_lines"] = done.changed.replaced;
   answer.json["new_lines"] = done.changed.new_lines;
-  answer.json["over_limit"] = Json::array();
+  answer.json["remaining"] = Json::array();
   for (const OverLimit& one : done.over) {
-    answer.json["over_limit"].push_back(
+    answer.json["remaining"].push_back(
         {{"line", one.line}, {"predicted_error_mm", one.error_mm}, {"reason", one.why}});
   }
   answer.text = text_of(done, reserve, max_error_mm);

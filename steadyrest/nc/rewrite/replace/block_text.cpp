@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 
@@ -159,16 +160,21 @@ std::string BlockText::restore(const CutBlock& block, std::span<const NewMove> m
 
 std::string BlockText::with_feed(const CutBlock& block, std::string_view line,
                                  double feed_ratio) const {
-  // A free line has plain words and comments: F outside the comments is the word.
-  const std::string word = feed_word(block, feed_ratio);
-  const bool round_comments = dialect_ != read::Dialect::sinumerik;
+  return with_word(dialect_, line, feed_word(block, feed_ratio));
+}
+
+std::string with_word(read::Dialect dialect, std::string_view line, std::string_view word) {
+  // In plain words and outside the comments the letter is the word's.
+  const char letter = word.front();
+  const char small = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  const bool round_comments = dialect != read::Dialect::sinumerik;
   std::size_t at = 0;
   for (; at < line.size() && line[at] != ';'; ++at) {
     if (round_comments && line[at] == '(') {
       at = std::min(line.find(')', at), line.size() - 1);
       continue;
     }
-    if (line[at] == 'F' || line[at] == 'f') {
+    if (line[at] == letter || line[at] == small) {
       std::size_t end = at + 1;
       end += line.substr(end).starts_with('=') ? 1U : 0U;
       while (end < line.size() && is_figure(line[end])) {

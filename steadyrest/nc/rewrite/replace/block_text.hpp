@@ -57,6 +57,11 @@ class BlockText {
   int decimals_;
 };
 
+/// The line with this word in place of its word with the same letter, or before the comment that
+/// ends it; for a line of plain words and comments.
+[[nodiscard]] std::string with_word(read::Dialect dialect, std::string_view line,
+                                    std::string_view word);
+
 /// As many digits as the control takes, in mm or inch.
 [[nodiscard]] int decimals_of(read::Dialect dialect, double unit_mm) noexcept;
 /// `N130 ` of a line that begins with a block number; else empty.

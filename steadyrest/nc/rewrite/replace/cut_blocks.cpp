@@ -36,18 +36,6 @@ bool is_plain(const read::Word& word) {
   return arc_name || (word.letter != 0 && kLetters.find(word.letter) != std::string_view::npos);
 }
 
-/// The value is not a number as it is written: X#1, X[1+2], X=R1.
-bool is_calculated(const read::Word& word) {
-  constexpr std::string_view kNumber = "0123456789.+- \t=()";
-  std::string_view value = word.text;
-  value.remove_prefix(std::min(value.size(), std::max<std::size_t>(word.name.size(), 1)));
-  if (word.qualifier != read::Qualifier::none) {
-    const std::size_t bracket = value.find('(');  // AC(…), IC(…)
-    value.remove_prefix(bracket == std::string_view::npos ? 0 : bracket);
-  }
-  return word.calculated || value.find_first_not_of(kNumber) != std::string_view::npos;
-}
-
 /// What the words of a block say of motion and feed.
 struct Says {
   bool motion = false;
@@ -201,6 +189,17 @@ class CutSurvey {
 };
 
 }  // namespace
+
+bool is_calculated(const read::Word& word) {
+  constexpr std::string_view kNumber = "0123456789.+- \t=()";
+  std::string_view value = word.text;
+  value.remove_prefix(std::min(value.size(), std::max<std::size_t>(word.name.size(), 1)));
+  if (word.qualifier != read::Qualifier::none) {
+    const std::size_t bracket = value.find('(');  // AC(…), IC(…)
+    value.remove_prefix(bracket == std::string_view::npos ? 0 : bracket);
+  }
+  return word.calculated || value.find_first_not_of(kNumber) != std::string_view::npos;
+}
 
 std::string_view sentence(Stays stays) noexcept {
   switch (stays) {

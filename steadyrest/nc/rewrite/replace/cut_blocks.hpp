@@ -11,6 +11,7 @@
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
+#include <steadyrest/nc/read/text/block.hpp>
 
 namespace steadyrest::nc::rewrite {
 
@@ -32,6 +33,8 @@ enum class Stays : std::uint8_t {
 };
 /// The reason in words: "it is executed more than once".
 [[nodiscard]] std::string_view sentence(Stays stays) noexcept;
+/// The value is not a number as it is written: X#1, X[1+2], X=R1.
+[[nodiscard]] bool is_calculated(const read::Word& word);
 
 /// A block that cuts, and what must be known to write other blocks in its place.
 struct CutBlock {
