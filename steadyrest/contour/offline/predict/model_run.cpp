@@ -126,23 +126,30 @@ class Runner {
                                         .path_index = index_,
                                         .path_position_mm = progress_mm_,
                                         .path_speed_mm_s = s.path_speed_mm_s});
+    const Point unknown = run_.unknown ? run_.unknown(error.foot_position_mm) : Point{};
     for (std::size_t i = 0; i < others_.size(); ++i) {
-      const Point off = geometry::subtract(others_[i].tool_mm(), error.foot_mm);
+      const Point off =
+          geometry::subtract(geometry::subtract(others_[i].tool_mm(), error.foot_mm), unknown);
       const Point across =
           geometry::add_scaled(off, error.tangent, -geometry::dot(off, error.tangent));
       other_error_mm_[i] = geometry::norm(across);
     }
     if (error.valid) {
-      on_sample(
-          {.time_s = time_s(),
-           .command_mm_s = s.path_speed_mm_s,
-           .progress_mm = progress_mm_,
-           .foot_mm = error.foot_position_mm,
-           .error_mm = error.error_mm,
-           .line = s.line,
-           .segment = s.path_index,
-           .cuts = s.motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
-           .other_error_mm = other_error_mm_});
+      const Point off =
+          geometry::add(geometry::subtract(error.foot_mm, axes_.tool_mm()), unknown);
+      on_sample({.time_s = time_s(),
+                 .position_mm = s.path_position_mm,
+                 .command_mm_s = s.path_speed_mm_s,
+                 .progress_mm = progress_mm_,
+                 .foot_mm = error.foot_position_mm,
+                 .error_mm = run_.unknown ? std::copysign(geometry::norm(off), error.error_mm)
+                                          : error.error_mm,
+                 .off_mm = off,
+                 .line = s.line,
+                 .segment = s.path_index,
+                 .cuts = s.motion == Motion::feed &&
+                          original[error.foot_index].motion == Motion::feed,
+                 .other_error_mm = other_error_mm_});
     }
   }
 
@@ -190,6 +197,14 @@ std::array<double, 3> backlash_mm(std::span<const kernel::machine::Axis> axes) n
 
 double softest_gain_1_s(const ServoModels& models) noexcept {
   return std::min({models[0].gain_1_s, models[1].gain_1_s, models[2].gain_1_s});
+}
+
+std::array<double, 3> first_lags_s(const ServoModels& models) noexcept {
+  std::array<double, 3> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = (1.0 - models[i].feed_forward) / models[i].gain_1_s;
+  }
+  return out;
 }
 
 PathMap same_path(const nc::plan::PlannedPath& path) {

@@ -25,6 +25,9 @@ using ServoModels = std::array<online::AxisModel, 3>;
 /// The lowest gain, 1/s.
 [[nodiscard]] double softest_gain_1_s(const ServoModels& models) noexcept;
 
+/// How far each axis is behind its command, s: g = (1 − a)/k.
+[[nodiscard]] std::array<double, 3> first_lags_s(const ServoModels& models) noexcept;
+
 /// Which length of the original path each segment of a changed one stands for, mm.
 struct PathMap {
   std::vector<double> start_mm;
@@ -43,15 +46,19 @@ struct ModelRun {
   /// Other models that follow the same commands: what the model's uncertainty makes of it.
   std::vector<ServoModels> others;
   std::array<double, 3> backlash_mm{};  ///< between the motors and the tool
+  /// What the tool is off by beyond the model, by original path length: added to all errors.
+  std::function<kernel::signal::Point(double foot_mm)> unknown = nullptr;
 };
 
 /// One sample of the run; `other_error_mm` and the sample are valid during the call only.
 struct ModelSample {
   double time_s = 0.0;
-  double command_mm_s = 0.0;  ///< along the path that is run
+  double position_mm = 0.0;   ///< of the command on the path that is run
+  double command_mm_s = 0.0;  ///< along that path
   double progress_mm = 0.0;   ///< of the command, as original path length
   double foot_mm = 0.0;       ///< original path length that the tool is at
   double error_mm = 0.0;      ///< contour error, signed as in online::ContourError
+  kernel::signal::Point off_mm{};  ///< from the tool to its foot
   std::uint32_t line = 0;     ///< of the path that is run
   std::size_t segment = 0;
   bool cuts = false;                       ///< the command is in a feed move, and so is the tool

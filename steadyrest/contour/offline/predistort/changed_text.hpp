@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <steadyrest/contour/offline/predistort/piece.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>

@@ -36,8 +36,13 @@ geometry::Station station(const PathSegment& segment, double distance_mm) noexce
 
 CommandShape::CommandShape(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use,
                            const ServoInverse& inverse, const ToolMotion& motion,
-                           const ShapeConfig& config)
-    : path_(path), use_(use), inverse_(inverse), motion_(motion), config_(config) {}
+                           const Learnt& learnt, const ShapeConfig& config)
+    : path_(path),
+      use_(use),
+      inverse_(inverse),
+      motion_(motion),
+      learnt_(learnt),
+      config_(config) {}
 
 /// The curve runs through the joint behind the segment without a corner.
 bool CommandShape::goes_on(std::size_t segment) const noexcept {
@@ -60,7 +65,8 @@ CurvePoint CommandShape::led_point(std::size_t segment, const ToolState& at,
                                    double distance_mm) const {
   const auto here = station(path_.segments[segment], distance_mm);
   const double a = inverse_.acceleration_mm_s2(here, at.speed_mm_s, at.command_mm_s);
-  return {.point_mm = inverse_.command_mm(here, at.speed_mm_s, a),
+  const Point shift = learnt_.shift_mm(path_.segments[segment].position_mm + distance_mm);
+  return {.point_mm = geometry::add(inverse_.command_mm(here, at.speed_mm_s, a), shift),
           .direction = inverse_.direction(here, at.speed_mm_s, a),
           .progress_mm = at.progress_mm};
 }

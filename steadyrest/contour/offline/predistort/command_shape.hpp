@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <steadyrest/contour/offline/learn/learnt.hpp>
 #include <steadyrest/contour/offline/predistort/curve_fit.hpp>
 #include <steadyrest/contour/offline/predistort/servo_inverse.hpp>
 #include <steadyrest/contour/offline/predistort/tool_motion.hpp>
@@ -27,7 +28,7 @@ struct ShapeConfig {
 };
 
 /// The curve that the command must run so that the tool runs on the path (ServoInverse at the
-/// tool's motion), as pieces, block by block: a block's pieces are commanded while the tool is on
+/// tool's motion, and what was learnt), as pieces, block by block: a block's pieces are commanded while the tool is on
 /// the block, so block ends move by v·L along the tangent and arcs keep their centre.
 ///
 /// At a joint where the path's direction changes a little (chords) both sides meet half-way. At
@@ -36,7 +37,8 @@ struct ShapeConfig {
 class CommandShape {
  public:
   CommandShape(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use,
-               const ServoInverse& inverse, const ToolMotion& motion, const ShapeConfig& config);
+               const ServoInverse& inverse, const ToolMotion& motion, const Learnt& learnt,
+               const ShapeConfig& config);
 
   /// Those of all free segments, in order; `segment.line` and `feed_mm_s` are the block's, the feed
   /// in proportion to the length of the command: the program's time is kept.
@@ -65,6 +67,7 @@ class CommandShape {
   const std::vector<SegmentUse>& use_;
   const ServoInverse& inverse_;
   const ToolMotion& motion_;
+  const Learnt& learnt_;
   const ShapeConfig& config_;
 };
 

@@ -11,6 +11,7 @@
 #include <steadyrest/contour/offline/predistort/joints.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/run_errors.hpp>
+#include <steadyrest/contour/offline/predistort/segment_use.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/contour/offline/predistort/small_rounding.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
@@ -28,7 +29,6 @@ using nc::rewrite::CutBlock;
 using nc::rewrite::Stays;
 
 constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
-constexpr double kInPlane = 0.999999;  ///< of an arc's axis along the plane's normal
 constexpr double kWorse_mm = 5e-4;     ///< an error that grows by less is rounding of the text
 constexpr double kLarger = 1.05;   ///< of its largest error, which a run may get as its RMS falls
 constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
@@ -49,13 +49,18 @@ class Predistortion {
         config_(config),
         machine_(machine),
         how_(how),
-        model_(servo_models(machine.axes)),
+        // What is learnt is beyond the model whose inverse is written.
+        model_(how.parts.empty() ? servo_models(machine.axes)
+                                 : cautious(servo_models(machine.axes), how.gain_uncertainty)),
         others_(uncertain(model_, how.gain_uncertainty)),
         inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)) {}
 
   Result<Predistorted> run() {
     if (auto read = this->read(); !read) {
       return std::unexpected(read.error());
+    }
+    if (auto done = learn_from_parts(); !done) {
+      return std::unexpected(done.error());
     }
     runs_.emplace(path_, use());
     // The control's own plan of the program as it is, on the path that the shape is made from.
@@ -149,47 +154,29 @@ class Predistortion {
   }
 
   [[nodiscard]] std::vector<SegmentUse> use() const {
-    std::vector<SegmentUse> use(path_.segments.size());
-    for (std::size_t i = 0; i < use.size(); ++i) {
-      const auto& segment = path_.segments[i];
-      const CutBlock* block = blocks_.find(segment.line);
-      const bool turned = block != nullptr && block->rotation_deg != 0.0 &&
-                          block->plane != nc::interpret::Plane::xy;
-      use[i].free = segment.motion == kernel::signal::Motion::feed && block != nullptr &&
-                    block->stays == Stays::free && !turned && !barred_.contains(segment.line);
-      use[i].stops = segment.exit_speed_limit_mm_s <= 0.0;
-      use[i].plane = block != nullptr ? block->plane : nc::interpret::Plane::xy;
-    }
-    // An arc in space by which the control rounds a corner cannot be written: its neighbours stay.
-    for (std::size_t i = 0; i < use.size(); ++i) {
-      const auto& segment = path_.segments[i];
-      const std::size_t normal = nc::interpret::axes_of(use[i].plane).normal;
-      if (use[i].free && segment.geometry == kernel::signal::Geometry::arc &&
-          std::abs(segment.axis[normal]) < kInPlane) {
-        keep_line(use, i);
-        keep_line(use, i + 1);
-      }
-    }
-    for (const nc::plan::PathEvent& event : path_.events) {
-      if (event.segment > 0 && event.segment <= use.size()) {
-        use[event.segment - 1].stops = true;
-      }
-    }
-    return use;
+    return segment_use(path_, blocks_, barred_);
   }
 
-  /// All segments of this one's block stay.
-  void keep_line(std::vector<SegmentUse>& use, std::size_t segment) const {
-    if (segment >= use.size()) {
-      return;
+  /// What records have shown beyond the model.
+  [[nodiscard]] std::function<kernel::signal::Point(double)> unknown() const {
+    if (learnt_.empty()) {
+      return nullptr;
     }
-    const std::uint32_t line = path_.segments[segment].line;
-    for (std::size_t i = segment + 1; i-- > 0 && path_.segments[i].line == line;) {
-      use[i].free = false;
+    return [this](double foot_mm) { return learnt_.unknown_mm(foot_mm); };
+  }
+
+  Result<void> learn_from_parts() {
+    auto learnt = learn_from(how_.parts, {.machine = machine_,
+                                          .config = config_,
+                                          .original = path_,
+                                          .model = model_,
+                                          .gain_uncertainty = how_.gain_uncertainty});
+    if (!learnt) {
+      return std::unexpected(learnt.error());
     }
-    for (std::size_t i = segment; i < use.size() && path_.segments[i].line == line; ++i) {
-      use[i].free = false;
-    }
+    learnt_ = std::move(learnt->learnt);
+    out_.learnt = std::move(learnt->figures);
+    return {};
   }
 
   Result<FollowedRun> follow(const nc::plan::PlannedPath& path, const PathMap& map,
@@ -205,7 +192,8 @@ class Predistortion {
                                     .map = map,
                                     .model = model_,
                                     .others = others_,
-                                    .backlash_mm = backlash_mm(machine_.axes)},
+                                    .backlash_mm = backlash_mm(machine_.axes),
+                                    .unknown = unknown()},
                                    [&](const ModelSample& sample) {
                                      run.speed.add(sample.progress_mm, sample.command_mm_s);
                                      corner_errors.add(sample);
@@ -232,7 +220,7 @@ class Predistortion {
     ShapeConfig shape;
     shape.across_mm_s2 = kAcrossShare * limits.centripetal_share() *
                          limits.plane({0.0, 0.0, 1.0}).acceleration_mm_s2;
-    auto made = CommandShape(path_, use, inverse_, motion, shape).pieces();
+    auto made = CommandShape(path_, use, inverse_, motion, learnt_, shape).pieces();
     made = lead_corners(made, motion, corners_);
     return round_kinks(made, limits, kAcrossShare);
   }
@@ -372,6 +360,7 @@ class Predistortion {
   ServoModels model_;
   std::vector<ServoModels> others_;
   ServoInverse inverse_;
+  Learnt learnt_;
   Machine shaped_as_;
   nc::rewrite::CutBlocks blocks_;
   nc::plan::PlannedPath path_;

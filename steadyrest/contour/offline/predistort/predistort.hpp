@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <steadyrest/contour/offline/learn/learn_from.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -34,6 +35,9 @@ struct PredistortConfig {
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
   int rounds = 4;
+  /// Parts cut before, to learn from (learn/).
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::vector<CutPart> parts = {};
   // Designated initialisers may leave it out.
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<nc::rewrite::Told> told = {};  ///< for the mark in the program
@@ -49,6 +53,7 @@ struct Remaining {
 
 struct Predistorted {
   nc::rewrite::Replaced replaced;
+  std::vector<LearningFigures> learnt;  ///< from each part
   double seconds_before = 0.0;
   double seconds_after = 0.0;
   ErrorFigures before;

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/contour/offline/learn/learn.hpp>
+#include <steadyrest/contour/offline/learn/local_fit.hpp>
+#include <steadyrest/contour/offline/learn/planned_motion.hpp>
+#include <steadyrest/contour/offline/learn/sharp_corners.hpp>
+#include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/math/geometry/path_pairing.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+namespace geometry = math::geometry;
+using geometry::PathPairing;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using kernel::signal::Motion;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+using nc::plan::PlannedPath;
+
+constexpr double kCutOffLags = 2.0;   ///< cut-off in terms of the softest axis's k/2π
+constexpr double kSamplesOfGain = 2.0;
+constexpr double kLeast_s = 1.0;      ///< in force
+constexpr double kShortest = 4.0;     ///< samples of a stretch
+constexpr double kForward_mm = 1e-6;  ///< that a foot must move on
+
+class Learner {
+ public:
+  Learner(const Lesson& lesson, const LearnConfig& config, PathPairing pairing)
+      : lesson_(lesson), config_(config), pairing_(std::move(pairing)) {}
+
+  Result<LearningFigures> run(double cut_off_hz, Learnt& learnt) {
+    if (auto done = run_plan(); !done) {
+      return std::unexpected(done.error());
+    }
+    judged_ = judge(lesson_.record, lesson_.cut.segments, plan_, config_.judge);
+    if (auto done = measure(); !done) {
+      return std::unexpected(done.error());
+    }
+    figures();
+    if (out_.learns_s < kLeast_s) {
+      return refuse(lesson_.record.file,
+                    fmt::format("only {:.2f} s of it can be learnt from, {:.1f} s of it are in a "
+                                "cut of the program; most of the rest: {}",
+                                out_.learns_s, out_.cut_s, most_frequent()),
+                    "give the record of an undisturbed part and the program that was cut");
+    }
+    learnt.add(fit(width_s(cut_off_hz)));
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> run_plan() {
+    PathMap map;
+    for (const PathSegment& segment : lesson_.cut.segments) {
+      map.start_mm.push_back(pairing_.original_mm(segment.position_mm));
+      map.end_mm.push_back(pairing_.original_mm(segment.position_mm + segment.length_mm));
+    }
+    const auto seconds = run_model({.machine = lesson_.machine,
+                                    .path = lesson_.cut,
+                                    .original = lesson_.original,
+                                    .map = map,
+                                    .model = lesson_.model,
+                                    .others = {}},
+                                   [&](const ModelSample& sample) { plan_.add(sample); });
+    if (!seconds) {
+      return std::unexpected(seconds.error());
+    }
+    return {};
+  }
+
+  /// The command's place on the original, as ContourError wants it.
+  [[nodiscard]] online::ContourError::Input input(std::size_t i) const {
+    const auto& segments = lesson_.original.segments;
+    const double at = pairing_.original_mm(judged_.position_mm[i]);
+    const std::size_t index = geometry::segment_at(segments, at);
+    const PathSegment& segment = segments[index];
+    return {.time_s = lesson_.record.time_s[i],
+            .command_mm = geometry::point_at(
+                segment, geometry::parameter_at(segment, at - segment.position_mm)),
+            .actual_mm = lesson_.record.actual_mm[i],
+            .path = segments,
+            .path_index = index,
+            .path_position_mm = at,
+            .path_speed_mm_s = plan_.speed_mm_s(judged_.position_mm[i])};
+  }
+
+  Result<void> measure() {
+    online::ContourError::Config config;
+    config.servo_gain_1_s = std::clamp(softest_gain_1_s(lesson_.model), 1.0, 1000.0);
+    config.reserve_mm += pairing_.slack_mm();
+    auto contour = online::ContourError::make(config);
+    if (!contour) {
+      return std::unexpected(contour.error());
+    }
+    for (std::size_t i = 0; i < lesson_.record.size(); ++i) {
+      Use& use = judged_.use[i];
+      Sample sample;
+      if (use == Use::off_path) {
+        contour->reset();
+      } else {
+        const auto error = contour->update(input(i));
+        const bool cuts = error.valid && error.complete &&
+                          lesson_.original.segments[error.foot_index].motion == Motion::feed;
+        if (use == Use::learns && !cuts) {
+          use = Use::no_cut;  // the tool is not yet where the command is
+        } else if (cuts) {
+          sample.foot_mm = error.foot_position_mm;
+          sample.off_mm = geometry::subtract(error.foot_mm, lesson_.record.actual_mm[i]);
+          sample.unknown_mm = geometry::subtract(sample.off_mm, plan_.off_mm(sample.foot_mm));
+          if (use == Use::learns && geometry::norm(sample.unknown_mm) > config_.most_mm) {
+            use = Use::too_large;
+          }
+        }
+      }
+      samples_.push_back(sample);
+    }
+    return {};
+  }
+
+  void figures() {
+    std::size_t cut = 0;
+    std::size_t learns = 0;
+    double measured = 0.0;
+    double unknown = 0.0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const Use use = judged_.use[i];
+      cut += use != Use::no_cut && use != Use::off_path ? 1U : 0U;
+      if (use == Use::learns) {
+        ++learns;
+        measured += geometry::norm_squared(samples_[i].off_mm);
+        unknown += geometry::norm_squared(samples_[i].unknown_mm);
+      } else if (use != Use::no_cut) {
+        leave_out(i);
+      }
+    }
+    const double count = std::max<double>(1.0, static_cast<double>(learns));
+    out_.cut_s = static_cast<double>(cut) * lesson_.record.period_s;
+    out_.learns_s = static_cast<double>(learns) * lesson_.record.period_s;
+    out_.measured_rms_mm = std::sqrt(measured / count);
+    out_.unknown_rms_mm = std::sqrt(unknown / count);
+  }
+
+  void leave_out(std::size_t i) {
+    const double time = lesson_.record.time_s[i];
+    const std::uint32_t line = lesson_.cut.segments[judged_.segment[i]].line;
+    auto& all = out_.left_out;
+    const double joins = 3.5 * lesson_.record.period_s;
+    if (all.empty() || all.back().why != judged_.use[i] || time - all.back().to_s > joins) {
+      all.push_back({.why = judged_.use[i],
+                     .from_s = time,
+                     .to_s = time,
+                     .first_line = line,
+                     .last_line = line});
+    }
+    all.back().to_s = time;
+    all.back().last_line = line;
+  }
+
+  [[nodiscard]] std::string_view most_frequent() const {
+    Use worst = Use::no_cut;
+    double longest = 0.0;
+    for (const LeftOut& one : out_.left_out) {
+      if (one.to_s - one.from_s > longest) {
+        longest = one.to_s - one.from_s;
+        worst = one.why;
+      }
+    }
+    return reason_of(worst);
+  }
+
+  /// Stretches of samples in force with the foot moving on, without a corner between.
+  std::vector<Learnt::Stretch> fit(double sigma_s) {
+    std::vector<Learnt::Stretch> out;
+    const auto corners = sharp_corners(lesson_.original.segments);
+    const auto lags = first_lags_s(lesson_.model);
+    std::vector<std::size_t> members;
+    const auto finish = [&] {
+      if (static_cast<double>(members.size()) >= kShortest) {
+        out.push_back(stretch(members, lags, sigma_s, corners));
+      }
+      members.clear();
+    };
+    double done_mm = -1.0;  // what is learnt never goes back
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      if (judged_.use[i] != Use::learns) {
+        finish();
+        continue;
+      }
+      const double foot = samples_[i].foot_mm;
+      if (foot <= done_mm + kForward_mm) {
+        continue;
+      }
+      if (!members.empty() && corners.between(samples_[members.back()].foot_mm, foot)) {
+        finish();
+      }
+      members.push_back(i);
+      done_mm = foot;
+    }
+    finish();
+    return out;
+  }
+
+  [[nodiscard]] Learnt::Stretch stretch(const std::vector<std::size_t>& members,
+                                        const std::array<double, 3>& lags_s, double sigma_s,
+                                        const SharpCorners& corners) const {
+    std::vector<double> time;
+    std::vector<Point> unknown;
+    for (const std::size_t i : members) {
+      time.push_back(lesson_.record.time_s[i]);
+      unknown.push_back(samples_[i].unknown_mm);
+    }
+    Learnt::Stretch out;
+    const bool fades_in = beside_gap(members.front(), -1);
+    const bool fades_out = beside_gap(members.back(), 1);
+    for (std::size_t j = 0; j < members.size(); ++j) {
+      const LocalLine line = local_line(time, unknown, j, sigma_s);
+      Learnt::Knot knot{.at_mm = samples_[members[j]].foot_mm, .unknown_mm = line.value};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        knot.shift_mm[axis] = line.value[axis] + lags_s[axis] * line.slope_1_s[axis];
+      }
+      const double fade = 3.0 * sigma_s;
+      knot.weight = std::min(
+          {1.0, fades_in ? (time[j] - time.front()) / fade : 1.0,
+           fades_out ? (time.back() - time[j]) / fade : 1.0});
+      out.knots.push_back(knot);
+    }
+    // Up to the corner that ends it.
+    out.from_mm = fades_in ? out.knots.front().at_mm : corners.before(out.knots.front().at_mm);
+    out.to_mm = fades_out ? out.knots.back().at_mm : corners.after(out.knots.back().at_mm);
+    return out;
+  }
+
+  /// The record is not in force next to this sample.
+  [[nodiscard]] bool beside_gap(std::size_t i, int step) const {
+    if (step < 0 && i == 0) {
+      return true;
+    }
+    const std::size_t next = step < 0 ? i - 1 : i + 1;
+    return next >= samples_.size() ||
+           (judged_.use[next] != Use::learns && judged_.use[next] != Use::no_cut);
+  }
+
+  struct Sample {
+    double foot_mm = 0.0;
+    Point off_mm{};
+    Point unknown_mm{};
+  };
+
+  const Lesson& lesson_;
+  const LearnConfig& config_;
+  PathPairing pairing_;
+  PlannedMotion plan_;
+  Judged judged_;
+  std::vector<Sample> samples_;
+  LearningFigures out_;
+};
+
+}  // namespace
+
+Result<LearningFigures> learn(const Lesson& lesson, const LearnConfig& config, Learnt& learnt) {
+  const double k = softest_gain_1_s(lesson.model);
+  const double cut_off =
+      config.cut_off_hz > 0.0 ? config.cut_off_hz : kCutOffLags * k / (2.0 * std::numbers::pi);
+  const double factor = convergence(lesson.model, config.uncertainty, cut_off);
+  if (!(factor < 1.0)) {
+    return refuse(fmt::format("learning with a cut-off of {:.1f} Hz may make errors {:.2f} times as "
+                              "large from part to part",
+                              cut_off, factor),
+                  "give a lower cut-off, or state less uncertainty");
+  }
+  const double rate = 1.0 / lesson.record.period_s;
+  if (rate < kSamplesOfGain * k) {
+    return refuse(lesson.record.file,
+                  fmt::format("has {:.0f} samples a second; the axes need {:.0f}", rate,
+                              kSamplesOfGain * k),
+                  "record with a shorter period");
+  }
+  auto pairing = PathPairing::make(lesson.cut.segments, lesson.original.segments,
+                                   {.tube_mm = config.tube_mm});
+  if (!pairing) {
+    const auto& parting = pairing.error();
+    return refuse(
+        "", lesson.cut.segments[parting.changed_segment].line,
+        fmt::format("the program that was cut leaves the original here; line {} of the original is "
+                    "{:.3g} mm away",
+                    lesson.original.segments[parting.original_segment].line, parting.distance_mm),
+        "give the program with which the recorded part was cut");
+  }
+  Learner learner(lesson, config, std::move(*pairing));
+  auto figures = learner.run(cut_off, learnt);
+  if (figures) {
+    figures->cut_off_hz = cut_off;
+    figures->convergence = factor;
+  }
+  return figures;
+}
+
+}  // namespace steadyrest::contour::offline

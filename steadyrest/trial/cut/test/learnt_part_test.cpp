@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Learning from the part before: the simulated machine is not as its file says, a part is cut and
+// recorded by its encoders, and the next one is judged by the true tool against the original path.
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/trial/cut/cut_job.hpp>
+#include <steadyrest/trial/test/examples.hpp>
+
+namespace steadyrest::trial::cut {
+namespace {
+
+using contour::offline::CutPart;
+using contour::offline::PartRecord;
+using contour::offline::Predistorted;
+using kernel::machine::Machine;
+using nc::plan::PlannedPath;
+using trial::test::kExamples;
+using trial::test::machine_of;
+using PathOf = std::shared_ptr<const PlannedPath>;
+
+nc::interpret::Config config_of(const Machine& machine) {
+  nc::interpret::Config config;
+  config.dialect = machine.control.dialect;
+  config.axes = "XYZ";
+  return config;
+}
+
+PathOf path_of(const std::string& file, const Machine& machine) {
+  nc::plan::PathBuilder builder(machine);
+  const auto report = nc::interpret::run_file(file, config_of(machine), builder).value();
+  EXPECT_TRUE(report.refused.empty());
+  return std::make_shared<const PlannedPath>(builder.take().value());
+}
+
+/// A part on a machine: its figures by the true tool against the original, and its record by the
+/// encoders.
+struct Part {
+  Figures figures;
+  PartRecord record;
+};
+Part cut_part(const std::string& file, const std::string& original, const Machine& machine) {
+  const PathOf path = path_of(file, machine);
+  Job job{.machine = machine, .path = path};
+  if (file != original) {
+    job.against = std::make_shared<const Original>(
+        Original::make(*path, path_of(original, machine), 2.0).value());
+  }
+  Part out;
+  Recorder recorder({.limit_mm = machine.contour.limit_mm,
+                     .cycle_s = machine.control.interpolator_period_s});
+  const auto layer = [&](kernel::signal::Frame& frame) {
+    out.record.time_s.push_back(frame.time_s);
+    out.record.command_mm.push_back(
+        {frame.axis[0].command_mm, frame.axis[1].command_mm, frame.axis[2].command_mm});
+    out.record.actual_mm.push_back(
+        {frame.axis[0].actual_mm, frame.axis[1].actual_mm, frame.axis[2].actual_mm});
+    return kernel::signal::Command{};
+  };
+  EXPECT_TRUE(run(job, layer, [&](const Sample& sample) { recorder.add(sample); }));
+  out.record.period_s = machine.control.interpolator_period_s;
+  out.figures = recorder.figures();
+  return out;
+}
+
+/// Cuts one part after another, each learnt from the one before.
+class Series {
+ public:
+  Series(std::string program, Machine machine, Machine believed)
+      : program_(kExamples + "programs/" + program),
+        machine_(std::move(machine)),
+        believed_(std::move(believed)) {}
+
+  Figures next(double limit_mm = 0.01) {
+    contour::offline::PredistortConfig how{.limit_mm = limit_mm};
+    how.told = {{"changes", "predistort"}};
+    if (!cut_file_.empty()) {
+      how.parts = {CutPart{.record = part_.record, .program = cut_file_}};
+    }
+    predicted_ =
+        contour::offline::predistort(program_, config_of(believed_), believed_, how).value();
+    cut_file_ = folder_.file(fmt::format("part{}.mpf", ++count_), predicted_.replaced.text);
+    part_ = cut_part(cut_file_, program_, machine_);
+    return part_.figures;
+  }
+  Figures original() { 
+    cut_file_ = program_;
+    part_ = cut_part(program_, program_, machine_);
+    return part_.figures;
+  }
+  [[nodiscard]] const Predistorted& predicted() const { return predicted_; }
+
+ private:
+  kernel::file::testing::OwnFolder folder_;
+  std::string program_;
+  Machine machine_;
+  Machine believed_;
+  Predistorted predicted_;
+  std::string cut_file_;
+  Part part_;
+  int count_ = 0;
+};
+
+Machine with_gains(Machine machine, double share) {
+  for (auto& axis : machine.axes) {
+    axis.servo_gain_1_s *= 1.0 + share;
+  }
+  return machine;
+}
+
+TEST(LearntPart, TakesAwayWhatWrongGainsLeave) {
+  const Machine mill = machine_of("vmc-840d.toml");
+  for (const double off : {0.0, -0.05, 0.05}) {
+    Series parts("rib-pocket.mpf", with_gains(mill, off), mill);
+    for (int i = 0; i < 4; ++i) {
+      const Figures f = parts.next();
+      fmt::print("gains {:+.0f} %: part {}: {:.2f} s, max {:.1f}, rms {:.2f} µm; predicted rms {:.2f}\n", 100 * off, i,
+                 f.cycle_time_s, 1e3 * f.contour_error_max_mm, 1e3 * f.contour_error_rms_mm, 1e3*parts.predicted().after.nominal().rms_mm());
+      for (const auto& l : parts.predicted().learnt) {
+        fmt::print("   cut {:.1f} s learns {:.1f} s measured {:.2f} unknown {:.2f} cutoff {:.1f} conv {:.3f}\n", l.cut_s, l.learns_s,
+                   1e3 * l.measured_rms_mm, 1e3 * l.unknown_rms_mm, l.cut_off_hz, l.convergence);
+        for (const auto& o : l.left_out) fmt::print("      {} {:.2f}..{:.2f} lines {}..{}\n", contour::offline::reason_of(o.why), o.from_s, o.to_s, o.first_line, o.last_line);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::trial::cut
