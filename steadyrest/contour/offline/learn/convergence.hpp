@@ -7,9 +7,9 @@ namespace steadyrest::contour::offline {
 
 /// How far an axis may be from its model.
 struct Uncertainty {
-  double gain_share = 0.05;      ///< of the servo gain, both ways
-  double velocity_lag_s = 0.0;   ///< more than the model's; 0: 0.2/k
-  double feed_forward = 0.1;     ///< more than the model's
+  double gain_share = 0.05;     ///< of the servo gain, both ways
+  double velocity_lag_s = 0.0;  ///< more than the model's; 0: 0.2/k
+  double feed_forward = 0.1;    ///< more than the model's
 };
 
 /// The width of the Gaussian whose low-pass has −3 dB at this frequency, s.

@@ -16,20 +16,20 @@ namespace steadyrest::contour::offline {
 /// What a sample of a record is good for.
 enum class Use : std::uint8_t {
   learns,
-  no_cut,     ///< rapids and all else that leaves no surface
-  off_path,   ///< the commands are not on the program's path: another program, a restart, jogging
-  paused,     ///< standing still inside a cut
-  overridden, ///< another feed than planned
-  too_large,  ///< off by more than any model should be
+  no_cut,      ///< rapids and all else that leaves no surface
+  off_path,    ///< the commands are not on the program's path: another program, a restart, jogging
+  paused,      ///< standing still inside a cut
+  overridden,  ///< another feed than planned
+  too_large,   ///< off by more than any model should be
 };
 /// The reason that a stretch is left out, for people.
 [[nodiscard]] std::string_view reason_of(Use use) noexcept;
 
 struct JudgeConfig {
-  double near_mm = 0.02;    ///< of a command to the program's path
-  double feed_share = 0.05; ///< by which the feed may differ from the plan
-  double window_s = 0.2;    ///< over which it is compared
-  double settle_s = 0.1;    ///< after a disturbance until the servos have forgotten it
+  double near_mm = 0.02;     ///< of a command to the program's path
+  double feed_share = 0.05;  ///< by which the feed may differ from the plan
+  double window_s = 0.2;     ///< over which it is compared
+  double settle_s = 0.1;     ///< after a disturbance until the servos have forgotten it
 };
 
 /// The place of each sample's command on the path, and its use.

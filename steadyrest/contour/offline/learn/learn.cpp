@@ -30,7 +30,7 @@ using kernel::signal::PathSegment;
 using kernel::signal::Point;
 using nc::plan::PlannedPath;
 
-constexpr double kCutOffLags = 2.0;   ///< cut-off in terms of the softest axis's k/2π
+constexpr double kCutOffLags = 2.0;  ///< cut-off in terms of the softest axis's k/2π
 constexpr double kSamplesOfGain = 2.0;
 constexpr double kLeast_s = 1.0;      ///< in force
 constexpr double kShortest = 4.0;     ///< samples of a stretch
@@ -232,9 +232,8 @@ class Learner {
         knot.shift_mm[axis] = line.value[axis] + lags_s[axis] * line.slope_1_s[axis];
       }
       const double fade = 3.0 * sigma_s;
-      knot.weight = std::min(
-          {1.0, fades_in ? (time[j] - time.front()) / fade : 1.0,
-           fades_out ? (time.back() - time[j]) / fade : 1.0});
+      knot.weight = std::min({1.0, fades_in ? (time[j] - time.front()) / fade : 1.0,
+                              fades_out ? (time.back() - time[j]) / fade : 1.0});
       out.knots.push_back(knot);
     }
     // Up to the corner that ends it.
@@ -276,20 +275,21 @@ Result<LearningFigures> learn(const Lesson& lesson, const LearnConfig& config, L
       config.cut_off_hz > 0.0 ? config.cut_off_hz : kCutOffLags * k / (2.0 * std::numbers::pi);
   const double factor = convergence(lesson.model, config.uncertainty, cut_off);
   if (!(factor < 1.0)) {
-    return refuse(fmt::format("learning with a cut-off of {:.1f} Hz may make errors {:.2f} times as "
-                              "large from part to part",
-                              cut_off, factor),
-                  "give a lower cut-off, or state less uncertainty");
+    return refuse(
+        fmt::format("learning with a cut-off of {:.1f} Hz may make errors {:.2f} times as "
+                    "large from part to part",
+                    cut_off, factor),
+        "give a lower cut-off, or state less uncertainty");
   }
   const double rate = 1.0 / lesson.record.period_s;
   if (rate < kSamplesOfGain * k) {
-    return refuse(lesson.record.file,
-                  fmt::format("has {:.0f} samples a second; the axes need {:.0f}", rate,
-                              kSamplesOfGain * k),
-                  "record with a shorter period");
+    return refuse(
+        lesson.record.file,
+        fmt::format("has {:.0f} samples a second; the axes need {:.0f}", rate, kSamplesOfGain * k),
+        "record with a shorter period");
   }
-  auto pairing = PathPairing::make(lesson.cut.segments, lesson.original.segments,
-                                   {.tube_mm = config.tube_mm});
+  auto pairing =
+      PathPairing::make(lesson.cut.segments, lesson.original.segments, {.tube_mm = config.tube_mm});
   if (!pairing) {
     const auto& parting = pairing.error();
     return refuse(

@@ -53,8 +53,12 @@ Learnt::Knot Learnt::mean(double at_mm) const noexcept {
   return sum;
 }
 
-Point Learnt::shift_mm(double at_mm) const noexcept { return mean(at_mm).shift_mm; }
+Point Learnt::shift_mm(double at_mm) const noexcept {
+  return mean(at_mm).shift_mm;
+}
 
-Point Learnt::unknown_mm(double at_mm) const noexcept { return mean(at_mm).unknown_mm; }
+Point Learnt::unknown_mm(double at_mm) const noexcept {
+  return mean(at_mm).unknown_mm;
+}
 
 }  // namespace steadyrest::contour::offline

@@ -62,11 +62,10 @@ class PartSink final : public table::Sink {
       return t_s.error();
     }
     if (!out_.time_s.empty() && !(*t_s > out_.time_s.back())) {
-      return Fault{
-          row.line(),
-          fmt::format("t_s = {:.6f} s does not rise; the row before has {:.6f} s", *t_s,
-                      out_.time_s.back()),
-          "give one part as it was recorded, with enough digits of t_s"};
+      return Fault{row.line(),
+                   fmt::format("t_s = {:.6f} s does not rise; the row before has {:.6f} s", *t_s,
+                               out_.time_s.back()),
+                   "give one part as it was recorded, with enough digits of t_s"};
     }
     std::array<double, kColumns.size()> value{};
     for (std::size_t i = 0; i < value.size(); ++i) {

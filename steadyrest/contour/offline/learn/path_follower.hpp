@@ -14,10 +14,10 @@ namespace steadyrest::contour::offline {
 /// Law. A command that moves by δ moves on by δ along the path, or a little more where the path
 /// bends between two samples: the nearest place in [s + 0.9·δ − r, s + 1.1·δ + r], r = 0.01 mm +
 /// 0.05·δ, is taken if it is within `near_mm`; else in [s, s + 2·δ + 5 mm]. So a path that runs
-/// back along itself, or passes the same place again, does not mislead. A command that is on neither
-/// is off the path. Then the path ahead is searched: the first place within `near_mm` is taken and
-/// has to prove itself, by `kProof_mm` of path that the commands follow. The search is repeated
-/// after 2, 4, 8 … 512 samples.
+/// back along itself, or passes the same place again, does not mislead. A command that is on
+/// neither is off the path. Then the path ahead is searched: the first place within `near_mm` is
+/// taken and has to prove itself, by `kProof_mm` of path that the commands follow. The search is
+/// repeated after 2, 4, 8 … 512 samples.
 class PathFollower {
  public:
   static constexpr double kProof_mm = 2.0;

@@ -15,9 +15,10 @@ SharpCorners sharp_corners(kernel::signal::PathView path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool first = i == 0;
     const bool other = !first && path[i].motion != path[i - 1].motion;
-    const bool bends = !first && math::geometry::distance(
-                                     math::geometry::station_at(path[i - 1], 1.0).tangent,
-                                     math::geometry::station_at(path[i], 0.0).tangent) > kSharpJoint;
+    const bool bends =
+        !first &&
+        math::geometry::distance(math::geometry::station_at(path[i - 1], 1.0).tangent,
+                                 math::geometry::station_at(path[i], 0.0).tangent) > kSharpJoint;
     if (first || other || bends) {
       at_mm.push_back(path[i].position_mm);
     }

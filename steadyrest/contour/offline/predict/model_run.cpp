@@ -135,21 +135,20 @@ class Runner {
       other_error_mm_[i] = geometry::norm(across);
     }
     if (error.valid) {
-      const Point off =
-          geometry::add(geometry::subtract(error.foot_mm, axes_.tool_mm()), unknown);
-      on_sample({.time_s = time_s(),
-                 .position_mm = s.path_position_mm,
-                 .command_mm_s = s.path_speed_mm_s,
-                 .progress_mm = progress_mm_,
-                 .foot_mm = error.foot_position_mm,
-                 .error_mm = run_.unknown ? std::copysign(geometry::norm(off), error.error_mm)
-                                          : error.error_mm,
-                 .off_mm = off,
-                 .line = s.line,
-                 .segment = s.path_index,
-                 .cuts = s.motion == Motion::feed &&
-                          original[error.foot_index].motion == Motion::feed,
-                 .other_error_mm = other_error_mm_});
+      const Point off = geometry::add(geometry::subtract(error.foot_mm, axes_.tool_mm()), unknown);
+      on_sample(
+          {.time_s = time_s(),
+           .position_mm = s.path_position_mm,
+           .command_mm_s = s.path_speed_mm_s,
+           .progress_mm = progress_mm_,
+           .foot_mm = error.foot_position_mm,
+           .error_mm =
+               run_.unknown ? std::copysign(geometry::norm(off), error.error_mm) : error.error_mm,
+           .off_mm = off,
+           .line = s.line,
+           .segment = s.path_index,
+           .cuts = s.motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
+           .other_error_mm = other_error_mm_});
     }
   }
 

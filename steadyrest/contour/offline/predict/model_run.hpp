@@ -53,13 +53,13 @@ struct ModelRun {
 /// One sample of the run; `other_error_mm` and the sample are valid during the call only.
 struct ModelSample {
   double time_s = 0.0;
-  double position_mm = 0.0;   ///< of the command on the path that is run
-  double command_mm_s = 0.0;  ///< along that path
-  double progress_mm = 0.0;   ///< of the command, as original path length
-  double foot_mm = 0.0;       ///< original path length that the tool is at
-  double error_mm = 0.0;      ///< contour error, signed as in online::ContourError
+  double position_mm = 0.0;        ///< of the command on the path that is run
+  double command_mm_s = 0.0;       ///< along that path
+  double progress_mm = 0.0;        ///< of the command, as original path length
+  double foot_mm = 0.0;            ///< original path length that the tool is at
+  double error_mm = 0.0;           ///< contour error, signed as in online::ContourError
   kernel::signal::Point off_mm{};  ///< from the tool to its foot
-  std::uint32_t line = 0;     ///< of the path that is run
+  std::uint32_t line = 0;          ///< of the path that is run
   std::size_t segment = 0;
   bool cuts = false;                       ///< the command is in a feed move, and so is the tool
   std::span<const double> other_error_mm;  ///< magnitudes, for each of `others`

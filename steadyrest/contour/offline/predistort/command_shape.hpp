@@ -28,8 +28,9 @@ struct ShapeConfig {
 };
 
 /// The curve that the command must run so that the tool runs on the path (ServoInverse at the
-/// tool's motion, and what was learnt), as pieces, block by block: a block's pieces are commanded while the tool is on
-/// the block, so block ends move by v·L along the tangent and arcs keep their centre.
+/// tool's motion, and what was learnt), as pieces, block by block: a block's pieces are commanded
+/// while the tool is on the block, so block ends move by v·L along the tangent and arcs keep their
+/// centre.
 ///
 /// At a joint where the path's direction changes a little (chords) both sides meet half-way. At
 /// corners, at stops and beside blocks that stay, the curve goes through the path's own point; on

@@ -28,8 +28,8 @@ using kernel::outcome::Result;
 using nc::rewrite::CutBlock;
 using nc::rewrite::Stays;
 
-constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
-constexpr double kWorse_mm = 5e-4;     ///< an error that grows by less is rounding of the text
+constexpr double kAcrossShare = 0.9;  ///< of the acceleration across the path, for kinks
+constexpr double kWorse_mm = 5e-4;    ///< an error that grows by less is rounding of the text
 constexpr double kLarger = 1.05;   ///< of its largest error, which a run may get as its RMS falls
 constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
 constexpr int kLastRounds = 2;     ///< with the best share at each corner
@@ -153,9 +153,7 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] std::vector<SegmentUse> use() const {
-    return segment_use(path_, blocks_, barred_);
-  }
+  [[nodiscard]] std::vector<SegmentUse> use() const { return segment_use(path_, blocks_, barred_); }
 
   /// What records have shown beyond the model.
   [[nodiscard]] std::function<kernel::signal::Point(double)> unknown() const {

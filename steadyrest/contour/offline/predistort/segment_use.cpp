@@ -33,8 +33,8 @@ std::vector<SegmentUse> segment_use(const nc::plan::PlannedPath& path,
   for (std::size_t i = 0; i < use.size(); ++i) {
     const auto& segment = path.segments[i];
     const nc::rewrite::CutBlock* block = blocks.find(segment.line);
-    const bool turned = block != nullptr && block->rotation_deg != 0.0 &&
-                        block->plane != nc::interpret::Plane::xy;
+    const bool turned =
+        block != nullptr && block->rotation_deg != 0.0 && block->plane != nc::interpret::Plane::xy;
     use[i].free = segment.motion == kernel::signal::Motion::feed && block != nullptr &&
                   block->stays == nc::rewrite::Stays::free && !turned &&
                   !barred.contains(segment.line);

@@ -56,8 +56,8 @@ Part cut_part(const std::string& file, const std::string& original, const Machin
         Original::make(*path, path_of(original, machine), 2.0).value());
   }
   Part out;
-  Recorder recorder({.limit_mm = machine.contour.limit_mm,
-                     .cycle_s = machine.control.interpolator_period_s});
+  Recorder recorder(
+      {.limit_mm = machine.contour.limit_mm, .cycle_s = machine.control.interpolator_period_s});
   const auto layer = [&](kernel::signal::Frame& frame) {
     out.record.time_s.push_back(frame.time_s);
     out.record.command_mm.push_back(
@@ -92,7 +92,7 @@ class Series {
     part_ = cut_part(cut_file_, program_, machine_);
     return part_.figures;
   }
-  Figures original() { 
+  Figures original() {
     cut_file_ = program_;
     part_ = cut_part(program_, program_, machine_);
     return part_.figures;
@@ -123,12 +123,19 @@ TEST(LearntPart, TakesAwayWhatWrongGainsLeave) {
     Series parts("rib-pocket.mpf", with_gains(mill, off), mill);
     for (int i = 0; i < 4; ++i) {
       const Figures f = parts.next();
-      fmt::print("gains {:+.0f} %: part {}: {:.2f} s, max {:.1f}, rms {:.2f} µm; predicted rms {:.2f}\n", 100 * off, i,
-                 f.cycle_time_s, 1e3 * f.contour_error_max_mm, 1e3 * f.contour_error_rms_mm, 1e3*parts.predicted().after.nominal().rms_mm());
+      fmt::print(
+          "gains {:+.0f} %: part {}: {:.2f} s, max {:.1f}, rms {:.2f} µm; predicted rms {:.2f}\n",
+          100 * off, i, f.cycle_time_s, 1e3 * f.contour_error_max_mm, 1e3 * f.contour_error_rms_mm,
+          1e3 * parts.predicted().after.nominal().rms_mm());
       for (const auto& l : parts.predicted().learnt) {
-        fmt::print("   cut {:.1f} s learns {:.1f} s measured {:.2f} unknown {:.2f} cutoff {:.1f} conv {:.3f}\n", l.cut_s, l.learns_s,
-                   1e3 * l.measured_rms_mm, 1e3 * l.unknown_rms_mm, l.cut_off_hz, l.convergence);
-        for (const auto& o : l.left_out) fmt::print("      {} {:.2f}..{:.2f} lines {}..{}\n", contour::offline::reason_of(o.why), o.from_s, o.to_s, o.first_line, o.last_line);
+        fmt::print(
+            "   cut {:.1f} s learns {:.1f} s measured {:.2f} unknown {:.2f} cutoff {:.1f} conv "
+            "{:.3f}\n",
+            l.cut_s, l.learns_s, 1e3 * l.measured_rms_mm, 1e3 * l.unknown_rms_mm, l.cut_off_hz,
+            l.convergence);
+        for (const auto& o : l.left_out)
+          fmt::print("      {} {:.2f}..{:.2f} lines {}..{}\n", contour::offline::reason_of(o.why),
+                     o.from_s, o.to_s, o.first_line, o.last_line);
       }
     }
   }

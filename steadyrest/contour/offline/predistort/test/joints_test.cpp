@@ -19,7 +19,7 @@ using kernel::signal::Geometry;
 using kernel::signal::Point;
 using online::test::PathMaker;
 
-constexpr double kFeed_mm_s = 50.0;
+constexpr double kKinkFeed_mm_s = 50.0;
 
 nc::plan::PathLimits limits() {
   std::vector<kernel::machine::Axis> axes(3);
@@ -34,7 +34,7 @@ std::vector<Piece> pieces(const std::vector<Point>& corners) {
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     Piece piece;
     piece.segment = line_segment(corners[i], corners[i + 1]);
-    piece.segment.feed_mm_s = kFeed_mm_s;
+    piece.segment.feed_mm_s = kKinkFeed_mm_s;
     piece.segment.line = static_cast<std::uint32_t>(i + 1);
     piece.progress_start_mm = progress;
     progress += piece.segment.length_mm;
@@ -64,11 +64,11 @@ TEST(RoundKinks, TakeTheBendAtFullSpeed) {
   ASSERT_EQ(made.size(), 3U);
   const auto& arc = made[1].segment;
   ASSERT_EQ(arc.geometry, Geometry::arc);
-  const double radius = kFeed_mm_s * kFeed_mm_s / (0.9 * 0.866 * 2000.0);
+  const double radius = kKinkFeed_mm_s * kKinkFeed_mm_s / (0.9 * 0.866 * 2000.0);
   EXPECT_NEAR(arc.radius_mm, radius, 1e-3 * radius);
   EXPECT_NEAR(arc.sweep_rad, bend, 1e-6);
   EXPECT_NEAR(made[0].segment.end_mm[0], 20.0 - radius * std::tan(bend / 2.0), 1e-3);
-  EXPECT_NEAR(arc.feed_mm_s, kFeed_mm_s, 1e-12);
+  EXPECT_NEAR(arc.feed_mm_s, kKinkFeed_mm_s, 1e-12);
   expect_whole(made);
 }
 
@@ -88,14 +88,14 @@ TEST(RoundKinks, LeaveBendsOutOfThePlane) {
 
 /// A tool that is 1 mm behind a command at 50 mm/s.
 ToolMotion motion_along(const std::vector<Point>& corners, nc::plan::PlannedPath& path) {
-  PathMaker maker(corners.front(), kFeed_mm_s);
+  PathMaker maker(corners.front(), kKinkFeed_mm_s);
   for (std::size_t i = 1; i < corners.size(); ++i) {
     maker.line_to(corners[i]);
   }
   path.segments = maker.path();
   CommandSpeed speed;
-  speed.add(0.0, kFeed_mm_s);
-  speed.add(1000.0, kFeed_mm_s);
+  speed.add(0.0, kKinkFeed_mm_s);
+  speed.add(1000.0, kKinkFeed_mm_s);
   const online::AxisModel axis{.gain_1_s = 50.0};
   return {ServoInverse({axis, axis, axis}), path, speed};
 }
