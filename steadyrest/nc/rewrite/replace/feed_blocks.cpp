@@ -71,8 +71,12 @@ FeedUse use_of(const PlannedPath& path, std::size_t i, const CutBlocks& blocks) 
     const bool all = std::ranges::all_of(merged, [](const CutBlock& b) { return takes_feed(&b); });
     return all ? FeedUse::whole : FeedUse::kept;
   }
+  // Where an offset has changed under it, LinuxCNC starts elsewhere than its interpreter says.
+  const bool starts_there =
+      i > 0 && geometry::norm(geometry::subtract(segment.start_mm, path.segments[i - 1].end_mm)) <=
+                   kBeyond_mm;
   const bool spiral = !line && std::abs(segment.radius_end_mm - segment.radius_mm) > kSpiral_mm;
-  return spiral ? FeedUse::whole : FeedUse::anywhere;
+  return spiral || !starts_there ? FeedUse::whole : FeedUse::anywhere;
 }
 
 /// A block with its feeds, in the order of execution.

@@ -147,8 +147,11 @@ class Comparison {
       return "the changed program goes on after the original has ended";
     }
     interpret::State end = changed_.run->state();
-    if (changes_ == Changes::speeds) {
+    if (changes_ == Changes::speeds ||
+        same_ratio(end.feed_mm_s, original_.run->state().feed_mm_s)) {
       end.feed_mm_s = original_.run->state().feed_mm_s;
+    }
+    if (changes_ == Changes::speeds) {
       end.spindle_speed_rev_s = original_.run->state().spindle_speed_rev_s;
     }
     return std::string(state_difference(original_.run->state(), end));
