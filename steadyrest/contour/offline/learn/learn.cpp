@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -9,9 +8,9 @@
 #include <fmt/core.h>
 
 #include <steadyrest/contour/offline/learn/learn.hpp>
-#include <steadyrest/contour/offline/learn/local_fit.hpp>
 #include <steadyrest/contour/offline/learn/planned_motion.hpp>
 #include <steadyrest/contour/offline/learn/sharp_corners.hpp>
+#include <steadyrest/contour/offline/learn/stretches.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
@@ -32,9 +31,7 @@ using nc::plan::PlannedPath;
 
 constexpr double kCutOffLags = 2.0;  ///< cut-off in terms of the softest axis's k/2π
 constexpr double kSamplesOfGain = 2.0;
-constexpr double kLeast_s = 1.0;      ///< in force
-constexpr double kShortest = 4.0;     ///< samples of a stretch
-constexpr double kForward_mm = 1e-6;  ///< that a foot must move on
+constexpr double kLeast_s = 1.0;  ///< in force
 
 class Learner {
  public:
@@ -181,75 +178,19 @@ class Learner {
     return reason_of(worst);
   }
 
-  /// Stretches of samples in force with the foot moving on, without a corner between.
-  std::vector<Learnt::Stretch> fit(double sigma_s) {
-    std::vector<Learnt::Stretch> out;
-    const auto corners = sharp_corners(lesson_.original.segments);
-    const auto lags = first_lags_s(lesson_.model);
-    std::vector<std::size_t> members;
-    const auto finish = [&] {
-      if (static_cast<double>(members.size()) >= kShortest) {
-        out.push_back(stretch(members, lags, sigma_s, corners));
-      }
-      members.clear();
-    };
-    double done_mm = -1.0;  // what is learnt never goes back
+  [[nodiscard]] std::vector<Learnt::Stretch> fit(double sigma_s) const {
+    std::vector<ErrorSample> samples;
+    samples.reserve(samples_.size());
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (judged_.use[i] != Use::learns) {
-        finish();
-        continue;
-      }
-      const double foot = samples_[i].foot_mm;
-      if (foot <= done_mm + kForward_mm) {
-        continue;
-      }
-      if (!members.empty() && corners.between(samples_[members.back()].foot_mm, foot)) {
-        finish();
-      }
-      members.push_back(i);
-      done_mm = foot;
+      const Use use = judged_.use[i];
+      samples.push_back({.valid = use == Use::learns,
+                         .fades = use != Use::learns && use != Use::no_cut,
+                         .time_s = lesson_.record.time_s[i],
+                         .foot_mm = samples_[i].foot_mm,
+                         .off_mm = samples_[i].unknown_mm});
     }
-    finish();
-    return out;
-  }
-
-  [[nodiscard]] Learnt::Stretch stretch(const std::vector<std::size_t>& members,
-                                        const std::array<double, 3>& lags_s, double sigma_s,
-                                        const SharpCorners& corners) const {
-    std::vector<double> time;
-    std::vector<Point> unknown;
-    for (const std::size_t i : members) {
-      time.push_back(lesson_.record.time_s[i]);
-      unknown.push_back(samples_[i].unknown_mm);
-    }
-    Learnt::Stretch out;
-    const bool fades_in = beside_gap(members.front(), -1);
-    const bool fades_out = beside_gap(members.back(), 1);
-    for (std::size_t j = 0; j < members.size(); ++j) {
-      const LocalLine line = local_line(time, unknown, j, sigma_s);
-      Learnt::Knot knot{.at_mm = samples_[members[j]].foot_mm, .unknown_mm = line.value};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        knot.shift_mm[axis] = line.value[axis] + lags_s[axis] * line.slope_1_s[axis];
-      }
-      const double fade = 3.0 * sigma_s;
-      knot.weight = std::min({1.0, fades_in ? (time[j] - time.front()) / fade : 1.0,
-                              fades_out ? (time.back() - time[j]) / fade : 1.0});
-      out.knots.push_back(knot);
-    }
-    // Up to the corner that ends it.
-    out.from_mm = fades_in ? out.knots.front().at_mm : corners.before(out.knots.front().at_mm);
-    out.to_mm = fades_out ? out.knots.back().at_mm : corners.after(out.knots.back().at_mm);
-    return out;
-  }
-
-  /// The record is not in force next to this sample.
-  [[nodiscard]] bool beside_gap(std::size_t i, int step) const {
-    if (step < 0 && i == 0) {
-      return true;
-    }
-    const std::size_t next = step < 0 ? i - 1 : i + 1;
-    return next >= samples_.size() ||
-           (judged_.use[next] != Use::learns && judged_.use[next] != Use::no_cut);
+    return stretches_of(samples, sharp_corners(lesson_.original.segments),
+                        first_lags_s(lesson_.model), sigma_s);
   }
 
   struct Sample {

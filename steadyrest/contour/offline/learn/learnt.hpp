@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/kernel/signal/path.hpp>
