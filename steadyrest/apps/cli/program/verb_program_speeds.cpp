@@ -94,31 +94,23 @@ Answer answer_of(const Done& done) {
   return answer;
 }
 
-Outcome run(const Options& options, Progress& progress) {
-  const auto process = chatter::offline::read_process_all_faults(options.process);
-  if (!process) {
-    return std::unexpected(process.error());
-  }
-  const auto program = read_source_program(options.program, options.machine);
-  if (!program) {
-    return std::unexpected(program.error());
-  }
-  const std::string& file = options.program.file;
-  Done done;
-  auto spans = nc::rewrite::spindle_spans(file, program->config);
+/// Asks the planner for each S word; a speed whose feed cannot be kept stays.
+Result<void> choose(const Options& options, const SourceProgram& program,
+                    const chatter::offline::Process& process, Progress& progress, Done& done) {
+  auto spans = nc::rewrite::spindle_spans(options.program.file, program.config);
   if (!spans) {
-    return refused(spans.error());
+    return std::unexpected(spans.error());
   }
   done.spans = std::move(*spans);
   auto choices = choose_speeds(
-      {.process = *process,
-       .machine = program->machine,
+      {.process = process,
+       .machine = program.machine,
        .depth_mm = options.depth_mm,
        .tool = options.tool,
        .progress = [&](double share, std::string_view what) { progress.update(share, what); }},
       done.spans);
   if (!choices) {
-    return refused(choices.error());
+    return std::unexpected(choices.error());
   }
   done.choices = std::move(*choices);
   for (const SpeedChoice& choice : done.choices) {
@@ -131,26 +123,46 @@ Outcome run(const Options& options, Progress& progress) {
       done.choices[i].limit_depth_mm.reset();
     }
   }
-  const auto dialect = program->config.dialect;
-  auto told = told_of_change("speeds", *options.verb, *program,
-                             {{"depth-mm", fmt::format("{:g}", options.depth_mm)}});
+  return {};
+}
+
+/// Makes the text and proves it.
+Result<void> change(const std::string& file, const SourceProgram& program,
+                    const std::vector<nc::rewrite::Told>& told, Done& done) {
+  const auto dialect = program.config.dialect;
+  const auto lines = nc::rewrite::speed_lines(file, dialect, done.spans, done.ratio);
+  if (!lines) {
+    return std::unexpected(lines.error());
+  }
+  auto changed = nc::rewrite::replace(file, dialect, *lines, told);
+  if (!changed) {
+    return std::unexpected(changed.error());
+  }
+  done.changed = std::move(*changed);
+  return nc::rewrite::prove_same_cut(file, done.changed, program.config,
+                                     nc::rewrite::Changes::speeds, tolerance_mm(program));
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  const auto process = chatter::offline::read_process_all_faults(options.process);
+  if (!process) {
+    return std::unexpected(process.error());
+  }
+  const auto program = read_source_program(options.program, options.machine);
+  if (!program) {
+    return std::unexpected(program.error());
+  }
+  Done done;
+  if (const auto chosen = choose(options, *program, *process, progress, done); !chosen) {
+    return refused(chosen.error());
+  }
+  const auto told = told_of_change("speeds", *options.verb, *program,
+                                   {{"depth-mm", fmt::format("{:g}", options.depth_mm)}});
   if (!told) {
     return std::unexpected(told.error());
   }
-  const auto lines = nc::rewrite::speed_lines(file, dialect, done.spans, done.ratio);
-  if (!lines) {
-    return refused(lines.error());
-  }
-  auto changed = nc::rewrite::replace(file, dialect, *lines, *told);
-  if (!changed) {
-    return refused(changed.error());
-  }
-  done.changed = std::move(*changed);
-  if (const auto proof =
-          nc::rewrite::prove_same_cut(file, done.changed, program->config,
-                                      nc::rewrite::Changes::speeds, tolerance_mm(*program));
-      !proof) {
-    return refused(proof.error());
+  if (const auto made = change(options.program.file, *program, *told, done); !made) {
+    return refused(made.error());
   }
   if (const auto written = kernel::file::write_file(options.output, done.changed.text); !written) {
     return refused(written.error());

@@ -9,7 +9,6 @@
 namespace steadyrest::contour::offline {
 namespace {
 
-using kernel::signal::Geometry;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
 using nc::plan::PlannedPath;
@@ -40,7 +39,7 @@ double station_of(const PlannedPath& path, const FeedRoom& room) noexcept {
 /// Where the cells of a segment begin and end, mm from its start.
 void borders_of(const PathSegment& segment, FeedKind kind, const std::array<float, 2>& ends_mm,
                 double station_mm, std::vector<double>& out) {
-  const double from = static_cast<double>(ends_mm[0]);
+  const auto from = static_cast<double>(ends_mm[0]);
   const double to = segment.length_mm - static_cast<double>(ends_mm[1]);
   out.assign(1, 0.0);
   if (kind == FeedKind::free && to > from) {

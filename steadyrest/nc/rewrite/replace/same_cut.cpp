@@ -169,7 +169,7 @@ class Comparison {
     }
     return equal_events(a, b);
   }
-  void step_changed(std::uint32_t lines) {
+  void step_changed(std::uint32_t lines) const {
     for (std::uint32_t i = 0; i < lines; ++i) {
       changed_.run->step();
     }

@@ -17,7 +17,7 @@ namespace {
 using kernel::machine::Machine;
 using nc::plan::PlannedPath;
 
-constexpr double kFeed_mm_s = 4000.0 / 60.0;
+constexpr double kFastFeed_mm_s = 4000.0 / 60.0;
 
 Machine feed_mill(double gain_1_s = 50.0) {
   Machine machine;
@@ -31,7 +31,7 @@ Machine feed_mill(double gain_1_s = 50.0) {
   return machine;
 }
 
-PlannedPath planned(const Machine& machine, const std::string& moves) {
+PlannedPath path_of_moves(const Machine& machine, const std::string& moves) {
   nc::plan::PathBuilder builder(machine);
   const auto report =
       nc::interpret::run_text("G21 G90 G94 G17 G61\n" + moves + "M2\n", {}, builder);
@@ -40,12 +40,12 @@ PlannedPath planned(const Machine& machine, const std::string& moves) {
 }
 
 /// A plan, and a run of the path with its feeds.
-struct Planned {
+struct PlannedFeeds {
   FeedPlan plan;
   std::vector<FeedPart> parts;
 };
-Planned plan_of(const Machine& machine, const PlannedPath& path, double limit_mm,
-                FeedRoom room = {}) {
+PlannedFeeds feed_plan_of(const Machine& machine, const PlannedPath& path, double limit_mm,
+                          FeedRoom room = {}) {
   const PathMap map = same_path(path);
   auto plan = FeedPlan::make({.machine = machine,
                               .path = path,
@@ -61,8 +61,8 @@ Planned plan_of(const Machine& machine, const PlannedPath& path, double limit_mm
 }
 
 /// The path with the feeds of the parts, each a segment; the largest error of a cut on it.
-double error_with(const Machine& machine, const PlannedPath& path,
-                  const std::vector<FeedPart>& parts) {
+double error_at_feeds(const Machine& machine, const PlannedPath& path,
+                      const std::vector<FeedPart>& parts) {
   PlannedPath slower;
   auto part = parts.begin();
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
@@ -105,13 +105,13 @@ TEST(FeedPlan, TakesTheSpeedOfTheClosedFormOnACircle) {
       const Machine machine = feed_mill();
       const std::string r = std::to_string(radius);
       const PlannedPath path =
-          planned(machine, "G0 X" + r + " Y0\nG3 X" + r + " Y0 I-" + r + " J0 P5 F4000\n");
-      const Planned found = plan_of(machine, path, limit);
+          path_of_moves(machine, "G0 X" + r + " Y0\nG3 X" + r + " Y0 I-" + r + " J0 P5 F4000\n");
+      const PlannedFeeds found = feed_plan_of(machine, path, limit);
       const double most = circle_limit({.gain_1_s = 50.0}, radius, limit).value().speed_mm_s;
       const auto longest = std::ranges::max_element(
           found.parts, {}, [](const FeedPart& p) { return p.to_mm - p.from_mm; });
-      EXPECT_NEAR(longest->ratio * kFeed_mm_s, std::min(most, kFeed_mm_s),
-                  0.01 * std::min(most, kFeed_mm_s))
+      EXPECT_NEAR(longest->ratio * kFastFeed_mm_s, std::min(most, kFastFeed_mm_s),
+                  0.01 * std::min(most, kFastFeed_mm_s))
           << "R " << radius << " limit " << limit;
       // Few feeds: the arc, its beginning, its end.
       EXPECT_LE(found.parts.size(), 6U);
@@ -121,11 +121,11 @@ TEST(FeedPlan, TakesTheSpeedOfTheClosedFormOnACircle) {
 
 TEST(FeedPlan, KeepsTheLimitWhereLinesMeetArcs) {
   const Machine machine = feed_mill();
-  const PlannedPath path = planned(
+  const PlannedPath path = path_of_moves(
       machine, "G0 X0 Y0\nG1 X40 F4000\nG3 X43 Y3 I0 J3\nG1 Y20\nG2 X53 Y30 I10 J0\nG1 X90\n");
   constexpr double kLimit_mm = 0.010;
-  const Planned found = plan_of(machine, path, kLimit_mm);
-  EXPECT_LE(error_with(machine, path, found.parts), 1.01 * kLimit_mm);
+  const PlannedFeeds found = feed_plan_of(machine, path, kLimit_mm);
+  EXPECT_LE(error_at_feeds(machine, path, found.parts), 1.01 * kLimit_mm);
   // Long lines run at the programmed feed, and the arcs at no more than their closed form.
   EXPECT_TRUE(std::ranges::any_of(found.parts, [](const FeedPart& p) { return p.ratio == 1.0; }));
   const double all_slow = path.plans.back().length_mm;
@@ -139,8 +139,8 @@ TEST(FeedPlan, KeepsTheLimitWhereLinesMeetArcs) {
 
 TEST(FeedPlan, IsTheProgramWhereItKeepsTheLimit) {
   const Machine machine = feed_mill();
-  const PlannedPath path = planned(machine, "G0 X0 Y0\nG1 X40 F4000\nX80\n");
-  const Planned found = plan_of(machine, path, 0.010);
+  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nX80\n");
+  const PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   EXPECT_TRUE(found.plan.unchanged());
   EXPECT_TRUE(std::ranges::all_of(found.parts, [](const FeedPart& p) { return p.ratio == 1.0; }));
 }
@@ -148,20 +148,20 @@ TEST(FeedPlan, IsTheProgramWhereItKeepsTheLimit) {
 // A right angle passed at v misses by about v/(k·e); no feed above nothing keeps a tenth of that.
 TEST(FeedPlan, TakesTheLowestFeedWhereNoneKeepsTheLimit) {
   const Machine machine = feed_mill();
-  const PlannedPath path = planned(machine, "G0 X0 Y0\nG1 X40 F4000\nY40\n");
-  const Planned found = plan_of(machine, path, 0.002);
+  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nY40\n");
+  const PlannedFeeds found = feed_plan_of(machine, path, 0.002);
   const auto slowest = std::ranges::min_element(found.parts, {}, &FeedPart::ratio);
   EXPECT_DOUBLE_EQ(slowest->ratio, 0.1);
   EXPECT_TRUE(std::ranges::all_of(
       found.parts, [](const FeedPart& p) { return p.ratio >= 0.1 && p.ratio <= 1.0; }));
-  EXPECT_GT(error_with(machine, path, found.parts), 0.002);
+  EXPECT_GT(error_at_feeds(machine, path, found.parts), 0.002);
 }
 
 TEST(FeedPlan, LeavesFixedSegmentsAndDividesNoWholeOnes) {
   const Machine machine = feed_mill();
-  const PlannedPath path =
-      planned(machine, "G0 X10 Y0\nG3 X-10 Y0 I-10 J0 F4000\nG3 X10 Y0 I10 J0\nG3 X-10 I-10 J0\n");
-  const Planned found = plan_of(
+  const PlannedPath path = path_of_moves(
+      machine, "G0 X10 Y0\nG3 X-10 Y0 I-10 J0 F4000\nG3 X10 Y0 I10 J0\nG3 X-10 I-10 J0\n");
+  const PlannedFeeds found = feed_plan_of(
       machine, path, 0.010,
       {.kind = {FeedKind::free, FeedKind::fixed, FeedKind::whole, FeedKind::free}, .ends_mm = {}});
   EXPECT_EQ(std::ranges::count(found.parts, 1U, &FeedPart::segment), 0);
@@ -172,25 +172,25 @@ TEST(FeedPlan, LeavesFixedSegmentsAndDividesNoWholeOnes) {
 // The plunge begins while the tool still comes from the rapid; a slower plunge is no remedy.
 TEST(FeedPlan, DoesNotSlowACutForWhatARapidLeaves) {
   const Machine machine = feed_mill(20.0);
-  const PlannedPath path = planned(machine, "G0 X50 Y0 Z1\nG1 Z-2 F300\n");
-  const Planned found = plan_of(machine, path, 0.010);
+  const PlannedPath path = path_of_moves(machine, "G0 X50 Y0 Z1\nG1 Z-2 F300\n");
+  const PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   EXPECT_TRUE(std::ranges::all_of(found.parts, [](const FeedPart& p) { return p.ratio == 1.0; }));
 }
 
 TEST(FeedPlan, SearchesAgainWithATighterLimit) {
   const Machine machine = feed_mill();
   const PlannedPath path =
-      planned(machine, "G0 X10 Y-20\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P3\nG1 Y20\n");
-  Planned found = plan_of(machine, path, 0.010);
+      path_of_moves(machine, "G0 X10 Y-20\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P3\nG1 Y20\n");
+  PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   const double before = found.plan.seconds();
   ASSERT_TRUE(found.plan.tighten({{1, 0.005}, {2, 0.005}, {3, 0.005}}).has_value());
   EXPECT_GT(found.plan.seconds(), 1.2 * before);
-  EXPECT_LE(error_with(machine, path, found.plan.parts()), 1.01 * 0.005);
+  EXPECT_LE(error_at_feeds(machine, path, found.plan.parts()), 1.01 * 0.005);
 }
 
 TEST(FeedPlan, RefusesLimitsOutOfRange) {
   const Machine machine = feed_mill();
-  const PlannedPath path = planned(machine, "G0 X0 Y0\nG1 X40 F4000\n");
+  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\n");
   const PathMap map = same_path(path);
   const auto refused = [&](double limit_mm, double floor_ratio) {
     return !FeedPlan::make({.machine = machine,
@@ -214,7 +214,7 @@ TEST(FeedPlan, RefusesLimitsOutOfRange) {
 TEST(FeedCells, AreThePathInPieces) {
   const Machine machine = feed_mill();
   const PlannedPath path =
-      planned(machine, "G0 X10 Y0\nG3 X0 Y10 Z4 I-10 J0 F4000\nG1 X-30\nG0 X0\n");
+      path_of_moves(machine, "G0 X10 Y0\nG3 X0 Y10 Z4 I-10 J0 F4000\nG1 X-30\nG0 X0\n");
   const FeedCells cells = feed_cells(path, same_path(path), {.kind = {}, .ends_mm = {}});
   ASSERT_EQ(cells.of.size(), cells.path.segments.size());
   for (std::size_t i = 1; i < cells.of.size(); ++i) {
@@ -231,7 +231,7 @@ TEST(FeedCells, AreThePathInPieces) {
 
 TEST(FeedCells, AreLongerWhereThereWouldBeTooMany) {
   const Machine machine = feed_mill();
-  const PlannedPath path = planned(machine, "G0 X0 Y0\nG1 X400 F4000\n");
+  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X400 F4000\n");
   const FeedCells cells =
       feed_cells(path, same_path(path), {.kind = {}, .ends_mm = {}, .most_cells = 100});
   EXPECT_LE(cells.of.size(), 102U);
