@@ -16,10 +16,11 @@ void keep_line(const std::vector<kernel::signal::PathSegment>& segments,
     return;
   }
   const std::uint32_t line = segments[segment].line;
-  for (std::size_t i = segment + 1; i-- > 0 && segments[i].line == line;) {
-    use[i].free = false;
+  std::size_t first = segment;
+  while (first > 0 && segments[first - 1].line == line) {
+    --first;
   }
-  for (std::size_t i = segment; i < use.size() && segments[i].line == line; ++i) {
+  for (std::size_t i = first; i < use.size() && segments[i].line == line; ++i) {
     use[i].free = false;
   }
 }

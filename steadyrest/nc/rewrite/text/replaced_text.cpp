@@ -28,7 +28,6 @@ bool in_brackets(Dialect dialect) noexcept {
 std::size_t longest_block(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::linuxcnc:
-      return 250;
     case Dialect::fanuc:
       return 250;
     case Dialect::sinumerik:
