@@ -23,8 +23,8 @@ struct Uncertainty {
 /// the model, the next part has u⁺ = K·w + K·(Ĝ − G)·u. So the factor is
 ///   max |K(jω)·(Ĝ(jω) − G(jω))|,   ω from k̂/100 to where Q < 10⁻³.
 /// Taken at the corners of the uncertainty and half-way. Where L = 1/Ĝ (no feed-forward, no lag) it
-/// is |Q·(1 − G/Ĝ)|. A gain off by u alone gives at most u/(1 − u)·… < 1 at any cut-off; a lag τ
-/// gives less than 1 for kτ < 0.5; a feed-forward gives a·ω/k, which the cut-off bounds.
+/// is |Q·(1 − G/Ĝ)|. A gain off by the share u alone gives less than u at any cut-off; a lag τ
+/// gives less than 1 for kτ ≤ 0.5; a feed-forward gives a·ω/k, which only the cut-off bounds.
 [[nodiscard]] double convergence(const ServoModels& model, const Uncertainty& uncertainty,
                                  double cut_off_hz) noexcept;
 

@@ -61,6 +61,7 @@ class Judge {
   void compare(std::size_t from, std::size_t to) {
     std::size_t first = from;
     double still_from_s = record_.time_s[from];
+    double stood_until_s = -1e300;
     for (std::size_t i = from + 1; i < to; ++i) {
       if (record_.time_s[i] - record_.time_s[i - 1] > kGap * record_.period_s) {
         mark(i - 1, i, Use::paused);
@@ -69,14 +70,17 @@ class Judge {
       if (geometry::distance(record_.command_mm[i], record_.command_mm[i - 1]) > kStill_mm) {
         still_from_s = record_.time_s[i];
       }
-      while (record_.time_s[i] - record_.time_s[first + 1] >= config_.window_s) {
+      if (record_.time_s[i] - still_from_s >= kStill_s) {
+        stood_until_s = record_.time_s[i];
+      }
+      while (first < i && record_.time_s[i] - record_.time_s[first + 1] >= config_.window_s) {
         ++first;
       }
       const double passed = record_.time_s[i] - record_.time_s[first];
       const bool whole = passed >= config_.window_s || (i + 1 == to && first == from);
       if (whole && passed > kLeastWindow * record_.period_s && differs(first, i, passed)) {
-        const bool still = record_.time_s[i] - still_from_s >= kStill_s;
-        mark(first, i, still ? Use::paused : Use::overridden);
+        const bool stood = stood_until_s >= record_.time_s[first];
+        mark(first, i, stood ? Use::paused : Use::overridden);
       }
     }
   }
