@@ -19,7 +19,6 @@ namespace steadyrest::apps::cli {
 namespace program_predistort {
 namespace {
 
-using contour::offline::ErrorFigures;
 using contour::offline::Predistorted;
 using kernel::units::um_from_mm;
 
