@@ -124,6 +124,30 @@ TEST(PathFollower, ACommandBesideThePathHasNoPlace) {
   }
 }
 
+// The tool is lifted off at 30 mm and put back at 50: the place is lost, found and proved again.
+TEST(PathFollower, FindsThePathAgainAfterALift) {
+  const auto path = bent();
+  PathFollower follower(path, 0.02);
+  const auto lost_after_mm = 50.0 + PathFollower::kProof_mm;
+  const auto most_wait_mm = 512 * 0.08;  // the longest between two searches
+  double found_from_mm = 0.0;
+  for (double s = 0.0; s < length(path); s += 0.08) {
+    Point command = at(path, s);
+    const bool lifted = s > 30.0 && s < 50.0;
+    command[2] += lifted ? 5.0 : 0.0;
+    const auto found = follower.next(command);
+    EXPECT_FALSE(lifted && found) << s;
+    if (s > 50.0 && found && found_from_mm == 0.0) {
+      found_from_mm = s;
+    }
+    if (found) {
+      EXPECT_NEAR(*found, s, 0.03);
+    }
+  }
+  EXPECT_GE(found_from_mm, lost_after_mm - 0.1);
+  EXPECT_LE(found_from_mm, lost_after_mm + most_wait_mm);
+}
+
 TEST(JudgedRecord, AnUndisturbedPartTeachesThroughout) {
   const auto path = bent();
   const Judged judged = judge(recorded(path, constant), path, planned(path), {});
