@@ -27,7 +27,6 @@ using kernel::outcome::Result;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
 using kernel::signal::Point;
-using nc::plan::PlannedPath;
 
 constexpr double kCutOffLags = 2.0;  ///< cut-off in terms of the softest axis's k/2π
 constexpr double kSamplesOfGain = 2.0;

@@ -40,9 +40,13 @@ LocalLine local_line(std::span<const double> time_s, std::span<const kernel::sig
     sums.add(std::exp(-0.5 * t * t), t, value[i]);
     return true;
   };
-  for (std::size_t i = j; i < time_s.size() && take(i); ++i) {
+  std::size_t after = j;
+  while (after < time_s.size() && take(after)) {
+    ++after;
   }
-  for (std::size_t i = j; i-- > 0 && take(i);) {
+  std::size_t before = j;
+  while (before > 0 && take(before - 1)) {
+    --before;
   }
   const double determinant = sums.w * sums.wtt - sums.wt * sums.wt;
   LocalLine out;
