@@ -8,6 +8,7 @@
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
+#include <steadyrest/nc/rewrite/replace/survey_program.hpp>
 #include <steadyrest/nc/rewrite/text/replaced_text.hpp>
 #include <steadyrest/nc/rewrite/text/tag.hpp>
 #include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
@@ -240,24 +241,10 @@ const CutBlock* CutBlocks::find(std::uint32_t line) const noexcept {
 
 kernel::outcome::Result<CutBlocks> cut_blocks(const std::string& path,
                                               const interpret::Config& config) {
-  auto source = read::LineSource::open(path);
-  if (!source) {
-    return std::unexpected(source.error());
+  auto found = survey_program<CutSurvey>(path, config);
+  if (found) {
+    std::ranges::stable_sort(found->blocks, {}, &CutBlock::line);
   }
-  KeptMoves kept;
-  auto run = interpret::ProgramRun::make(*source, config, kept);
-  if (!run) {
-    return std::unexpected(run.error());
-  }
-  CutSurvey survey(*run, kept, config.dialect);
-  while (run->step()) {
-    survey.line(source->line());
-  }
-  if (const auto report = run->take(); !report.refused.empty()) {
-    return std::unexpected(interpret::first_refusal(report, path));
-  }
-  CutBlocks found = survey.take();
-  std::ranges::stable_sort(found.blocks, {}, &CutBlock::line);
   return found;
 }
 

@@ -10,6 +10,7 @@
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/spindle_words.hpp>
+#include <steadyrest/nc/rewrite/replace/survey_program.hpp>
 #include <steadyrest/nc/rewrite/text/replaced_text.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 #include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
@@ -188,23 +189,7 @@ std::string number_text(double value, int decimals) {
 
 Result<std::vector<SpindleSpan>> spindle_spans(const std::string& program,
                                                const interpret::Config& config) {
-  auto source = read::LineSource::open(program);
-  if (!source) {
-    return std::unexpected(source.error());
-  }
-  KeptMoves kept;
-  auto run = interpret::ProgramRun::make(*source, config, kept);
-  if (!run) {
-    return std::unexpected(run.error());
-  }
-  SpanSurvey survey(*run, kept, config.dialect);
-  while (run->step()) {
-    survey.line(source->line());
-  }
-  if (const auto report = run->take(); !report.refused.empty()) {
-    return std::unexpected(interpret::first_refusal(report, program));
-  }
-  return survey.take();
+  return survey_program<SpanSurvey>(program, config);
 }
 
 void keep_carried_feeds(std::vector<SpindleSpan>& spans, std::vector<double>& ratio) {
