@@ -202,6 +202,15 @@ bool is_calculated(const read::Word& word) {
   return word.calculated || value.find_first_not_of(kNumber) != std::string_view::npos;
 }
 
+std::string_view word_beyond_a_cut(const read::Block& block) {
+  for (const read::Word& word : block.words()) {
+    if (!is_plain(word) || is_calculated(word)) {
+      return word.text;
+    }
+  }
+  return block.flow().kind == read::FlowKind::none ? std::string_view{} : "an O-word";
+}
+
 std::string_view sentence(Stays stays) noexcept {
   switch (stays) {
     case Stays::free:

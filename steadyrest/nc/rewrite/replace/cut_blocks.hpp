@@ -35,6 +35,9 @@ enum class Stays : std::uint8_t {
 [[nodiscard]] std::string_view sentence(Stays stays) noexcept;
 /// The value is not a number as it is written: X#1, X[1+2], X=R1.
 [[nodiscard]] bool is_calculated(const read::Word& word);
+/// The first word of a block beyond a line or an arc in plain numbers with its feed; empty when
+/// there is none.
+[[nodiscard]] std::string_view word_beyond_a_cut(const read::Block& block);
 
 /// A block that cuts, and what must be known to write other blocks in its place.
 struct CutBlock {
