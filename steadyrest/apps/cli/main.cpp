@@ -179,7 +179,7 @@ constexpr Entry kVerbs[] = {
      add_verb_program_strip,
      {"examples/programs/rib-pocket.ngc -o rib-pocket.ngc"}},
     {"program verify",
-     "Prove that a changed program differs only by a plan's corrections",
+     "Prove that a changed program does what its original does, apart from what was changed",
      add_verb_program_verify,
      {"examples/programs/rib-pocket.ngc examples/plans/rib-pocket-compensated.ngc --dialect "
       "linuxcnc --plan examples/plans/rib-pocket.json --machine "

@@ -1,46 +1,226 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/program/verb_program_verify.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/rewrite_options.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/kernel/file/memory_file.hpp>
 #include <steadyrest/nc/rewrite/prove/verify.hpp>
+#include <steadyrest/nc/rewrite/text/mark.hpp>
+#include <steadyrest/nc/rewrite/text/put_back.hpp>
+#include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
+#include <steadyrest/nc/rewrite/tube/verify_tube.hpp>
 
-// The proof that a changed program is the original plus the planned corrections: both are
-// interpreted and compared move by move.
+// The proof of a changed program: it and its original are interpreted and compared move by move.
+// Its marks tell what is to be proved: corrections inserted, blocks replaced, or both.
 namespace steadyrest::apps::cli {
 namespace program_verify {
 namespace {
 
+using nc::rewrite::ChangedLines;
+using nc::rewrite::Proof;
+using nc::rewrite::Told;
+using nc::rewrite::TubeProof;
+
 struct Options {
   RewriteOptions rewrite;
   std::string changed;
+  std::optional<double> tube_mm;
 };
 
-/// A proof either holds or is refused with the line at which it fails; there is no partial answer.
-Outcome run(const Options& options, Progress& progress) {
-  const auto task = read_rewrite_task(options.rewrite, options.changed, progress);
-  if (!task) {
-    return std::unexpected(task.error());
+/// What the changed program says of itself.
+struct Marks {
+  std::vector<Told> inserted;
+  std::vector<Told> replaced;
+};
+
+std::expected<Marks, Refusals> marks_of(const Options& options) {
+  auto inserted = nc::rewrite::read_mark(options.changed);
+  auto replaced = nc::rewrite::read_replaced_mark(options.changed);
+  if (!inserted || !replaced) {
+    return refused(inserted ? replaced.error() : inserted.error());
   }
-  const auto proof = nc::rewrite::verify(options.rewrite.program.file, options.changed, task->plan,
-                                         task->config, task->machine, task->settings);
+  const bool planned = !options.rewrite.plan.empty();
+  if (!inserted->empty() && !planned) {
+    return refused(bad_input(options.changed, "has corrections of a plan inserted",
+                             "give the plan with --plan PLAN.json"));
+  }
+  if (inserted->empty() && replaced->empty() && !planned) {
+    return refused(
+        bad_input(options.changed, "has neither corrections inserted nor blocks replaced",
+                  "give the program that compensate, predistort, feeds or speeds has written"));
+  }
+  return Marks{std::move(*inserted), std::move(*replaced)};
+}
+
+void put(Answer& answer, const std::optional<Proof>& plan, const std::optional<TubeProof>& tube) {
+  const Proof none;
+  const Proof& proof = plan ? *plan : none;
+  Json& json = answer.json;
+  json["proved"] = true;
+  json["moves"] = tube ? tube->moves : proof.moves;
+  json["corrected_moves"] = proof.corrected;
+  json["added_moves"] = proof.added;
+  json["inserted_lines"] = proof.inserted_lines;
+  json["changes"] = proof.changes;
+  json["largest_error_mm"] = proof.largest_error_mm;
+  json["seconds"] = plan ? Json(proof.program_s) : Json(nullptr);
+  if (plan) {
+    answer.text = fmt::format(
+        "proved: {} moves compared; {} differ by the planned corrections, none in any other way\n",
+        proof.moves, proof.corrected);
+  }
+  if (tube) {
+    json["replaced_lines"] = tube->replaced_lines;
+    json["new_lines"] = tube->new_lines;
+    json["tube_mm"] = tube->tube_mm;
+    json["farthest_mm"] = tube->farthest_mm;
+    answer.text += fmt::format(
+        "proved: {} moves; {} lines replaced by {}, at most {:.4f} mm from the original's path "
+        "(tube {:g} mm); everything else is the same\n",
+        tube->moves, tube->replaced_lines, tube->new_lines, tube->farthest_mm, tube->tube_mm);
+  }
+}
+
+/// How the programs are read, and the machine where one is given.
+struct Reading {
+  nc::interpret::Config config;
+  std::optional<kernel::machine::Machine> machine;
+};
+
+std::expected<Reading, Refusals> read(const Options& options, const std::vector<Told>& mark) {
+  const auto told = with_told(options.rewrite, options.changed, mark);
+  if (!told) {
+    return std::unexpected(told.error());
+  }
+  Reading out;
+  if (!told->machine.empty()) {
+    auto machine = read_machine(told->machine);
+    if (!machine) {
+      return std::unexpected(machine.error());
+    }
+    out.machine = std::move(*machine);
+  }
+  auto config =
+      out.machine ? program_config(told->program, *out.machine) : program_config(told->program);
+  if (!config) {
+    return refused(config.error());
+  }
+  out.config = std::move(*config);
+  return out;
+}
+
+std::expected<TubeProof, Refusals> prove_tube(const Options& options, const Reading& reading,
+                                              const std::string& original,
+                                              const std::vector<Told>& mark, Progress& progress) {
+  const auto permitted = nc::rewrite::permitted_of(options.changed, mark, options.tube_mm,
+                                                   reading.machine ? &*reading.machine : nullptr);
+  if (!permitted) {
+    return refused(permitted.error());
+  }
+  auto proof = nc::rewrite::verify_tube(
+      original, options.changed, reading.config, *permitted,
+      [&progress](double share, std::string_view what) { progress.update(share, what); });
   if (!proof) {
     return refused(proof.error());
   }
+  return *proof;
+}
+
+std::expected<RewriteTask, Refusals> plan_task(const Options& options, Progress& progress) {
+  return read_rewrite_task(options.rewrite, options.changed, progress);
+}
+
+std::expected<Proof, Refusals> prove_plan(const Options& options, const RewriteTask& task,
+                                          const std::string& changed) {
+  auto proof = nc::rewrite::verify(options.rewrite.program.file, changed, task.plan, task.config,
+                                   task.machine, task.settings);
+  if (!proof) {
+    return refused(proof.error());
+  }
+  return *proof;
+}
+
+/// A refusal about the program between original and changed, which has no name of its own: the
+/// same line of the changed one.
+Refusals of_changed(Refusals refusals, const std::string& between, const std::string& changed) {
+  const auto lines = ChangedLines::compare(between, changed);
+  for (Refusal& refusal : refusals) {
+    if (refusal.file == between) {
+      refusal.file = changed;
+      refusal.line = lines ? lines->place_of(static_cast<std::uint32_t>(refusal.line)) : 0;
+    }
+  }
+  return refusals;
+}
+
+/// Corrections in a program whose blocks were replaced: with the blocks put back it must be the
+/// original with its corrections, and the replaced blocks are proved against that.
+Outcome prove_both(const Options& options, const Marks& marks, Progress& progress) {
+  const auto back = nc::rewrite::put_back(options.changed);
+  if (!back) {
+    return refused(back.error());
+  }
+  const auto between = kernel::file::MemoryFile::make(back->text);
+  if (!between) {
+    return refused(between.error());
+  }
+  const auto task = plan_task(options, progress);
+  if (!task) {
+    return std::unexpected(task.error());
+  }
+  const auto plan = prove_plan(options, *task, between->path());
+  if (!plan) {
+    return std::unexpected(of_changed(plan.error(), between->path(), options.changed));
+  }
+  const auto tube = prove_tube(options, {.config = task->config, .machine = task->machine},
+                               between->path(), marks.replaced, progress);
+  if (!tube) {
+    return std::unexpected(of_changed(tube.error(), between->path(), options.changed));
+  }
   Answer answer;
-  answer.json["proved"] = true;
-  answer.json["moves"] = proof->moves;
-  answer.json["corrected_moves"] = proof->corrected;
-  answer.json["added_moves"] = proof->added;
-  answer.json["inserted_lines"] = proof->inserted_lines;
-  answer.json["changes"] = proof->changes;
-  answer.json["largest_error_mm"] = proof->largest_error_mm;
-  answer.json["seconds"] = proof->program_s;
-  answer.text = fmt::format(
-      "proved: {} moves compared; {} differ by the planned corrections, none in any other way\n",
-      proof->moves, proof->corrected);
+  put(answer, *plan, *tube);
+  return answer;
+}
+
+/// A proof either holds or is refused with the line at which it fails; there is no partial answer.
+Outcome run(const Options& options, Progress& progress) {
+  const auto marks = marks_of(options);
+  if (!marks) {
+    return std::unexpected(marks.error());
+  }
+  if (!marks->replaced.empty() && !options.rewrite.plan.empty()) {
+    return prove_both(options, *marks, progress);
+  }
+  Answer answer;
+  if (!marks->replaced.empty()) {
+    const auto reading = read(options, marks->replaced);
+    if (!reading) {
+      return std::unexpected(reading.error());
+    }
+    const auto tube =
+        prove_tube(options, *reading, options.rewrite.program.file, marks->replaced, progress);
+    if (!tube) {
+      return std::unexpected(tube.error());
+    }
+    put(answer, {}, *tube);
+    return answer;
+  }
+  const auto task = plan_task(options, progress);
+  if (!task) {
+    return std::unexpected(task.error());
+  }
+  const auto plan = prove_plan(options, *task, options.changed);
+  if (!plan) {
+    return std::unexpected(plan.error());
+  }
+  put(answer, *plan, {});
   return answer;
 }
 
@@ -52,6 +232,12 @@ void add_verb_program_verify(Session& session, Verb& verb) {
   add_machine_program_options(verb, options->rewrite.program);
   verb.reads("CHANGED", options->changed, "The changed program")->required();
   add_rewrite_options(verb, options->rewrite);
+  verb.get_option("--plan")->required(false)->description(
+      "Plan of the corrections (JSON); needed for a program that has corrections inserted");
+  verb.add_option("--tube-mm", options->tube_mm,
+                  "How far replaced blocks may leave the original's path; default: as the changed "
+                  "program says of itself")
+      ->check(within(0.0001, 10.0));
   session.on(verb,
              [options](Progress& progress) { return program_verify::run(*options, progress); });
 }

@@ -5,7 +5,8 @@
 
 namespace steadyrest::apps::cli {
 
-/// `steadyrest program verify`: proves that a changed program differs only by a plan's corrections.
+/// `steadyrest program verify`: proves that a changed program differs from its original only by a
+/// plan's corrections, by blocks replaced within a tube, or by both.
 void add_verb_program_verify(Session& session, Verb& verb);
 
 }  // namespace steadyrest::apps::cli

@@ -202,24 +202,13 @@ void set(RewriteOptions& options, const Told& one) {
 
 /// The changed program's mark supplies what the command line omits. Where both are given they must
 /// agree: a proof under other settings would prove nothing about this program.
-std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
-                                                       const std::string& changed,
-                                                       Progress& progress) {
-  const auto mark = nc::rewrite::read_mark(changed);
-  if (!mark) {
-    return refused(mark.error());
-  }
-  if (mark->empty()) {  // nothing is inserted
-    auto task = read_rewrite_task(options, progress);
-    if (task) {
-      task->settings.told.clear();
-    }
-    return task;
-  }
+std::expected<RewriteOptions, Refusals> with_told(const RewriteOptions& options,
+                                                  const std::string& changed,
+                                                  const std::vector<Told>& mark) {
   RewriteOptions told = options;
   for (const std::string name : kTold) {
     std::vector<std::string> made_with;
-    for (const Told& one : *mark) {
+    for (const Told& one : mark) {
       if (one.name == name) {
         made_with.push_back(one.value);
       }
@@ -234,7 +223,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
                     made_with.empty() ? fmt::format("was made without --{}", name)
                                       : fmt::format("was made with --{} {}, not {}", name,
                                                     fmt::join(made_with, " "), fmt::join(now, " ")),
-                    fmt::format("leave --{} out, or compensate the program again", name)));
+                    fmt::format("leave --{} out, or make the changed program again", name)));
     }
     if (now.empty()) {
       for (const std::string& value : made_with) {
@@ -242,7 +231,28 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
       }
     }
   }
-  auto task = read_rewrite_task(told, progress);
+  return told;
+}
+
+std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
+                                                       const std::string& changed,
+                                                       Progress& progress) {
+  const auto mark = nc::rewrite::read_mark(changed);
+  if (!mark) {
+    return refused(mark.error());
+  }
+  if (mark->empty()) {  // nothing is inserted
+    auto task = read_rewrite_task(options, progress);
+    if (task) {
+      task->settings.told.clear();
+    }
+    return task;
+  }
+  const auto told = with_told(options, changed, *mark);
+  if (!told) {
+    return std::unexpected(told.error());
+  }
+  auto task = read_rewrite_task(*told, progress);
   if (task) {
     task->settings.told = *mark;
   }

@@ -3,6 +3,7 @@
 
 #include <expected>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,7 @@
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/rewrite/text/mark.hpp>
 #include <steadyrest/nc/rewrite/text/plan_file.hpp>
 #include <steadyrest/nc/rewrite/text/settings.hpp>
 
@@ -49,6 +51,11 @@ struct RewriteTask {
 void add_rewrite_options(Verb& verb, RewriteOptions& options);
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                                      Progress& progress);
+/// The options with what the mark of a changed program supplies. Refused: an option that
+/// contradicts it.
+[[nodiscard]] std::expected<RewriteOptions, Refusals> with_told(
+    const RewriteOptions& options, const std::string& changed,
+    const std::vector<nc::rewrite::Told>& mark);
 /// For a changed program: its mark supplies what is not given, and must not contradict what is.
 [[nodiscard]] std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& options,
                                                                      const std::string& changed,

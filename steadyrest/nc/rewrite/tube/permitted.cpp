@@ -106,10 +106,15 @@ std::string feed_fault(const Permitted& permitted, const Move& block, const Move
                      feed_text(fresh), feed_text(block), least, most);
 }
 
+// program feeds writes F only where it changes: a block that stays may take over a lower one.
 std::string kept_feed_fault(const Permitted& permitted, const Move& original, const Move& changed) {
   const double ratio = speed_ratio(permitted, original, changed);
+  const bool cuts =
+      original.kind == interpret::MoveKind::linear || original.kind == interpret::MoveKind::arc;
+  const bool lower = permitted.feeds && cuts && !original.override_locked &&
+                     changed.feed_mm_s > 0.0 && changed.feed_mm_s < original.feed_mm_s;
   if (original.feed_mode == changed.feed_mode &&
-      (same_feed(original.feed_mm_s, changed.feed_mm_s) ||
+      (lower || same_feed(original.feed_mm_s, changed.feed_mm_s) ||
        same_feed(ratio * original.feed_mm_s, changed.feed_mm_s))) {
     return {};
   }

@@ -39,7 +39,8 @@ struct Permitted {
 /// when it may.
 [[nodiscard]] std::string feed_fault(const Permitted& permitted, const interpret::Move& block,
                                      const interpret::Move& fresh);
-/// The same for a move that is the original's: the same feed; for speeds in proportion, too.
+/// The same for a move of a line that stays: the same feed; for feeds a lower one that a block
+/// takes over; for speeds in proportion, too.
 [[nodiscard]] std::string kept_feed_fault(const Permitted& permitted,
                                           const interpret::Move& original,
                                           const interpret::Move& changed);
