@@ -44,6 +44,16 @@ std::string_view hidden_fault(std::string_view line, std::string_view original) 
   }
 }
 
+/// The new line is the original's, with the mark.
+bool is_same(std::string_view line, std::string_view original) {
+  if (!line.starts_with(original)) {
+    return false;
+  }
+  line.remove_prefix(original.size());
+  return line.starts_with(' ') && is_new(line.substr(1)) &&
+         line.find_first_of("(;", 2) == std::string_view::npos;
+}
+
 }  // namespace
 
 std::uint32_t ChangedLines::place_of(std::uint32_t original_line) const noexcept {
@@ -76,7 +86,10 @@ Result<ChangedLines> ChangedLines::compare(const std::string& original,
       kind = Kind::fresh;
       ++out.fresh_;
       ++out.new_lines_.back();
-      if (const auto fault = hidden_fault(line, was); !fault.empty()) {
+      const bool first = out.kind_.back() == Kind::was;
+      if (first && is_same(line, was)) {
+        kind = Kind::same;
+      } else if (const auto fault = hidden_fault(line, was); !fault.empty()) {
         return kernel::outcome::refuse(changed, after->number(), std::string(fault),
                                        std::string(kMakeAgain));
       }

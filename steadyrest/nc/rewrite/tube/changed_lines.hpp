@@ -15,10 +15,11 @@ namespace steadyrest::nc::rewrite {
 class ChangedLines {
  public:
   enum class Kind : std::uint8_t {
-    kept,  ///< of the original
-    head,  ///< the mark that says how the program was made
-    was,   ///< the comment that keeps a line of the original
-    fresh  ///< in its place
+    kept,   ///< of the original
+    head,   ///< the mark that says how the program was made
+    was,    ///< the comment that keeps a line of the original
+    fresh,  ///< in its place
+    same    ///< the first of these, and it is the original's line itself
   };
 
   /// Compares a changed program with its original: with its replaced lines put back it must be the

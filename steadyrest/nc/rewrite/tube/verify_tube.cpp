@@ -114,6 +114,8 @@ class TubeProver {
     if (!end()) {
       return std::unexpected(refusal_);
     }
+    proof_.replaced_lines = lines_.replaced();
+    proof_.new_lines = lines_.fresh();
     proof_.tube_mm = permitted_.tube_mm;
     proof_.farthest_mm = stretch_.farthest_mm();
     proof_.farthest_line = stretch_.farthest_line();
@@ -211,34 +213,52 @@ class TubeProver {
   }
 
   bool replaced(std::uint32_t number, std::uint32_t fresh) {
-    proof_.replaced_lines += 1;
-    proof_.new_lines += fresh;
     if (!b_->kept.moves.empty() || !b_->kept.events.empty()) {
       return refuse("a comment that keeps a replaced line does something");
     }
     const CutBlock* block = blocks_.find(number);
     const bool cut =
         block != nullptr && (block->stays == Stays::free || block->stays == Stays::motion_needed);
-    // The values of S and F may change in any line that is executed side by side.
-    if (!cut && permitted_.speeds && fresh == 1) {
-      return other_values();
+    if (cut) {
+      return replaced_block(fresh);
     }
-    if (!cut) {
-      return refuse(fmt::format("replaces line {} of the original, which must stay: {}", number,
-                                block == nullptr ? "it does not cut" : sentence(block->stays)));
-    }
-    return replaced_block(fresh);
-  }
-
-  bool other_values() {
-    if (!b_->step()) {
+    const std::uint32_t was = b_->run->line();
+    if (fresh > 0 && !b_->step()) {
       return refuse_end(*b_, "ends before the original");
     }
-    if (lines_.kind(b_->run->line()) != ChangedLines::Kind::fresh ||
-        !differs_in_values_alone(a_->run->block(), b_->run->block())) {
-      return refuse("replaces a line that must stay, and differs in more than values of S and F");
+    const auto kind = lines_.kind(b_->run->line());
+    if (permitted_.feeds && kind == ChangedLines::Kind::same) {
+      return kept() && feeds_alone(fresh - 1);
     }
-    return kept();
+    // The values of S and F may change in any line that is executed side by side.
+    if (permitted_.speeds && fresh == 1 && kind >= ChangedLines::Kind::fresh) {
+      return differs_in_values_alone(a_->run->block(), b_->run->block())
+                 ? kept()
+                 : refuse("replaces a line that must stay, and differs in more than S and F");
+    }
+    return refuse_at(changed_, was,
+                     fmt::format("replaces line {} of the original, which must stay: {}", number,
+                                 block == nullptr ? "it does not cut" : sentence(block->stays)),
+                     std::string(kMakeChangedAgain));
+  }
+
+  /// F after a line that stays: the feed that the next block takes over.
+  bool feeds_alone(std::uint32_t lines) {
+    for (; lines > 0; --lines) {
+      b_->note_position();
+      if (!b_->step()) {
+        return refuse_end(*b_, "ends before the original");
+      }
+      const auto words = b_->run->block().words();
+      const bool feed = words.size() == 1 && words[0].letter == 'F' && !is_calculated(words[0]);
+      // In a subprogram that is only read, neither is executed.
+      const bool alike = b_->run->executed() == a_->run->executed();
+      if (lines_.kind(b_->run->line()) != ChangedLines::Kind::fresh || !alike ||
+          (b_->run->executed() && !feed)) {
+        return refuse("is a new line after one that must stay, and holds more than F");
+      }
+    }
+    return true;
   }
 
   bool replaced_block(std::uint32_t fresh) {
@@ -276,7 +296,7 @@ class TubeProver {
   /// A line in place of a block, which has made its moves.
   bool fresh_line(const Move& block) {
     const interpret::ProgramRun& run = *b_->run;
-    if (!run.in_main() || lines_.kind(run.line()) != ChangedLines::Kind::fresh) {
+    if (!run.in_main() || lines_.kind(run.line()) < ChangedLines::Kind::fresh) {
       return refuse("executes another line than the original");
     }
     if (auto word = word_beyond_a_cut(run.block()); !word.empty()) {
