@@ -27,7 +27,10 @@ constexpr double kLongestLag_s = 0.1;  ///< of a servo whose gain is 10 1/s
 constexpr double kFirstSlack_ratio = 1.0 / 64.0;
 constexpr double kFirstSlack_mm = 1e-3;
 constexpr double kFiner = 1.0 / 16.0;
-constexpr int kRefinements = 2;
+constexpr std::uint8_t kRefinements = 2;
+/// Pieces about a place that count as near it; each time more are refined at once, so that a path
+/// that is near the tube's edge everywhere needs few rounds.
+constexpr std::size_t kNearPieces = 256;
 
 double distance_to_chord(const Point& point, const Point& a, const Point& b) noexcept {
   const Point way = geometry::subtract(b, a);
@@ -60,7 +63,7 @@ void Stretch::Path::clear(const Point& start) {
 }
 
 void Stretch::Path::add_line(const Point& end, std::uint32_t line, std::uint32_t block) {
-  pieces.push_back({.end_mm = end, .line = line, .block = block, .arc = 0});
+  pieces.push_back({.end_mm = end, .line = line, .block = block, .arc = 0, .finer = 0});
 }
 
 void Stretch::Path::add(const Move& move, std::uint32_t block) {
@@ -78,6 +81,23 @@ void Stretch::Path::add(const Move& move, std::uint32_t block) {
     arcs.push_back(segment);
     pieces.back().arc = static_cast<std::uint32_t>(arcs.size());
   }
+}
+
+bool Stretch::Path::refine(std::size_t piece, std::size_t around) {
+  const auto span_of = [&](std::size_t width) {
+    const std::size_t first = piece > width ? piece - width : 0;
+    return std::pair(first, std::min(pieces.size(), piece + width + 1));
+  };
+  std::uint8_t least = kRefinements;
+  const auto [near_first, near_end] = span_of(kNearPieces);
+  for (std::size_t i = near_first; i < near_end; ++i) {
+    least = pieces[i].arc == 0 ? least : std::min(least, pieces[i].finer);
+  }
+  const auto [first, end] = span_of(around);
+  for (std::size_t i = first; i < end && least < kRefinements; ++i) {
+    pieces[i].finer = std::max<std::uint8_t>(pieces[i].finer, least + 1);
+  }
+  return least < kRefinements;
 }
 
 void Stretch::begin(const Point& original_mm, const Point& changed_mm) {
@@ -105,7 +125,8 @@ Stretch::Chords Stretch::chords_of(const Path& path, double slack_mm) {
     const Piece& piece = path.pieces[i];
     PathSegment line;
     line.end_mm = piece.end_mm;
-    out.path.add(piece.arc == 0 ? line : path.arcs[piece.arc - 1], slack_mm);
+    out.path.add(piece.arc == 0 ? line : path.arcs[piece.arc - 1],
+                 slack_mm * std::pow(kFiner, piece.finer));
     out.piece.resize(out.path.size(), static_cast<std::uint32_t>(i));
   }
   if (out.path.size() == 0) {  // nothing moves: the point itself
@@ -206,8 +227,8 @@ std::optional<Stretch::Fault> Stretch::close() {
   if (!std::exchange(open_, false) || same()) {
     return std::nullopt;
   }
-  double slack_mm = std::min(kFirstSlack_mm, kFirstSlack_ratio * tube_mm_);
-  for (int refined = 0;; ++refined, slack_mm *= kFiner) {
+  const double slack_mm = std::min(kFirstSlack_mm, kFirstSlack_ratio * tube_mm_);
+  for (std::size_t around = kNearPieces;; around *= 2) {
     const Chords original = chords_of(original_, slack_mm);
     const Chords changed = chords_of(changed_, slack_mm);
     const auto verdict =
@@ -219,8 +240,9 @@ std::optional<Stretch::Fault> Stretch::close() {
       }
       return std::nullopt;
     }
-    const bool exact = original_.arcs.empty() && changed_.arcs.empty();
-    if (exact || refined == kRefinements) {
+    const bool one = original_.refine(original.piece[verdict.original], around);
+    const bool other = changed_.refine(changed.piece[verdict.changed], around);
+    if (!one && !other) {
       return fault(original, changed, verdict);
     }
   }

@@ -24,9 +24,9 @@ namespace steadyrest::nc::rewrite {
 /// Moves of a block belong to its place: to the block itself and a reach of path length before and
 /// after, reach = 4·tube + 0.1 s·feed. So no block lends its feed to another far away.
 ///
-/// Arcs become chords with a slack, first 1/64 of the tube, at most 1 µm; where that proves
-/// nothing, 1/16 of it and again 1/16. So a path outside by 1 µm is refused, and one inside by a
-/// few hundredths of a µm is proved.
+/// Arcs become chords with a slack, first 1/64 of the tube, at most 1 µm; near a place where that
+/// proves nothing, 1/16 of it and again 1/16. So a path outside by 1 µm is refused, and one inside
+/// by a few hundredths of a µm is proved.
 class Stretch {
  public:
   explicit Stretch(double tube_mm) : tube_mm_(tube_mm) {}
@@ -58,6 +58,7 @@ class Stretch {
     std::uint32_t line = 0;
     std::uint32_t block = 0;  ///< the block that it stands for
     std::uint32_t arc = 0;    ///< its number from 1; 0: a line
+    std::uint8_t finer = 0;   ///< how often the slack of its chords was made smaller
   };
   struct Path {
     kernel::signal::Point start_mm{};
@@ -67,6 +68,8 @@ class Stretch {
     void clear(const kernel::signal::Point& start);
     void add(const interpret::Move& move, std::uint32_t block);
     void add_line(const kernel::signal::Point& end, std::uint32_t line, std::uint32_t block);
+    /// Makes the slack smaller about a piece; false when it is as small as it gets.
+    bool refine(std::size_t piece, std::size_t around);
     [[nodiscard]] kernel::signal::Point end() const noexcept {
       return pieces.empty() ? start_mm : pieces.back().end_mm;
     }
