@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs examples and what `steadyrest program predistort` makes of them through LinuxCNC's interpreter `rs274`, and compares
+how far the paths are apart with what `steadyrest program verify` has proved.
+
+    scripts/rs274_tube.py [--steadyrest build/release/bin/steadyrest]
+
+Dense points of either path, from the lines and arcs that rs274 prints: the farthest from the other path is what verify says,
+to the points' spacing, and within the tube. Needs `rs274` (Debian: linuxcnc-uspace). Exit code 1 when one disagrees.
+"""
+import collections
+import itertools
+import json
+import math
+import os
+import subprocess
+import sys
+
+from nc_programs import ROOT
+from rs274_compensate import calls
+from rs274_oracle import Oracle, installed, numbers, oracle_parser
+
+PROGRAMS = ("rib-pocket.ngc", "circle-r10.ngc")
+MOST_MM = "1"  # shift: the circle needs more than the usual 0.5 mm
+FINE_MM = 0.02
+COARSE_MM = 0.1
+APART_MM = 0.002  # of the figures: half of a fine step over a chord of the farthest, and four printed digits
+CELL_MM = 1.2
+
+
+def arc_points(start, values, step):
+    x, y, centre_x, centre_y, turn, z = values[:6]
+    begin = math.atan2(start[1] - centre_y, start[0] - centre_x)
+    sweep = math.atan2(y - centre_y, x - centre_x) - begin
+    # A whole turn where start and end are the same to the printed digits.
+    while turn > 0 and sweep <= 1e-5:
+        sweep += 2 * math.pi
+    while turn < 0 and sweep >= -1e-5:
+        sweep -= 2 * math.pi
+    radius = math.dist(start[:2], (centre_x, centre_y))
+    grown = math.dist((x, y), (centre_x, centre_y)) - radius
+    parts = max(2, math.ceil(abs(sweep) * radius / step))
+    for i in range(parts + 1):
+        share = i / parts
+        at, angle = radius + share * grown, begin + share * sweep
+        yield (centre_x + at * math.cos(angle), centre_y + at * math.sin(angle), start[2] + share * (z - start[2]))
+
+
+def points(listed, step):
+    """Of all feed moves."""
+    out, at = [], [0.0, 0.0, 0.0]
+    for name, text in listed:
+        values = numbers(text)
+        if name == "ARC_FEED":
+            out += arc_points(at, values, step)
+            at = [values[0], values[1], values[5]]
+        elif name in ("STRAIGHT_FEED", "STRAIGHT_TRAVERSE"):
+            end = values[:3]
+            if name == "STRAIGHT_FEED":
+                parts = max(1, math.ceil(math.dist(at, end) / step))
+                out += [tuple(a + (e - a) * i / parts for a, e in zip(at, end)) for i in range(parts + 1)]
+            at = end
+    return out
+
+
+def farthest(of, path):
+    """The largest distance of these points from the nearest of the path's, as far as a cell."""
+    cells = collections.defaultdict(list)
+    for point in path:
+        cells[tuple(int(c // CELL_MM) for c in point)].append(point)
+    worst = 0.0
+    for point in of:
+        home = [int(c // CELL_MM) for c in point]
+        near = (cells.get(tuple(h + d for h, d in zip(home, by)), ()) for by in itertools.product((-1, 0, 1), repeat=3))
+        worst = max(worst, min((math.dist(point, other) for other in itertools.chain(*near)), default=math.inf))
+    return worst
+
+
+def run(steadyrest, *arguments):
+    done = subprocess.run([steadyrest, "program", *arguments, "--json"], capture_output=True, timeout=300, check=True)
+    return json.loads(done.stdout)
+
+
+def main():
+    parser = oracle_parser(__doc__)
+    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
+    arguments = parser.parse_args()
+    if not installed(arguments.rs274):
+        return 77
+    oracle, wrong = Oracle(arguments.rs274), 0
+    for name in PROGRAMS:
+        oracle.fresh()
+        program, changed = os.path.join(ROOT, "examples/programs", name), oracle.path("changed.ngc")
+        run(arguments.steadyrest, "predistort", program, "--machine", arguments.machine, "--max-shift-mm", MOST_MM, "-o", changed)
+        proof = run(arguments.steadyrest, "verify", program, changed)
+        listed = [calls(oracle, path, os.path.dirname(program))[1] for path in (program, changed)]
+        out = [farthest(points(listed[1], COARSE_MM), points(listed[0], FINE_MM)),
+               farthest(points(listed[0], COARSE_MM), points(listed[1], FINE_MM))]
+        right = max(out) <= proof["tube_mm"] + APART_MM and abs(max(out) - proof["farthest_mm"]) <= APART_MM
+        wrong += not right
+        print(f"{'right' if right else 'WRONG'} {name}: {out[0]:.4f} mm and back {out[1]:.4f} mm; "
+              f"proved {proof['farthest_mm']:.4f} mm in a tube of {proof['tube_mm']:g} mm")
+    oracle.close()
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
