@@ -14,10 +14,11 @@
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
+#include <steadyrest/nc/rewrite/tube/fresh_move.hpp>
+#include <steadyrest/nc/rewrite/tube/running.hpp>
 #include <steadyrest/nc/rewrite/tube/same_line.hpp>
 #include <steadyrest/nc/rewrite/tube/stretch.hpp>
 #include <steadyrest/nc/rewrite/tube/verify_tube.hpp>
-#include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
 #include <steadyrest/nc/rewrite/walk/survey.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -31,43 +32,6 @@ using kernel::outcome::Result;
 using kernel::signal::Point;
 
 constexpr std::string_view kMakeChangedAgain = "make the changed program again from this original";
-
-/// A program run line by line.
-struct Running {
-  static Result<std::unique_ptr<Running>> open(const std::string& path,
-                                               const interpret::Config& config) {
-    auto source = read::LineSource::open(path);
-    if (!source) {
-      return std::unexpected(source.error());
-    }
-    auto out = std::make_unique<Running>(std::move(*source), path);
-    auto run = interpret::ProgramRun::make(out->source, config, out->kept);
-    if (!run) {
-      return std::unexpected(run.error());
-    }
-    out->run.emplace(std::move(*run));
-    return out;
-  }
-  Running(read::LineSource lines, const std::string& file) : source(std::move(lines)), path(file) {}
-
-  bool step() {
-    kept.clear();
-    return run->step();
-  }
-  void note_position() {
-    for (const Move& move : kept.moves) {
-      if (move.kind != MoveKind::dwell) {
-        at_mm = machine_point(move, move.end);
-      }
-    }
-  }
-
-  read::LineSource source;
-  const std::string& path;
-  KeptMoves kept;
-  std::optional<interpret::ProgramRun> run;
-  std::optional<Point> at_mm;  ///< where its last move has ended
-};
 
 /// Modes that a new line must leave as they were.
 Modes lasting(Modes modes) {
@@ -308,44 +272,13 @@ class TubeProver {
     }
     proof_.moves += b_->kept.moves.size();
     for (const Move& move : b_->kept.moves) {
-      if (auto fault = fresh_difference(block, move); !fault.empty()) {
+      if (auto fault = fresh_move_difference(permitted_, block, move); !fault.empty()) {
         return refuse(std::move(fault));
       }
       stretch_.fresh(move);
     }
     b_->note_position();
     return true;
-  }
-
-  [[nodiscard]] std::string fresh_difference(const Move& block, Move move) const {
-    if (move.kind != MoveKind::linear && move.kind != MoveKind::arc) {
-      return "is a new line that does not cut along a line or an arc";
-    }
-    if (auto fault = feed_fault(permitted_, block, move); !fault.empty()) {
-      return fault;
-    }
-    auto fault = spindle_fault(permitted_, block.spindle_rev_s, move.spindle_rev_s);
-    if (!fault.empty()) {
-      return fault;
-    }
-    for (std::size_t i = 3; i < move.end.size(); ++i) {
-      if (!same(move.start[i], move.end[i]) || !same(move.end[i], block.end[i])) {
-        return "moves an axis beyond X, Y and Z";
-      }
-    }
-    if (move.machine_axes != 0 ||
-        !std::ranges::equal(move.offset, block.offset,
-                            [](double x, double y) { return same(x, y); })) {
-      return "differs from the block that it replaces in its offset";
-    }
-    move.kind = block.kind;
-    move.normal = block.normal;
-    move.turns = block.turns;
-    move.feed_mm_s = block.feed_mm_s;
-    move.spindle_rev_s = block.spindle_rev_s;
-    const std::string_view other = first_difference(block, move);
-    return other.empty() ? std::string{}
-                         : fmt::format("differs from the block that it replaces in its {}", other);
   }
 
   /// Both programs are together again: the path since they parted.
