@@ -93,7 +93,7 @@ TEST(ProgramVerify, ProvesCorrectionsAndReplacedBlocksInOneProgram) {
   // Another last correction shows at the end, the line after it; its number is the changed
   // program's.
   const std::string text = text_of_file(changed);
-  const auto line = put_in(changed, text, text.find("]", text.rfind("G10 L20")), "+1");
+  const auto line = put_in(changed, text, text.find(']', text.rfind("G10 L20")), "+1");
   expect_refused(verify + plan, "both.ngc:" + std::to_string(line + 1));
 }
 

@@ -162,7 +162,7 @@ RC_GTEST_PROP(TubeWalk, TheSlackOfChordsIsOnTheSafeSide, ()) {
   const auto arc = test::arc({0, 0, 0}, {0, 0, 1}, radius, radius + growth, 0.0, sweep, 0.2);
   ChordPath path{{arc.start_mm}, {}};
   path.add(arc, slack);
-  const double chords = static_cast<double>(path.size());
+  const auto chords = static_cast<double>(path.size());
   for (double u = 0.0; u < 1.0; u += 0.003) {
     const auto i = static_cast<std::size_t>(u * chords);
     const double share = u * chords - static_cast<double>(i);

@@ -125,8 +125,8 @@ std::string spindle_fault(const Permitted& permitted, double original, double ch
   if (original == changed) {
     return {};
   }
-  const std::string at = fmt::format("the spindle turns at {:.6g} rpm in place of {:.6g}",
-                                     rpm_from_rev_s(changed), rpm_from_rev_s(original));
+  std::string at = fmt::format("the spindle turns at {:.6g} rpm in place of {:.6g}",
+                               rpm_from_rev_s(changed), rpm_from_rev_s(original));
   if (!permitted.speeds || !(original * changed > 0.0)) {
     return at;
   }

@@ -18,7 +18,6 @@ namespace geometry = math::geometry;
 using geometry::ChordRange;
 using interpret::Move;
 using interpret::MoveKind;
-using kernel::signal::Geometry;
 using kernel::signal::PathSegment;
 using kernel::signal::Point;
 

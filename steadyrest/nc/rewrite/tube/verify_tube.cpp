@@ -25,7 +25,6 @@ namespace steadyrest::nc::rewrite {
 namespace {
 
 using interpret::Move;
-using interpret::MoveKind;
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;

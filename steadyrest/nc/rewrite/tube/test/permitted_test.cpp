@@ -81,7 +81,7 @@ TEST(Permitted, TheMarkMustSayWhatWasChanged) {
 }
 
 TEST(Permitted, TheTubeIsTheMarksUnlessItIsGiven) {
-  const auto tube = [](std::vector<Told> told, std::optional<double> given) {
+  const auto tube = [](const std::vector<Told>& told, std::optional<double> given) {
     const auto out = permitted_of("changed.nc", told, given, nullptr);
     EXPECT_TRUE(out.has_value());
     return out ? out->tube_mm : 0.0;
