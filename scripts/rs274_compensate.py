@@ -11,7 +11,6 @@ positions are put together from what rs274 prints: coordinates, work offset, G92
 correction in force, on Z alone; the variable file after the run must be that of the original. Needs `rs274`
 (Debian: linuxcnc-uspace). Exit code 1 when one program disagrees.
 """
-import collections
 import json
 import math
 import os
@@ -19,8 +18,8 @@ import re
 import subprocess
 import sys
 
-from nc_programs import ROOT, add_folders, dialect_of, programs, sample, short
-from rs274_oracle import CALL, MM_PER_INCH, Oracle, installed, numbers, oracle_parser
+from rs274_oracle import CALL, MM_PER_INCH, numbers
+from rs274_walk import restores, run, walk, with_end
 
 STEPS_UM = (50.0, 50.0, -30.0)
 MOVES = ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "ARC_FEED", "STRAIGHT_PROBE", "RIGID_TAP")
@@ -142,11 +141,6 @@ def totals_of(insertions):
     return {axis: list(by_line.values()) for axis, by_line in totals.items()}
 
 
-def run(steadyrest, *arguments):
-    done = subprocess.run([steadyrest, "program", *arguments, "--json"], capture_output=True, timeout=300)
-    return done.returncode, json.loads(done.stdout)
-
-
 def judge(steadyrest, oracle, program, machine):
     """(kind, text): kind is ours, rs274, wrong, or right"""
     oracle.fresh()
@@ -155,10 +149,7 @@ def judge(steadyrest, oracle, program, machine):
               "--variables", oracle.path("my.var"), "--subprograms", folder]
     code, time = run(steadyrest, "time", program, *common)
     if code and time["refused"][0].get("reason") == "no_program_end":  # a file without M2 is read as if it had one
-        ended = oracle.path("ended.ngc")
-        with open(program, "rb") as source, open(ended, "wb") as out:
-            out.write(source.read() + b"\nM2\n")
-        program = ended
+        program = with_end(oracle, program)
         code, time = run(steadyrest, "time", program, *common)
     if code or time.get("refused"):
         return "not read", time["refused"][0].get("reason", time["refused"][0].get("what", ""))
@@ -171,11 +162,8 @@ def judge(steadyrest, oracle, program, machine):
     code, made = run(steadyrest, "compensate", program, "--plan", oracle.path("plan.json"), "-o", changed, *common)
     if code:
         return "not compensated", made["refused"][0]["what"]
-    stripped = oracle.path("stripped.ngc")
-    run(steadyrest, "strip", changed, "-o", stripped)
-    with open(stripped, "rb") as one, open(program, "rb") as other:
-        if one.read() != other.read():
-            return "wrong", "strip does not restore it"
+    if not restores(steadyrest, oracle, changed, program):
+        return "wrong", "strip does not restore it"
     ok, before, left_before = calls(oracle, program, folder)
     if not ok:
         return "not read", "rs274 refuses the original"
@@ -190,35 +178,5 @@ def judge(steadyrest, oracle, program, machine):
     return "right", f"{len(machine_moves(before))} moves, {made['proved_moves']} proved"
 
 
-def main():
-    parser = oracle_parser(__doc__)
-    add_folders(parser)
-    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
-    parser.add_argument("--most", type=int, help="only short programs, and until so many are right")
-    parser.add_argument("--table", action="store_true", help="print every program, not only those that disagree")
-    arguments = parser.parse_args()
-    if not installed(arguments.rs274):
-        return 77
-    folders = [folder for folder in (arguments.data, os.path.join(ROOT, "examples/programs"),
-                                     os.path.join(ROOT, "tests/accepted/nc"), *arguments.linuxcnc) if os.path.isdir(folder)]
-    oracle = Oracle(arguments.rs274)
-    counts, reasons = collections.Counter(), collections.Counter()
-    found = [program for program in map(os.path.abspath, programs(folders)) if dialect_of(program) == "linuxcnc"]
-    for program in sample(found, arguments.most and len(found)):
-        if counts["right"] == arguments.most:
-            break
-        kind, text = judge(arguments.steadyrest, oracle, program, arguments.machine)
-        counts[kind] += 1
-        if kind.startswith("not"):
-            reasons[f"{kind}: {re.sub(r'[0-9.]+', '#', text)}"] += 1
-        if kind == "wrong" or arguments.table:
-            print(f"{kind:16} {short(program, root)}: {text}", flush=True)
-    oracle.close()
-    for reason, count in reasons.most_common():
-        print(f"{count:5} {reason}")
-    print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())))
-    return 1 if counts["wrong"] or not counts["right"] else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(walk(__doc__, judge))

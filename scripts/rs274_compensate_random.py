@@ -21,8 +21,9 @@ import subprocess
 import sys
 
 from nc_programs import ROOT
-from rs274_compensate import calls, disagreement, machine_moves, run, totals_of, trace
+from rs274_compensate import calls, disagreement, machine_moves, totals_of, trace
 from rs274_oracle import Oracle, installed, oracle_parser
+from rs274_walk import run
 
 WINDOWS_S = (2.0, 6.0, 60.0, 60.0)
 LEFT_OVER = ("G43.1 Z.4", "T4 M6\nG43", "G18", "G8", "G61", "G99", "G95", "M73", "G90.1")  # tells no file

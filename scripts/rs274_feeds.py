@@ -10,17 +10,12 @@ Every end point of the original is one of the changed program's, in order; betwe
 the original's line or arc, and it cuts at no higher feed. `strip` restores the original. Needs `rs274` (Debian:
 linuxcnc-uspace). Exit code 1 when one program disagrees.
 """
-import collections
-import json
 import math
 import os
-import re
-import subprocess
 import sys
 
-from nc_programs import ROOT, add_folders, dialect_of, programs, sample, short
 from rs274_compensate import calls, machine_moves
-from rs274_oracle import Oracle, installed, oracle_parser
+from rs274_walk import restores, run, walk, with_end
 
 MAX_ERROR_MM = 0.01
 MOST_PARTS = 400  # of one block
@@ -75,16 +70,11 @@ def feeds_of(listed):
     return [float(values) for name, values in listed if name == "SET_FEED_RATE"]
 
 
-def run(steadyrest, *arguments):
-    done = subprocess.run([steadyrest, "program", *arguments, "--json"], capture_output=True, timeout=300)
-    return done.returncode, json.loads(done.stdout)
-
-
 def judge(steadyrest, oracle, program, machine):
     """(kind, text): kind is not read, unchanged, wrong, or right"""
     oracle.fresh()
     folder = os.path.dirname(program)
-    changed, stripped = oracle.path("changed.ngc"), oracle.path("stripped.ngc")
+    changed = oracle.path("changed.ngc")
     code, made = run(steadyrest, "feeds", program, "--max-error-mm", str(MAX_ERROR_MM), "-o", changed, "--dialect", "linuxcnc",
                      "--machine", machine, "--tools", oracle.path("tool.tbl"), "--data-units", "inch",
                      "--variables", oracle.path("my.var"), "--subprograms", folder)
@@ -92,15 +82,10 @@ def judge(steadyrest, oracle, program, machine):
         what = made["refused"][0]["what"]
         # A file without M2 is read as if it had one.
         if "end it with M2" in what + made["refused"][0]["to_do"] and not program.endswith("ended.ngc"):
-            ended = oracle.path("ended.ngc")
-            with open(program, "rb") as source, open(ended, "wb") as out:
-                out.write(source.read() + b"\nM2\n")
-            return judge(steadyrest, oracle, ended, machine)
+            return judge(steadyrest, oracle, with_end(oracle, program), machine)
         return ("wrong" if "not cut the same" in what else "not read"), what
-    run(steadyrest, "strip", changed, "-o", stripped)
-    with open(stripped, "rb") as one, open(program, "rb") as other:
-        if one.read() != other.read():
-            return "wrong", "strip does not restore it"
+    if not restores(steadyrest, oracle, changed, program):
+        return "wrong", "strip does not restore it"
     if made["unchanged"]:
         return "unchanged", ""
     ok, before, _ = calls(oracle, program, folder)
@@ -117,36 +102,5 @@ def judge(steadyrest, oracle, program, machine):
     return ("wrong", fault) if fault else ("right", f"{len(machine_moves(before))} moves, {made['new_lines']} new lines")
 
 
-def main():
-    parser = oracle_parser(__doc__)
-    add_folders(parser)
-    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
-    parser.add_argument("--most", type=int, help="only short programs, and until so many are right")
-    parser.add_argument("--table", action="store_true", help="print every program, not only those that disagree")
-    arguments = parser.parse_args()
-    if not installed(arguments.rs274):
-        return 77
-
-    folders = [folder for folder in (arguments.data, os.path.join(ROOT, "examples/programs"),
-                                     os.path.join(ROOT, "tests/accepted/nc"), *arguments.linuxcnc) if os.path.isdir(folder)]
-    oracle = Oracle(arguments.rs274)
-    counts, reasons = collections.Counter(), collections.Counter()
-    found = [program for program in map(os.path.abspath, programs(folders)) if dialect_of(program) == "linuxcnc"]
-    for program in sample(found, arguments.most and len(found)):
-        if counts["right"] == arguments.most:
-            break
-        kind, text = judge(arguments.steadyrest, oracle, program, arguments.machine)
-        counts[kind] += 1
-        if kind == "not read":
-            reasons[re.sub(r"[0-9.]+", "#", text)] += 1
-        if kind == "wrong" or arguments.table:
-            print(f"{kind:16} {short(program, arguments.data)}: {text}", flush=True)
-    oracle.close()
-    for reason, count in reasons.most_common():
-        print(f"{count:5} {reason}")
-    print(", ".join(f"{count} {kind}" for kind, count in sorted(counts.items())))
-    return 1 if counts["wrong"] or not counts["right"] else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(walk(__doc__, judge))

@@ -10,15 +10,14 @@ to the points' spacing, and within the tube. Needs `rs274` (Debian: linuxcnc-usp
 """
 import collections
 import itertools
-import json
 import math
 import os
-import subprocess
 import sys
 
 from nc_programs import ROOT
 from rs274_compensate import calls
 from rs274_oracle import Oracle, installed, numbers, oracle_parser
+from rs274_walk import MACHINE, run
 
 PROGRAMS = ("rib-pocket.ngc", "circle-r10.ngc")
 MOST_MM = "1"  # shift: the circle needs more than the usual 0.5 mm
@@ -76,14 +75,16 @@ def farthest(of, path):
     return worst
 
 
-def run(steadyrest, *arguments):
-    done = subprocess.run([steadyrest, "program", *arguments, "--json"], capture_output=True, timeout=300, check=True)
-    return json.loads(done.stdout)
+def answer(steadyrest, *arguments):
+    code, made = run(steadyrest, *arguments)
+    if code:
+        sys.exit(f"steadyrest program {' '.join(arguments)}: {made['refused']}")
+    return made
 
 
 def main():
     parser = oracle_parser(__doc__)
-    parser.add_argument("--machine", default=os.path.join(ROOT, "examples/machines/linuxcnc-mill.toml"))
+    parser.add_argument("--machine", default=MACHINE)
     arguments = parser.parse_args()
     if not installed(arguments.rs274):
         return 77
@@ -91,8 +92,8 @@ def main():
     for name in PROGRAMS:
         oracle.fresh()
         program, changed = os.path.join(ROOT, "examples/programs", name), oracle.path("changed.ngc")
-        run(arguments.steadyrest, "predistort", program, "--machine", arguments.machine, "--max-shift-mm", MOST_MM, "-o", changed)
-        proof = run(arguments.steadyrest, "verify", program, changed)
+        answer(arguments.steadyrest, "predistort", program, "--machine", arguments.machine, "--max-shift-mm", MOST_MM, "-o", changed)
+        proof = answer(arguments.steadyrest, "verify", program, changed)
         listed = [calls(oracle, path, os.path.dirname(program))[1] for path in (program, changed)]
         out = [farthest(points(listed[1], COARSE_MM), points(listed[0], FINE_MM)),
                farthest(points(listed[0], COARSE_MM), points(listed[1], FINE_MM))]

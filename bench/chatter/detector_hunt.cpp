@@ -42,7 +42,7 @@ struct Cost {
   double samples = 0.0;
 };
 
-/// Starts of all alarms, s. The noise is drawn anew for each level, so that no level profits from
+/// Starts of all alarms, s. The noise is drawn afresh for each level, so that no level profits from
 /// one draw; the cut is the same for all.
 std::vector<double> alarms(const CutModel& model, const CutSignal& signal, double noise,
                            std::mt19937_64& rng, Cost& cost) {

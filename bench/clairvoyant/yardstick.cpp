@@ -15,8 +15,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/override/table.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>
 
@@ -201,12 +200,8 @@ std::shared_ptr<const nc::plan::PlannedPath> read_program(const std::string& fil
                                                           const Machine& machine) {
   nc::interpret::Config config;
   config.dialect = machine.control.dialect;
-  nc::plan::PathBuilder builder(machine);
-  const auto report = take(nc::interpret::run_file(file, config, builder));
-  if (!report.refused.empty()) {
-    fail(kernel::outcome::text(nc::interpret::first_refusal(report, file)));
-  }
-  return std::make_shared<const nc::plan::PlannedPath>(take(builder.take()));
+  return std::make_shared<const nc::plan::PlannedPath>(
+      take(nc::plan::plan_file(file, config, machine)));
 }
 
 Config dp_config(const Machine& machine) {

@@ -19,6 +19,7 @@
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
 #include <steadyrest/apps/cli/program/verb_program_check.hpp>
 #include <steadyrest/apps/cli/program/verb_program_compensate.hpp>
+#include <steadyrest/apps/cli/program/verb_program_correct.hpp>
 #include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_moves.hpp>
 #include <steadyrest/apps/cli/program/verb_program_predistort.hpp>
@@ -174,6 +175,11 @@ constexpr Entry kVerbs[] = {
      add_verb_program_speeds,
      {"examples/programs/slot.mpf --machine examples/machines/vmc-840d.toml --process "
       "examples/processes/slot-922hz.toml --depth-mm 1 -o slot-speeds.mpf"}},
+    {"program correct",
+     "Write everything that can be known beforehand into one program: speeds, path, feeds, heat",
+     add_verb_program_correct,
+     {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --max-error-mm "
+      "0.010 --hold-limit -o rib-pocket-correct.mpf"}},
     {"program strip",
      "Take the corrections out of an NC program, byte for byte",
      add_verb_program_strip,

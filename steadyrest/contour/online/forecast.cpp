@@ -259,7 +259,7 @@ struct Forecast::Walk {
 
   /// The servos follow the commanded point, which was at the path length `from_mm`, and the table
   /// follows them; where it is.
-  // The tool point's command has no velocity of its own: its mean over the step before stands in.
+  // The tool point's command carries no velocity: its mean over the step before is used instead.
   Point follow(double from_mm) noexcept {
     const double h = of.timing_.step_s;
     const double delta = s - cell->position_mm;

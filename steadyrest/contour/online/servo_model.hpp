@@ -17,6 +17,7 @@ struct AxisModel {
   double gain_1_s = 50.0;       ///< k
   double feed_forward = 0.0;    ///< a
   double velocity_lag_s = 0.0;  ///< τ
+  bool operator==(const AxisModel&) const = default;
 };
 
 /// Identifies servo gain k and feed-forward a of each axis while the machine cuts.

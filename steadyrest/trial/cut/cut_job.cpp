@@ -195,6 +195,7 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     if (!frame) {
       return std::unexpected(frame.error());
     }
+    job.on_frame(*frame);
     auto reason = kernel::outcome::Reason::none;
     if (layer) {
       const kernel::signal::Command command = layer(*frame);

@@ -32,6 +32,8 @@ struct Job {
   std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration
   std::shared_ptr<const Original> against = {};  ///< contour errors refer to it; empty: `path`
   // NOLINTEND(readability-redundant-member-init)
+  /// Called with every frame of the control, before a layer sees it.
+  std::function<void(const kernel::signal::Frame& frame)> on_frame = [](const auto&) {};
   /// Called now and then with the share of the path done, 0 … 1.
   std::function<void(double share)> progress = [](double) {};
 };

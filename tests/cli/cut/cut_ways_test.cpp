@@ -86,7 +86,7 @@ TEST(CutWays, OfAChangedProgramShowTheOriginalsWaysAndItsOwn) {
   EXPECT_EQ(figures_of(answer["ways"][4]), answer["with"]);
 }
 
-// A tighter limit takes longer; at the machine's own limit the way stands for the point.
+// A tighter limit takes longer; at the machine's own limit the point is the way itself.
 TEST(CutWays, TheCurveIsTheFeedOverrideAtOtherLimits) {
   const std::string line = "cut " + kRound + " --machine " + kVmc;
   const json answer = answer_of(line + " --curve");

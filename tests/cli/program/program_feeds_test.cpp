@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -17,7 +18,6 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kFeedsPart = "examples/programs/rib-pocket.mpf";
-const std::string kOnVmc = " --machine examples/machines/vmc-840d.toml";
 const std::string kOnSlowMill = " --machine examples/machines/linuxcnc-mill.toml";
 
 /// Of bench/clairvoyant: the best schedule of the 23 override steps for this part and machine.

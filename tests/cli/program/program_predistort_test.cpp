@@ -3,6 +3,7 @@
 #include <fstream>
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -16,14 +17,13 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kPredistortPart = "examples/programs/circle-r10.mpf";
-const std::string kPredistortMill = " --machine examples/machines/vmc-840d.toml";
 
 // What it predicts is what the simulated machine cuts; strip restores the program to the byte.
 TEST(ProgramPredistort, CutsWithoutTheErrorInTheSameTime) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.mpf");
   const auto answer =
-      answer_of("program predistort " + kPredistortPart + kPredistortMill + " -o " + changed);
+      answer_of("program predistort " + kPredistortPart + kOnVmc + " -o " + changed);
   EXPECT_FALSE(answer["unchanged"].get<bool>());
   // The closed form, and half of the backlash.
   EXPECT_NEAR(answer["predicted_error_max_before_mm"].get<double>(), 0.0877 + 0.001, 5e-4);
@@ -31,7 +31,7 @@ TEST(ProgramPredistort, CutsWithoutTheErrorInTheSameTime) {
   EXPECT_LT(answer["uncertain"]["error_max_mm"].get<double>(),
             answer["uncertain"]["error_max_before_mm"].get<double>());
   EXPECT_NEAR(answer["seconds_after"].get<double>(), answer["seconds_before"].get<double>(), 0.05);
-  const auto cut = answer_of("cut " + changed + " --against " + kPredistortPart + kPredistortMill);
+  const auto cut = answer_of("cut " + changed + " --against " + kPredistortPart + kOnVmc);
   EXPECT_LT(cut["without"]["contour_error_rms_mm"].get<double>(),
             0.02 * cut["original"]["contour_error_rms_mm"].get<double>());
   EXPECT_NEAR(cut["without"]["contour_error_max_mm"].get<double>(),
@@ -46,7 +46,7 @@ TEST(ProgramPredistort, SaysWhatItLeaves) {
   std::ofstream(scratch.at("part.mpf"))
       << "N10 G17 G71 G90 G94 G64\nN20 G0 X0 Y0\nN30 G1 X20 F3000\n"
          "N40 G93 G1 X30 F10\nN50 G94 G1 Y20 F3000\nN60 M30\n";
-  const auto answer = answer_of("program predistort " + scratch.at("part.mpf") + kPredistortMill +
+  const auto answer = answer_of("program predistort " + scratch.at("part.mpf") + kOnVmc +
                                 " --max-error-mm 0.001 -o " + scratch.at("changed.mpf"));
   EXPECT_GE(answer["kept"].size(), 1U);
   ASSERT_GE(answer["remaining"].size(), 1U);
@@ -59,16 +59,15 @@ TEST(ProgramPredistort, RefusesWhatItCannotDo) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.mpf");
   const std::string changed = scratch.at("twice.mpf");
-  answer_of("program predistort " + kPredistortPart + kPredistortMill + " -o " + changed);
-  expect_refused("program predistort " + changed + kPredistortMill + to, "replaced already");
+  answer_of("program predistort " + kPredistortPart + kOnVmc + " -o " + changed);
+  expect_refused("program predistort " + changed + kOnVmc + to, "replaced already");
   expect_all_refused(
       {"program predistort " + kPredistortPart + to,
-       "program predistort " + kPredistortPart + kPredistortMill,
-       "program predistort " + kPredistortPart + kPredistortMill + to + " --max-shift-mm 9",
-       "program predistort " + kPredistortPart + kPredistortMill + to + " --max-error-mm 0",
-       "program predistort " + kPredistortPart + kPredistortMill + to +
-           " --gain-uncertainty-percent 50",
-       "program predistort examples/programs/slot.toml" + kPredistortMill + to});
+       "program predistort " + kPredistortPart + kOnVmc,
+       "program predistort " + kPredistortPart + kOnVmc + to + " --max-shift-mm 9",
+       "program predistort " + kPredistortPart + kOnVmc + to + " --max-error-mm 0",
+       "program predistort " + kPredistortPart + kOnVmc + to + " --gain-uncertainty-percent 50",
+       "program predistort examples/programs/slot.toml" + kOnVmc + to});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <string>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -15,14 +16,13 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kSlotPart = "examples/programs/slot.mpf";
-const std::string kSpeedsMachine = " --machine examples/machines/vmc-840d.toml";
 const std::string kWithSlotProcess = " --process examples/processes/slot-922hz.toml";
 
 // The depth that the solver finds stable at the written speed, and the cut in time, agree.
 TEST(ProgramSpeeds, WritesASpeedAtWhichTheSlotIsStable) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.mpf");
-  const auto answer = answer_of("program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess +
+  const auto answer = answer_of("program speeds " + kSlotPart + kOnVmc + kWithSlotProcess +
                                 " --depth-mm 1 -o " + changed);
   ASSERT_EQ(answer["cuts"].size(), 1U);
   const auto& cut = answer["cuts"][0];
@@ -39,7 +39,7 @@ TEST(ProgramSpeeds, WritesASpeedAtWhichTheSlotIsStable) {
   EXPECT_TRUE(stable(cut["speed_rpm_after"].get<double>()));
   EXPECT_GT(cut["limit_depth_mm"].get<double>(), 1.0);
   // The feed per tooth is kept: the cut is shorter by the ratio, give or take its ramps.
-  const std::string of_cut = kSpeedsMachine + kWithSlotProcess + " --depth-mm 1 --chatter machine";
+  const std::string of_cut = kOnVmc + kWithSlotProcess + " --depth-mm 1 --chatter machine";
   const auto before = answer_of("cut " + kSlotPart + of_cut)["without"];
   const auto after = answer_of("cut " + changed + of_cut)["without"];
   EXPECT_LT(after["unforced_rms_um"].get<double>(), 0.2 * before["unforced_rms_um"].get<double>());
@@ -69,7 +69,7 @@ TEST(ProgramSpeeds, NamesCutsUnderG96AndOfOtherToolsAndLeavesThem) {
 
 TEST(ProgramSpeeds, LeavesASpeedThatIsStable) {
   const Scratch scratch;
-  const auto answer = answer_of("program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess +
+  const auto answer = answer_of("program speeds " + kSlotPart + kOnVmc + kWithSlotProcess +
                                 " --depth-mm 0.2 -o " + scratch.at("out.mpf"));
   EXPECT_EQ(answer["cuts"][0]["decision"], "keep");
   EXPECT_TRUE(answer["unchanged"].get<bool>());
@@ -78,7 +78,7 @@ TEST(ProgramSpeeds, LeavesASpeedThatIsStable) {
 
 TEST(ProgramSpeeds, SaysSoWhereNoSpeedHelps) {
   const Scratch scratch;
-  const auto answer = answer_of("program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess +
+  const auto answer = answer_of("program speeds " + kSlotPart + kOnVmc + kWithSlotProcess +
                                 " --depth-mm 20 -o " + scratch.at("out.mpf"));
   EXPECT_EQ(answer["cuts"][0]["decision"], "nothing");
   EXPECT_THAT(answer["cuts"][0]["reason"].get<std::string>(), HasSubstr("likely to be stable"));
@@ -89,17 +89,16 @@ TEST(ProgramSpeeds, RefusesWhatItCannotDo) {
   const std::string to = " -o " + scratch.at("out.mpf");
   const std::string depth = " --depth-mm 1";
   const std::string twice = scratch.at("twice.mpf");
-  answer_of("program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess + depth + " -o " +
-            twice);
-  expect_refused("program speeds " + twice + kSpeedsMachine + kWithSlotProcess + depth + to,
+  answer_of("program speeds " + kSlotPart + kOnVmc + kWithSlotProcess + depth + " -o " + twice);
+  expect_refused("program speeds " + twice + kOnVmc + kWithSlotProcess + depth + to,
                  "replaced already");
   expect_all_refused(
-      {"program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess + to,
-       "program speeds " + kSlotPart + kSpeedsMachine + depth + to,
+      {"program speeds " + kSlotPart + kOnVmc + kWithSlotProcess + to,
+       "program speeds " + kSlotPart + kOnVmc + depth + to,
        "program speeds " + kSlotPart + kWithSlotProcess + depth + to,
-       "program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess + depth,
-       "program speeds " + kSlotPart + kSpeedsMachine + kWithSlotProcess + " --depth-mm 0" + to,
-       "program speeds " + kSlotPart + kSpeedsMachine + " --process " + kSlotPart + depth + to});
+       "program speeds " + kSlotPart + kOnVmc + kWithSlotProcess + depth,
+       "program speeds " + kSlotPart + kOnVmc + kWithSlotProcess + " --depth-mm 0" + to,
+       "program speeds " + kSlotPart + kOnVmc + " --process " + kSlotPart + depth + to});
 }
 
 }  // namespace

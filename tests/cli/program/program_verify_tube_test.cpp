@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "examples.hpp"
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -15,7 +16,6 @@ namespace steadyrest::test {
 namespace {
 
 const std::string kTubeCircle = "examples/programs/circle-r10.mpf";
-const std::string kTubeVmc = " --machine examples/machines/vmc-840d.toml";
 const std::string kTubePocket = "examples/programs/rib-pocket.ngc";
 const std::string kTubeMill = " --machine examples/machines/linuxcnc-mill.toml";
 
@@ -23,7 +23,7 @@ const std::string kTubeMill = " --machine examples/machines/linuxcnc-mill.toml";
 TEST(ProgramVerify, ProvesAPredistortedProgramByWhatItSaysOfItself) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.mpf");
-  const auto made = answer_of("program predistort " + kTubeCircle + kTubeVmc + " -o " + changed);
+  const auto made = answer_of("program predistort " + kTubeCircle + kOnVmc + " -o " + changed);
   const auto proof = answer_of("program verify " + kTubeCircle + " " + changed);
   EXPECT_TRUE(proof["proved"].get<bool>());
   EXPECT_EQ(proof["replaced_lines"], made["replaced_lines"]);
@@ -32,7 +32,7 @@ TEST(ProgramVerify, ProvesAPredistortedProgramByWhatItSaysOfItself) {
   // On the circle the command is as far outside as the error would have been inside.
   EXPECT_NEAR(proof["farthest_mm"].get<double>(), made["largest_shift_mm"].get<double>(), 0.003);
   EXPECT_EQ(proof["inserted_lines"], 0);
-  answer_of("program verify " + kTubeCircle + " " + changed + kTubeVmc + " --tube-mm 0.1");
+  answer_of("program verify " + kTubeCircle + " " + changed + kOnVmc + " --tube-mm 0.1");
   expect_refused("program verify " + kTubeCircle + " " + changed + " --tube-mm 0.05",
                  "the tube is 0.05 mm");
   expect_refused("program verify " + kTubeCircle + " " + changed + " --dialect linuxcnc",
@@ -51,7 +51,7 @@ std::ptrdiff_t put_in(const std::string& file, std::string text, std::size_t at,
 TEST(ProgramVerify, RefusesAReplacedBlockChangedByHandWithItsLine) {
   const Scratch scratch;
   const std::string changed = scratch.at("changed.mpf");
-  answer_of("program predistort " + kTubeCircle + kTubeVmc + " -o " + changed);
+  answer_of("program predistort " + kTubeCircle + kOnVmc + " -o " + changed);
   const std::string text = text_of_file(changed);
   // Ten times the feed and more.
   const std::size_t feed = text.rfind(" F", text.find(" ;STEADYREST new"));
@@ -69,11 +69,10 @@ TEST(ProgramVerify, ProvesFeedsAndSpeedsOnTheSamePath) {
   EXPECT_GT(proof["replaced_lines"].get<int>(), 100);
   const std::string slot = "examples/programs/slot.mpf";
   const std::string speeds = scratch.at("speeds.mpf");
-  answer_of("program speeds " + slot + kTubeVmc +
+  answer_of("program speeds " + slot + kOnVmc +
             " --process examples/processes/slot-922hz.toml --depth-mm 1 -o " + speeds);
   EXPECT_GT(
-      answer_of("program verify " + slot + " " + speeds + kTubeVmc)["replaced_lines"].get<int>(),
-      0);
+      answer_of("program verify " + slot + " " + speeds + kOnVmc)["replaced_lines"].get<int>(), 0);
 }
 
 // Both marks: the plan's corrections are proved in the program with its blocks put back, the blocks

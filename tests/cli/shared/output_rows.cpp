@@ -24,6 +24,7 @@ const std::string kPaper = "examples/paper-thermal/";
 const std::string kWork =
     "--machine " + kPaper + "machine.toml --cyclogram " + kPaper + "cyclogram.toml";
 const std::string kRib = "examples/programs/rib-pocket.ngc";
+const std::string kCircle = "examples/programs/circle-r10.ngc";
 const std::string kRibPlan = "examples/plans/rib-pocket.json";
 const std::string kCorrected = "examples/plans/rib-pocket-compensated.ngc";
 const std::string kEdges = "examples/logs/sine-edges.csv";
@@ -35,7 +36,8 @@ std::vector<OutputRow> of_cut() {
        "examples/groove.ngc --machine " + batch + "machine.toml --batch 2",
        {{"--report",
          "out",
-         {"out/report.html", "out/report.json", "out/batch/report.html", "out/batch/report.json"}}},
+         {"out/report.html", "out/report.json", "out/batch/report.html", "out/batch/report.json"}},
+        {"--record", "part.csv", {"part.csv"}}},
        {"examples/groove.ngc", batch + "machine.toml"}},
   };
 }
@@ -119,15 +121,22 @@ std::vector<OutputRow> of_program() {
        kRib + " --plan " + kRibPlan + " --machine " + kMill,
        {file("out.ngc")},
        {kRib, kRibPlan, kMill}},
-      {"program feeds",
-       kRib + " --machine " + kMill + " --max-error-mm 0.01",
+      {"program correct",
+       kCircle + " --machine " + kMill + " --max-error-mm 0.1 --hold-limit",
        {file("out.ngc")},
-       {kRib, kMill}},
+       {kCircle, kMill}},
+      {"program feeds",
+       kCircle + " --machine " + kMill + " --max-error-mm 0.1",
+       {file("out.ngc")},
+       {kCircle, kMill}},
       {"program speeds",
        kRib + " --machine " + kMill + " --process " + kSlot + " --depth-mm 1 --tool 1",
        {file("out.ngc")},
        {kRib, kMill, kSlot}},
-      {"program predistort", kRib + " --machine " + kMill, {file("out.ngc")}, {kRib, kMill}},
+      {"program predistort",
+       kCircle + " --machine " + kMill + " --max-shift-mm 2",
+       {file("out.ngc")},
+       {kCircle, kMill}},
       {"program strip", kCorrected, {file("out.ngc")}, {kCorrected}},
   };
 }

@@ -16,6 +16,7 @@ kernel::outcome::Result<trial::cut::Recorder> CutRuns::run(const Asked& asked) {
        .choices = setup_.chatter.choices,
        .listener = setup_.chatter.listener,
        .against = asked.against,
+       .on_frame = asked.on_frame,
        .progress = [&](double of_this) { progress_.update(share(of_this), asked.what); }});
   ++done_;
   return record;

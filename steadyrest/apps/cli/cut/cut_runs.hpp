@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +31,7 @@ struct Asked {
   std::shared_ptr<const trial::cut::Original> against = nullptr;  ///< empty: the path itself
   /// A machine file for the layer of this run alone.
   std::optional<kernel::machine::Machine> believed = std::nullopt;
+  std::function<void(const kernel::signal::Frame&)> on_frame = [](const auto&) {};
 };
 
 /// Runs them one after another; each takes its share of the progress bar.

@@ -16,6 +16,7 @@
 #include <steadyrest/apps/cli/cut/cut_plan.hpp>
 #include <steadyrest/apps/cli/cut/cut_runs.hpp>
 #include <steadyrest/apps/cli/cut/cut_ways.hpp>
+#include <steadyrest/apps/cli/cut/part_recorder.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/program_options.hpp>
@@ -42,6 +43,7 @@ struct Options {
   std::string machine;
   std::string believed;  ///< machine file for the layer alone; empty: the machine's own
   std::string report;
+  std::string record;
   std::optional<double> limit_um;
   std::optional<std::string> strategy;
   AgainstOptions against;
@@ -124,6 +126,25 @@ bool wants_ways(const Options& options, const Setup& setup) {
   return options.ways.ways || options.ways.curve || (!options.report.empty() && worth);
 }
 
+/// The cut without the layer, recorded where that is wanted.
+Result<Recorder> cut_without(const Options& options, Asked asked, CutRuns& runs) {
+  if (options.record.empty()) {
+    return runs.run(asked);
+  }
+  auto record = PartRecorder::open(options.record);
+  if (!record) {
+    return std::unexpected(record.error());
+  }
+  asked.on_frame = [&](const kernel::signal::Frame& frame) { record->add(frame); };
+  auto cut = runs.run(asked);
+  if (cut) {
+    if (auto written = record->commit(); !written) {
+      return std::unexpected(written.error());
+    }
+  }
+  return cut;
+}
+
 Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
                      const std::shared_ptr<const trial::cut::Original>& against,
                      const Options& options, Progress& progress) {
@@ -140,7 +161,8 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
     }
     original = std::move(*cut);
   }
-  auto without = runs.run({.what = "cutting without the layer", .path = path, .against = against});
+  auto without = cut_without(
+      options, {.what = "cutting without the layer", .path = path, .against = against}, runs);
   if (!without) {
     return std::unexpected(without.error());
   }
@@ -270,6 +292,7 @@ void add_verb_cut(Session& session, Verb& verb) {
     }
     return files;
   });
+  cut::add_record_option(verb, options->record);
   verb.add_option("--layer-machine", options->believed,
                   "Machine file that the layer is given instead: shows what a wrong one costs")
       ->type_name("FILE");

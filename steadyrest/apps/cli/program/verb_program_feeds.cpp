@@ -3,10 +3,10 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cli/program/feeds_ahead.hpp>
+#include <steadyrest/apps/cli/program/ahead/feeds_ahead.hpp>
+#include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
 #include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
-#include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 
 // For a control without a live connection: the servo model knows beforehand where the feed must
@@ -24,7 +24,6 @@ struct Options {
 };
 
 constexpr double kUm = 1000.0;
-constexpr double kPercent = 100.0;
 
 Json json_of(const FeedReserve& reserve) {
   return {{"margin_mm", reserve.margin_mm},
@@ -33,57 +32,29 @@ Json json_of(const FeedReserve& reserve) {
 }
 
 std::string text_of(const FeedsAhead& done, const FeedReserve& reserve, double max_error_mm) {
-  Table table({"", "before", "after"});
-  const auto row = [&](const char* name, const char* unit, double before, double after) {
-    table.row(
-        {name, fmt::format("{:.2f} {}", before, unit), fmt::format("{:.2f} {}", after, unit)});
-  };
-  const auto& before = done.before.nominal();
-  const auto& after = done.after.nominal();
-  row("cycle time", "s", done.seconds_before, done.seconds_after);
-  row("contour error, largest", "µm", kUm * before.max_mm, kUm * after.max_mm);
-  row("contour error, RMS", "µm", kUm * before.rms_mm(), kUm * after.rms_mm());
-  row("of the cut over the limit", "%", kPercent * done.before.share_over(),
-      kPercent * done.after.share_over());
   std::string text = fmt::format(
       "limit {:.2f} µm = {:.2f} µm less {:.2f} µm margin, {:.2f} µm for the backlash and {:.2f} µm "
       "for the encoders\n{}",
       kUm * reserve.limit_mm, kUm * max_error_mm, kUm * reserve.margin_mm,
-      kUm * reserve.backlash_mm, kUm * reserve.encoder_mm, table.text());
+      kUm * reserve.backlash_mm, kUm * reserve.encoder_mm,
+      prediction_table(done, reserve.limit_mm).text());
   text += done.changed.replaced == 0
               ? std::string("the program keeps the limit as it is; nothing is changed\n")
               : fmt::format("{} blocks replaced by {}\n", done.changed.replaced,
                             done.changed.new_lines);
-  constexpr std::size_t kShown = 10;
-  for (std::size_t i = 0; i < std::min(kShown, done.over.size()); ++i) {
-    text += fmt::format("line {}: {:.1f} µm remain ({})\n", done.over[i].line,
-                        kUm * done.over[i].error_mm, done.over[i].why);
-  }
-  if (done.over.size() > kShown) {
-    text += fmt::format("… {} more (--json has all)\n", done.over.size() - kShown);
-  }
-  return text;
+  return text + first_of(done.over.size(), [&](std::size_t i) {
+           return fmt::format("line {}: {} remain ({})\n", done.over[i].line,
+                              in_um(done.over[i].error_mm), done.over[i].why);
+         });
 }
 
 Answer answer_of(const FeedsAhead& done, const SourceProgram& program, const FeedReserve& reserve,
                  double max_error_mm) {
   Answer answer;
-  const auto& before = done.before.nominal();
-  const auto& after = done.after.nominal();
-  answer.json["seconds_before"] = done.seconds_before;
-  answer.json["seconds_after"] = done.seconds_after;
-  answer.json["predicted_error_max_mm"] = after.max_mm;
-  answer.json["predicted_error_rms_mm"] = after.rms_mm();
-  answer.json["predicted_error_max_before_mm"] = before.max_mm;
-  answer.json["predicted_error_rms_before_mm"] = before.rms_mm();
-  answer.json["share_over_limit_before"] = done.before.share_over();
-  answer.json["share_over_limit"] = done.after.share_over();
-  answer.json["max_error_mm"] = max_error_mm;
+  put_prediction(answer, done, max_error_mm);
   answer.json["reserved"] = json_of(reserve);
   answer.json["limit_mm"] = reserve.limit_mm;
-  answer.json["unchanged"] = done.changed.replaced == 0;
-  answer.json["replaced_lines"] = done.changed.replaced;
-  answer.json["new_lines"] = done.changed.new_lines;
+  put_replaced(answer, done.changed);
   answer.json["remaining"] = Json::array();
   for (const OverLimit& one : done.over) {
     answer.json["remaining"].push_back(
@@ -136,10 +107,7 @@ void add_verb_program_feeds(Session& session, Verb& verb) {
                   "its largest backlash are kept back from it")
       ->required()
       ->check(within(0.0001, 10.0));
-  verb.writes("-o,--output", options->output,
-              "The changed program; with --force it may replace the program itself",
-              program_content())
-      ->required();
+  add_changed_program(verb, options->output);
   session.on(verb,
              [options](Progress& progress) { return program_feeds::run(*options, progress); });
 }

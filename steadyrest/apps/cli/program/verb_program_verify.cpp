@@ -147,7 +147,7 @@ std::expected<Proof, Refusals> prove_plan(const Options& options, const RewriteT
   return *proof;
 }
 
-/// A refusal about the program between original and changed, which has no name of its own: the
+/// A refusal about the program between original and changed, which is in no file: the
 /// same line of the changed one.
 Refusals of_changed(Refusals refusals, const std::string& between, const std::string& changed) {
   const auto lines = ChangedLines::compare(between, changed);

@@ -71,6 +71,13 @@ void add_optional_program(Verb& verb, ProgramOptions& options, const std::string
   }
 }
 
+void add_changed_program(Verb& verb, std::string& output) {
+  verb.writes("-o,--output", output,
+              "The changed program; with --force it may replace the program itself",
+              program_content())
+      ->required();
+}
+
 /// The settings that change what a program means: the same text is another part with other offsets,
 /// tools or decimal rules.
 Result<Config> program_config(const ProgramOptions& options) {

@@ -34,6 +34,8 @@ void add_program_options(Verb& verb, ProgramOptions& options);
 void add_machine_program_options(Verb& verb, ProgramOptions& options);
 /// The same for a verb with an optional program: --program, and the options that only apply to one.
 void add_optional_program(Verb& verb, ProgramOptions& options, const std::string& description);
+/// Adds -o, the file of the changed program.
+void add_changed_program(Verb& verb, std::string& output);
 
 /// The interpreter's configuration; reads the files that the options name.
 [[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(

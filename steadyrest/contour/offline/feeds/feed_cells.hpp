@@ -28,7 +28,7 @@ struct FeedRoom {
   std::size_t most_cells = 400'000;  ///< cells are longer where there would be more
 };
 
-/// A planned path whose feed moves are divided into short cells, each with a feed of its own.
+/// A planned path whose feed moves are divided into short cells; each cell may have another feed.
 ///
 /// Cell i is segment i of `path`. Everything else stays as the planner made it: geometry, limits,
 /// corners and events.

@@ -21,7 +21,7 @@ constexpr int kGroupRuns = 6;
 constexpr int kNearRuns = 3;
 /// The search's interpolator period, in 1/k.
 constexpr double kPeriodOfLag = 0.05;
-/// Part of a segment shorter than this is no block of its own, in interpolator periods.
+/// The shortest part of a segment that becomes a separate block, in interpolator periods.
 constexpr double kShortestPeriods = 3.0;
 
 /// Cells are more blocks than the program will have: the look-ahead reaches as far along the path.

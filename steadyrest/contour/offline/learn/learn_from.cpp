@@ -2,32 +2,15 @@
 #include <utility>
 
 #include <steadyrest/contour/offline/learn/learn_from.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 
 namespace steadyrest::contour::offline {
-namespace {
-
 using kernel::outcome::Result;
-
-Result<nc::plan::PlannedPath> plan_of(const std::string& program, const Lessons& lessons) {
-  nc::plan::PathBuilder builder(lessons.machine);
-  const auto report = nc::interpret::run_file(program, lessons.config, builder);
-  if (!report) {
-    return std::unexpected(report.error());
-  }
-  if (!report->refused.empty()) {
-    return std::unexpected(nc::interpret::first_refusal(*report, program));
-  }
-  return builder.take();
-}
-
-}  // namespace
 
 Result<LearntFrom> learn_from(const std::vector<CutPart>& parts, const Lessons& lessons) {
   LearntFrom out;
   for (const CutPart& part : parts) {
-    const auto cut = plan_of(part.program, lessons);
+    const auto cut = nc::plan::plan_file(part.program, lessons.config, lessons.machine);
     if (!cut) {
       return std::unexpected(cut.error());
     }

@@ -28,6 +28,12 @@ class Learnt {
   /// The stretches of one record, ascending, not overlapping.
   void add(std::vector<Stretch> stretches) { parts_.push_back(std::move(stretches)); }
 
+  /// A displacement on top of the records': refinements add up.
+  void refine(std::vector<Stretch> stretches) { refinements_.push_back(std::move(stretches)); }
+  [[nodiscard]] std::size_t refinements() const noexcept { return refinements_.size(); }
+  /// Takes the later ones back.
+  void unrefine(std::size_t keep) { refinements_.resize(keep); }
+
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
   /// 0 where nothing was learnt; of several records the mean by their weights.
   [[nodiscard]] kernel::signal::Point shift_mm(double at_mm) const noexcept;
@@ -37,6 +43,7 @@ class Learnt {
   [[nodiscard]] Knot mean(double at_mm) const noexcept;
 
   std::vector<std::vector<Stretch>> parts_;
+  std::vector<std::vector<Stretch>> refinements_;
 };
 
 }  // namespace steadyrest::contour::offline

@@ -65,4 +65,12 @@ class ErrorFigures {
   std::size_t over_ = 0;
 };
 
+/// A program and its changed version, both predicted.
+struct PredictedChange {
+  double seconds_before = 0.0;
+  double seconds_after = 0.0;
+  ErrorFigures before;
+  ErrorFigures after;
+};
+
 }  // namespace steadyrest::contour::offline

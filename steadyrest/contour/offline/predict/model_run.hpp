@@ -28,7 +28,7 @@ using ServoModels = std::array<online::AxisModel, 3>;
 /// How far each axis is behind its command, s: g = (1 − a)/k.
 [[nodiscard]] std::array<double, 3> first_lags_s(const ServoModels& models) noexcept;
 
-/// Which length of the original path each segment of a changed one stands for, mm.
+/// For each segment of a changed path, the original path lengths at its start and end, mm.
 struct PathMap {
   std::vector<double> start_mm;
   std::vector<double> end_mm;

@@ -8,8 +8,7 @@
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
 
@@ -118,7 +117,7 @@ class Writer {
   std::vector<std::vector<std::size_t>> written_;
 };
 
-/// Which original length each segment of the changed path stands for.
+/// Original path lengths at the ends of each segment of the changed path.
 class Mapping {
  public:
   Mapping(const Program& program, const std::vector<Piece>& pieces, const NewLines& lines,
@@ -239,21 +238,17 @@ Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& p
   if (!replaced) {
     return std::unexpected(replaced.error());
   }
-  nc::plan::PathBuilder builder(program.machine);
-  const auto report = nc::interpret::run_text(replaced->text, program.config, builder);
-  if (!report) {
-    return std::unexpected(report.error());
-  }
-  if (!report->refused.empty()) {
-    return std::unexpected(nc::interpret::first_refusal(*report, program.file));
-  }
-  auto path = builder.take();
+  auto path = nc::plan::plan_text(replaced->text, program.config, program.machine, program.file);
   if (!path) {
     return std::unexpected(path.error());
   }
-  Changed changed{
-      .replaced = std::move(*replaced), .path = std::move(*path), .start_mm = {}, .end_mm = {}};
+  Changed changed{.lines = {},
+                  .replaced = std::move(*replaced),
+                  .path = std::move(*path),
+                  .start_mm = {},
+                  .end_mm = {}};
   Mapping(program, pieces, *lines, writer.written(), changed).run();
+  changed.lines = std::move(*lines);
   return changed;
 }
 

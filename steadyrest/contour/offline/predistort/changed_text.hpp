@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <steadyrest/contour/offline/predistort/piece.hpp>
+#include <steadyrest/contour/offline/predistort/shape/piece.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
@@ -14,8 +14,9 @@
 
 namespace steadyrest::contour::offline {
 
-/// A changed program, planned, and what its path stands for.
+/// A changed program, its planned path, and the original path lengths along it.
 struct Changed {
+  nc::rewrite::NewLines lines;
   nc::rewrite::Replaced replaced;
   nc::plan::PlannedPath path;
   /// By segment of the path: original path length at its start and end.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <steadyrest/contour/offline/predict/model_run.hpp>
-#include <steadyrest/contour/offline/predistort/joints.hpp>
+#include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 
 namespace steadyrest::contour::offline {
 

@@ -6,35 +6,38 @@
 #include <set>
 #include <utility>
 
-#include <steadyrest/contour/offline/predistort/command_shape.hpp>
-#include <steadyrest/contour/offline/predistort/corner_errors.hpp>
-#include <steadyrest/contour/offline/predistort/joints.hpp>
+#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/followed_run.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
-#include <steadyrest/contour/offline/predistort/run_errors.hpp>
-#include <steadyrest/contour/offline/predistort/segment_use.hpp>
+#include <steadyrest/contour/offline/predistort/refinement.hpp>
+#include <steadyrest/contour/offline/predistort/report.hpp>
+#include <steadyrest/contour/offline/predistort/shape/command_shape.hpp>
+#include <steadyrest/contour/offline/predistort/shape/joints.hpp>
+#include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
+#include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
-#include <steadyrest/contour/offline/predistort/small_rounding.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
 
 using kernel::machine::Machine;
 using kernel::outcome::Result;
-using nc::rewrite::CutBlock;
-using nc::rewrite::Stays;
 
-constexpr double kAcrossShare = 0.9;  ///< of the acceleration across the path, for kinks
-constexpr double kWorse_mm = 5e-4;    ///< an error that grows by less is rounding of the text
-constexpr double kLarger = 1.05;   ///< of its largest error, which a run may get as its RMS falls
-constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
-constexpr int kLastRounds = 2;     ///< with the best share at each corner
-constexpr std::size_t kMostRemaining = 1000;
-/// Tried at corners besides the default; parts that take longer are left with the default.
+constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
+constexpr int kMostRevisions = 3;      ///< runs that must stay are found at most so often
+constexpr int kLastRounds = 2;         ///< with the best share at each corner
+constexpr int kRefinements = 8;        ///< of a part of two minutes; longer parts get fewer …
+constexpr int kFewestRefinements = 2;  ///< … but not fewer than this
+constexpr double kRefinedTime_s = 120.0;
+constexpr double kLeastShare = 0.125;   ///< of what is left, in one refinement
+constexpr double kRefinedTime = 1.005;  ///< of the program's own, once refined
+constexpr int kMostHolds = 16;
+constexpr double kLeastFeed = 0.25;  ///< of the programmed one, where feeds fall
+constexpr int kHoldRounds = 2;
+/// Tried at corners in addition to the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
 constexpr double kWorthwhile = 0.25;      ///< of the limit: a run whose error is less stays
 constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
@@ -68,8 +71,7 @@ class Predistortion {
     if (!planned) {
       return std::unexpected(planned.error());
     }
-    auto before = follow(planned->path, {.start_mm = planned->start_mm, .end_mm = planned->end_mm},
-                         planned->replaced.origin);
+    auto before = follow(judging(), *planned, corners_);
     if (!before) {
       return std::unexpected(before.error());
     }
@@ -89,6 +91,9 @@ class Predistortion {
     keep_original(std::move(planned->replaced));
     for (int revision = 0; revision <= kMostRevisions; ++revision) {
       speed_ = best_speed_ = first_speed_;
+      caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
+      holds_ = false;
+      learnt_.unrefine(0);
       if (auto done = rounds(how_.rounds); !done) {
         return std::unexpected(done.error());
       }
@@ -97,6 +102,12 @@ class Predistortion {
           return std::unexpected(done.error());
         }
       }
+      if (auto done = refine(); !done) {
+        return std::unexpected(done.error());
+      }
+      if (auto done = hold(); !done) {
+        return std::unexpected(done.error());
+      }
       if (best_mm_ < 0.0 || !bar_worse()) {
         break;
       }
@@ -104,7 +115,9 @@ class Predistortion {
       best_mm_ = -1.0;
       keep_original({});
     }
-    report();
+    out_.lines = std::move(best_.lines);
+    out_.replaced = std::move(best_.replaced);
+    add_report(out_, how_.limit_mm);
     return std::move(out_);
   }
 
@@ -114,7 +127,8 @@ class Predistortion {
     if (!replaced.text.empty()) {
       original_ = std::move(replaced);
     }
-    out_.replaced = original_;
+    best_.lines.clear();
+    best_.replaced = original_;
     out_.after = out_.before;
     out_.seconds_after = out_.seconds_before;
     out_.largest_shift_mm = 0.0;
@@ -126,42 +140,15 @@ class Predistortion {
       return std::unexpected(blocks.error());
     }
     blocks_ = std::move(*blocks);
-    // Merged lines would have no segment of their own. The changed program is planned as it is.
-    shaped_as_ = machine_;
-    shaped_as_.control.merge_share = 0.0;
-    nc::plan::PathBuilder builder(shaped_as_);
-    WithoutSmallRounding moves(builder);
-    const auto report = nc::interpret::run_file(file_, config_, moves);
-    if (!report) {
-      return std::unexpected(report.error());
-    }
-    if (!report->refused.empty()) {
-      return std::unexpected(nc::interpret::first_refusal(*report, file_));
-    }
-    auto path = builder.take();
+    auto path = shaped_path(file_, config_, machine_);
     if (!path) {
-      kernel::outcome::Refusal refusal = path.error();
-      refusal.file = file_;
-      return std::unexpected(std::move(refusal));
+      return std::unexpected(path.error());
     }
     path_ = std::move(*path);
-    for (const CutBlock& block : blocks_.blocks) {
-      if (block.stays != Stays::free) {
-        out_.stays[block.stays].push_back(block.line);
-      }
-    }
     return {};
   }
 
   [[nodiscard]] std::vector<SegmentUse> use() const { return segment_use(path_, blocks_, barred_); }
-
-  /// What records have shown beyond the model.
-  [[nodiscard]] std::function<kernel::signal::Point(double)> unknown() const {
-    if (learnt_.empty()) {
-      return nullptr;
-    }
-    return [this](double foot_mm) { return learnt_.unknown_mm(foot_mm); };
-  }
 
   Result<void> learn_from_parts() {
     auto learnt = learn_from(how_.parts, {.machine = machine_,
@@ -177,38 +164,15 @@ class Predistortion {
     return {};
   }
 
-  Result<FollowedRun> follow(const nc::plan::PlannedPath& path, const PathMap& map,
-                             const std::vector<std::uint32_t>& origin) {
-    FollowedRun run{.figures = ErrorFigures(how_.limit_mm, others_.size()),
-                    .speed = {},
-                    .corner_mm = {},
-                    .runs = RunErrors(*runs_, others_.size())};
-    CornerErrors corner_errors(corners_);
-    const auto seconds = run_model({.machine = machine_,
-                                    .path = path,
-                                    .original = path_,
-                                    .map = map,
-                                    .model = model_,
-                                    .others = others_,
-                                    .backlash_mm = backlash_mm(machine_.axes),
-                                    .unknown = unknown()},
-                                   [&](const ModelSample& sample) {
-                                     run.speed.add(sample.progress_mm, sample.command_mm_s);
-                                     corner_errors.add(sample);
-                                     if (sample.cuts) {
-                                       const std::uint32_t line = sample.line < origin.size()
-                                                                      ? origin[sample.line]
-                                                                      : sample.line;
-                                       run.figures.add(sample, line);
-                                       run.runs.add(sample, line);
-                                     }
-                                   });
-    if (!seconds) {
-      return std::unexpected(seconds.error());
-    }
-    run.seconds = *seconds;
-    run.corner_mm = corner_errors.take();
-    return run;
+  [[nodiscard]] Judging judging() const {
+    return {.machine = machine_,
+            .original = path_,
+            .model = model_,
+            .others = others_,
+            .learnt = learnt_,
+            .runs = *runs_,
+            .limit_mm = how_.limit_mm,
+            .hold_mm = how_.hold_mm};
   }
 
   /// The pieces for a command at this speed.
@@ -220,7 +184,7 @@ class Predistortion {
                          limits.plane({0.0, 0.0, 1.0}).acceleration_mm_s2;
     auto made = CommandShape(path_, use, inverse_, motion, learnt_, shape).pieces();
     made = lead_corners(made, motion, corners_);
-    return round_kinks(made, limits, kAcrossShare);
+    return caps_->apply(round_kinks(made, limits, kAcrossShare));
   }
 
   /// Rounds until the speeds agree; the best is kept.
@@ -258,24 +222,28 @@ class Predistortion {
     if (!changed) {
       return std::unexpected(changed.error());
     }
-    auto run = follow(changed->path, {.start_mm = changed->start_mm, .end_mm = changed->end_mm},
-                      changed->replaced.origin);
+    auto run = follow(judging(), *changed, corners_);
     if (!run) {
       return std::unexpected(run.error());
     }
     const auto& figures = run->figures.nominal();
     const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
-    const bool counts = run->seconds <= kMostTime * out_.seconds_before &&
-                        figures.rms_mm() <= out_.before.nominal().rms_mm();
-    if (counts && (best_mm_ < 0.0 || score_mm < best_mm_)) {
+    const double most_time = learnt_.refinements() > 0 ? kRefinedTime : kMostTime;
+    const bool in_time = holds_ || run->seconds <= most_time * out_.seconds_before;
+    const bool better =
+        holds_ ? run->over.size() < best_over_.size() : best_mm_ < 0.0 || score_mm < best_mm_;
+    if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
       best_mm_ = score_mm;
+      best_over_ = run->over;
       runs_after_ = std::move(run->runs);
+      best_errors_ = std::move(run->errors);
       best_speed_ = speed_;
-      out_.replaced = std::move(changed->replaced);
+      best_ = std::move(*changed);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
       out_.largest_shift_mm = std::min(shift_mm, how_.max_shift_mm);
     }
+    over_ = std::move(run->over);
     speed_ = std::move(run->speed);
     corner_mm_ = std::move(run->corner_mm);
     return {};
@@ -305,50 +273,76 @@ class Predistortion {
     return rounds(kLastRounds);
   }
 
+  /// Where the path alone does not keep the limit the feed falls.
+  Result<void> hold() {
+    if (how_.hold_mm <= 0.0 || best_mm_ < 0.0) {
+      return {};
+    }
+    holds_ = true;
+    over_ = best_over_;
+    speed_ = best_speed_;
+    for (int i = 0; i < kMostHolds && caps_->tighten(over_, speed_, how_.hold_mm); ++i) {
+      if (auto done = rounds(kHoldRounds); !done) {
+        return done;
+      }
+    }
+    return {};
+  }
+
+  /// What the best round leaves on the model whose inverse is written: on the machine itself it
+  /// would be differences of gains that may not be there.
+  Result<std::vector<ErrorSample>> left() {
+    const ServoModels sure = cautious(model_, how_.gain_uncertainty);
+    if (sure == model_) {
+      return best_errors_;
+    }
+    const std::vector<ServoModels> none;
+    auto run = follow({.machine = machine_,
+                       .original = path_,
+                       .model = sure,
+                       .others = none,
+                       .learnt = learnt_,
+                       .runs = *runs_,
+                       .limit_mm = how_.limit_mm},
+                      best_, corners_);
+    if (!run) {
+      return std::unexpected(run.error());
+    }
+    return std::move(run->errors);
+  }
+
+  /// Takes half of it away, like what a record has shown; less where that is too much.
+  Result<void> refine() {
+    const double of_all = kRefinedTime_s / std::max(kRefinedTime_s, out_.seconds_before);
+    const int most = std::max(kFewestRefinements, static_cast<int>(of_all * kRefinements));
+    double share = 0.5;
+    for (int i = 0; i < most && best_mm_ >= 0.0 && share >= kLeastShare; ++i) {
+      const double before_mm = best_mm_;
+      auto errors = left();
+      if (!errors) {
+        return std::unexpected(errors.error());
+      }
+      learnt_.refine(refinement(std::move(*errors), path_, use(), model_, share));
+      speed_ = best_speed_;
+      if (auto done = rounds(1); !done) {
+        return done;
+      }
+      if (best_mm_ >= before_mm) {
+        learnt_.unrefine(learnt_.refinements() - 1);
+        share *= 0.5;
+      }
+    }
+    return {};
+  }
+
   /// Runs whose error grows, over all models, stay. True when there are new ones.
   bool bar_worse() {
     bool fresh = false;
-    for (std::size_t i = 0; i < runs_->size(); ++i) {
-      const auto before = runs_before_->worst(i);
-      const auto after = runs_after_->worst(i);
-      if (after.rms_mm <= before.rms_mm + kWorse_mm &&
-          after.max_mm <= kLarger * before.max_mm + kWorse_mm) {
-        continue;
-      }
-      for (const std::uint32_t line : runs_->lines(i)) {
-        fresh = barred_.insert(line).second || fresh;
-        out_.worse.push_back(line);
-      }
+    for (const std::uint32_t line : worse_lines(*runs_, *runs_before_, *runs_after_)) {
+      fresh = barred_.insert(line).second || fresh;
+      out_.worse.push_back(line);
     }
     return fresh;
-  }
-
-  void report() {
-    const auto worst = [](const ErrorFigures& figures, auto&& value) {
-      double most = value(figures.nominal());
-      for (const auto& of : figures.others()) {
-        most = std::max(most, value(of));
-      }
-      return most;
-    };
-    const auto largest = [](const ErrorFigures::Of& of) { return of.max_mm; };
-    const auto rms = [](const ErrorFigures::Of& of) { return of.rms_mm(); };
-    out_.worst_before_mm = worst(out_.before, largest);
-    out_.worst_after_mm = worst(out_.after, largest);
-    out_.worst_rms_before_mm = worst(out_.before, rms);
-    out_.worst_rms_after_mm = worst(out_.after, rms);
-    const auto& after = out_.after.nominal();
-    for (std::size_t line = 0; line < after.by_line_mm.size(); ++line) {
-      if (after.line_mm(line) > how_.limit_mm) {
-        out_.remaining.push_back({.line = static_cast<std::uint32_t>(line),
-                                  .before_mm = out_.before.nominal().line_mm(line),
-                                  .after_mm = after.line_mm(line)});
-      }
-    }
-    std::ranges::stable_sort(out_.remaining, std::ranges::greater{}, &Remaining::after_mm);
-    out_.remaining.resize(std::min(out_.remaining.size(), kMostRemaining));
-    std::ranges::sort(out_.worse);
-    std::ranges::sort(out_.too_far);
   }
 
   const std::string& file_;
@@ -359,15 +353,20 @@ class Predistortion {
   std::vector<ServoModels> others_;
   ServoInverse inverse_;
   Learnt learnt_;
-  Machine shaped_as_;
   nc::rewrite::CutBlocks blocks_;
   nc::plan::PlannedPath path_;
   nc::rewrite::Replaced original_;  ///< with nothing replaced
   CommandSpeed first_speed_;        ///< of the program as it is
   CommandSpeed speed_;              ///< of the last run
   CommandSpeed best_speed_;         ///< that the best round's pieces were made for
-  std::vector<Corner> corners_;     ///< as led in the last pieces
-  std::vector<double> corner_mm_;   ///< their errors in the last run
+  Changed best_;
+  std::vector<ErrorSample> best_errors_;
+  std::vector<ErrorPlace> best_over_;
+  std::vector<ErrorPlace> over_;  ///< of the last run
+  std::optional<FeedCaps> caps_;
+  bool holds_ = false;             ///< feeds may fall
+  std::vector<Corner> corners_;    ///< as led in the last pieces
+  std::vector<double> corner_mm_;  ///< their errors in the last run
   double best_mm_ = -1.0;
   int done_ = 0;
   std::set<std::uint32_t> barred_;  ///< lines that stay after all

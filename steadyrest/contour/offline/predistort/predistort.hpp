@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +13,6 @@
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 
 namespace steadyrest::contour::offline {
 
@@ -35,6 +33,9 @@ struct PredistortConfig {
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
   int rounds = 4;
+  /// Feeds fall where the predicted error stays above this (FeedCaps), and the program takes
+  /// longer; 0: all feeds stay.
+  double hold_mm = 0.0;
   /// Parts cut before, to learn from (learn/).
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<CutPart> parts = {};
@@ -51,13 +52,10 @@ struct Remaining {
   double after_mm = 0.0;
 };
 
-struct Predistorted {
+struct Predistorted : PredictedChange {
+  nc::rewrite::NewLines lines;  ///< in place of the program's
   nc::rewrite::Replaced replaced;
   std::vector<LearningFigures> learnt;  ///< from each part
-  double seconds_before = 0.0;
-  double seconds_after = 0.0;
-  ErrorFigures before;
-  ErrorFigures after;
   /// Over all models within the uncertainty.
   double worst_before_mm = 0.0;
   double worst_after_mm = 0.0;
@@ -67,7 +65,6 @@ struct Predistorted {
   std::vector<Remaining> remaining;    ///< the worst first
   std::vector<std::uint32_t> too_far;  ///< lines that stay, since the shift would be too large
   std::vector<std::uint32_t> worse;    ///< lines that stay, since some model makes them worse
-  std::map<nc::rewrite::Stays, std::vector<std::uint32_t>> stays;
 };
 
 /// Refused: what the interpreter or planner refuses; a program that cuts nothing.

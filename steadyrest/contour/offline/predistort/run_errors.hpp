@@ -8,10 +8,8 @@
 #include <map>
 #include <vector>
 
-#include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predict/model_run.hpp>
-#include <steadyrest/contour/offline/predistort/command_shape.hpp>
-#include <steadyrest/contour/offline/predistort/tool_motion.hpp>
+#include <steadyrest/contour/offline/predistort/shape/command_shape.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {
@@ -106,13 +104,21 @@ class RunErrors {
   std::size_t run_ = static_cast<std::size_t>(-1);
 };
 
-/// A run on the servo model.
-struct FollowedRun {
-  ErrorFigures figures;
-  CommandSpeed speed;
-  std::vector<double> corner_mm;  ///< largest error near each corner
-  RunErrors runs;
-  double seconds = 0.0;
-};
+/// The lines of all runs whose error grows, over all models.
+[[nodiscard]] inline std::vector<std::uint32_t> worse_lines(const CutRuns& runs,
+                                                            const RunErrors& before,
+                                                            const RunErrors& after) {
+  constexpr double kRounding_mm = 5e-4;  // of the text
+  constexpr double kLarger = 1.05;       // the largest error, as the RMS falls
+  std::vector<std::uint32_t> lines;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto was = before.worst(i);
+    const auto is = after.worst(i);
+    if (is.rms_mm > was.rms_mm + kRounding_mm || is.max_mm > kLarger * was.max_mm + kRounding_mm) {
+      lines.insert(lines.end(), runs.lines(i).begin(), runs.lines(i).end());
+    }
+  }
+  return lines;
+}
 
 }  // namespace steadyrest::contour::offline

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include <steadyrest/contour/offline/predistort/piece.hpp>
+#include <steadyrest/contour/offline/predistort/shape/piece.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {
 
-/// How far pieces are from the path that they stand for.
+/// How far pieces are from the path that they replace.
 struct Shift {
   double largest_mm = 0.0;
   std::vector<std::uint32_t> too_far;  ///< lines with a piece beyond the bound, ascending

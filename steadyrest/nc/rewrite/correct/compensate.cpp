@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include <fmt/core.h>
@@ -30,8 +32,9 @@ using kernel::outcome::Result;
 class Rewriter {
  public:
   Rewriter(const std::string& program, const Plan& plan, const interpret::Config& config,
-           const kernel::machine::Machine& machine, const Settings& settings)
+           const kernel::machine::Machine& machine, const Settings& settings, std::string* text)
       : program_(program),
+        text_(text),
         plan_(plan),
         config_(with_unknown_offsets(config, settings)),
         machine_(machine),
@@ -285,6 +288,11 @@ class Rewriter {
       return std::unexpected(of_original(proof.error(), writer->path()));
     }
     result_.proof = *proof;
+    if (text_ != nullptr) {
+      std::ifstream made(writer->path(), std::ios::binary);
+      text_->assign(std::istreambuf_iterator<char>(made), {});
+      return {};
+    }
     return writer->commit();
   }
 
@@ -339,6 +347,7 @@ class Rewriter {
   }
 
   const std::string& program_;
+  std::string* text_;  ///< receives the result in place of the output
   const Plan& plan_;
   const interpret::Config config_;
   const kernel::machine::Machine& machine_;
@@ -360,11 +369,12 @@ class Rewriter {
 
 Result<Compensated> compensate(const std::string& program, const std::string& output,
                                const Plan& plan, const interpret::Config& config,
-                               const kernel::machine::Machine& machine, const Settings& settings) {
+                               const kernel::machine::Machine& machine, const Settings& settings,
+                               std::string* text) {
   if (auto checked = check_plan(plan, settings, config); !checked) {
     return std::unexpected(checked.error());
   }
-  return Rewriter(program, plan, config, machine, settings).run(output);
+  return Rewriter(program, plan, config, machine, settings, text).run(output);
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -37,10 +37,12 @@ struct Compensated {
 /// Writes `program` with the plan's corrections to `output`: reads, writes beside `output`, proves
 /// the result with verify(), renames. Any refusal leaves `output` unchanged.
 ///
+/// `text`, where given, receives the result, and `output` is left as it is.
+///
 /// `output` may be `program` itself. Memory does not grow with the program.
 [[nodiscard]] kernel::outcome::Result<Compensated> compensate(
     const std::string& program, const std::string& output, const Plan& plan,
     const interpret::Config& config, const kernel::machine::Machine& machine,
-    const Settings& settings);
+    const Settings& settings, std::string* text = nullptr);
 
 }  // namespace steadyrest::nc::rewrite

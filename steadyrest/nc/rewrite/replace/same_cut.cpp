@@ -188,7 +188,7 @@ class Comparison {
     }
     return at == b.size() ? "" : "more moves";
   }
-  /// The moves from `at` on that stand for one of the original.
+  /// The moves from `at` on that replace one of the original.
   std::string compare(const Move& move, const std::vector<Move>& b, std::size_t& at) const {
     for (; at < b.size(); ++at) {
       if (const std::string_view what = difference(move, b[at], changes_); !what.empty()) {

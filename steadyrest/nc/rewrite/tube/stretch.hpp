@@ -56,7 +56,7 @@ class Stretch {
   struct Piece {
     kernel::signal::Point end_mm{};
     std::uint32_t line = 0;
-    std::uint32_t block = 0;  ///< the block that it stands for
+    std::uint32_t block = 0;  ///< the original's block that it replaces
     std::uint32_t arc = 0;    ///< its number from 1; 0: a line
     std::uint8_t finer = 0;   ///< how often the slack of its chords was made smaller
   };

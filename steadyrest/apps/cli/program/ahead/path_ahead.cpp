@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <expected>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/program/ahead/feeds_ahead.hpp>
+#include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
+#include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+
+namespace steadyrest::apps::cli {
+namespace {
+
+using contour::offline::Predistorted;
+using kernel::outcome::Result;
+
+constexpr double kPercent = 100.0;
+
+void put_figures(Answer& answer, const Predistorted& done, const PathOptions& options) {
+  put_prediction(answer, done, options.max_error_mm);
+  Json& json = answer.json;
+  json["uncertain"] = {{"gain_percent", options.gain_uncertainty_percent},
+                       {"error_max_before_mm", done.worst_before_mm},
+                       {"error_max_mm", done.worst_after_mm},
+                       {"error_rms_before_mm", done.worst_rms_before_mm},
+                       {"error_rms_mm", done.worst_rms_after_mm}};
+  json["largest_shift_mm"] = done.largest_shift_mm;
+  json["remaining"] = Json::array();
+  for (const auto& one : done.remaining) {
+    json["remaining"].push_back({{"line", one.line},
+                                 {"predicted_error_before_mm", one.before_mm},
+                                 {"predicted_error_mm", one.after_mm}});
+  }
+  json["too_far"] = done.too_far;
+  json["not_better"] = done.worse;
+}
+
+std::string text_of(const Predistorted& done, const PathOptions& options) {
+  std::string text =
+      prediction_table(done, options.max_error_mm)
+          .row({fmt::format("largest, gains up to {:g} % off", options.gain_uncertainty_percent),
+                in_um(done.worst_before_mm), in_um(done.worst_after_mm)})
+          .row({fmt::format("RMS, gains up to {:g} % off", options.gain_uncertainty_percent),
+                in_um(done.worst_rms_before_mm), in_um(done.worst_rms_after_mm)})
+          .text();
+  text += done.replaced.replaced == 0
+              ? "nothing can be won on this machine; the program is unchanged\n"
+              : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
+                            done.replaced.replaced, done.replaced.new_lines,
+                            in_um(done.largest_shift_mm));
+  text += first_of(done.remaining.size(), [&](std::size_t i) {
+    const auto& one = done.remaining[i];
+    return fmt::format("line {}: {} remain of {}\n", one.line, in_um(one.after_mm),
+                       in_um(one.before_mm));
+  });
+  if (!done.too_far.empty()) {
+    text += fmt::format("unchanged, because the shift would exceed {:g} mm: {} blocks\n",
+                        options.max_shift_mm, done.too_far.size());
+  }
+  if (!done.worse.empty()) {
+    text +=
+        fmt::format("unchanged, because it would not get better: {} blocks\n", done.worse.size());
+  }
+  return text;
+}
+
+/// What the predicted error may be, so that the true one keeps the limit; 0: feeds stay.
+double hold_mm(const PathOptions& options, const kernel::machine::Machine& machine) {
+  const FeedReserve reserve = feed_reserve(machine, options.max_error_mm);
+  // Half of the backlash is part of the prediction.
+  return options.hold ? options.max_error_mm - reserve.margin_mm - reserve.encoder_mm : 0.0;
+}
+
+}  // namespace
+
+void add_path_options(Verb& verb, PathOptions& options) {
+  verb.add_option("--max-error-mm", options.max_error_mm,
+                  "Contour error that counts as too large; what remains above it is named")
+      ->check(within(0.0001, 10.0));
+  verb.add_option("--max-shift-mm", options.max_shift_mm,
+                  "How far the command may leave the programmed path; a block that would need more "
+                  "stays")
+      ->check(within(0.001, 5.0));
+  verb.add_option(
+          "--gain-uncertainty-percent", options.gain_uncertainty_percent,
+          "How far each servo gain may be off the machine file; blocks are changed only where the "
+          "worst such machine does not get worse")
+      ->check(within(0.0, 30.0));
+  verb.add_flag(
+      "--hold-limit", options.hold,
+      "Lower the feed where the path alone does not keep --max-error-mm; the program takes "
+      "that much longer");
+  add_learning_options(verb, options.learning);
+}
+
+std::string changes_of(const PathOptions& options) {
+  return options.hold ? "predistort,feeds" : "predistort";
+}
+
+std::vector<nc::rewrite::Told> told_of(const PathOptions& options) {
+  return {{"max-error-mm", fmt::format("{:g}", options.max_error_mm)},
+          {"tube-mm", fmt::format("{:g}", options.max_shift_mm)},
+          {"gain-uncertainty-percent", fmt::format("{:g}", options.gain_uncertainty_percent)}};
+}
+
+Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram& program,
+                                const std::string& file, std::vector<nc::rewrite::Told> told,
+                                Progress& progress) {
+  auto parts = read_parts(options.learning, file);
+  if (!parts) {
+    return std::unexpected(parts.error());
+  }
+  return contour::offline::predistort(
+      file, program.config, program.machine,
+      {.limit_mm = options.max_error_mm,
+       .max_shift_mm = options.max_shift_mm,
+       .gain_uncertainty = options.gain_uncertainty_percent / kPercent,
+       .hold_mm = hold_mm(options, program.machine),
+       .parts = std::move(*parts),
+       .told = std::move(told),
+       .progress = [&](double share, std::string_view what) { progress.update(share, what); }});
+}
+
+std::string put_path(Answer& answer, const Predistorted& done, const PathOptions& options) {
+  put_figures(answer, done, options);
+  return put_learnt(answer, options.learning, done.learnt) + text_of(done, options);
+}
+
+}  // namespace steadyrest::apps::cli

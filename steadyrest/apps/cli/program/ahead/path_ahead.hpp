@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <steadyrest/apps/cli/program/ahead/changed_program.hpp>
+#include <steadyrest/apps/cli/program/ahead/learnt_parts.hpp>
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
+
+/// The path that the axes must be commanded so that the tool runs on the programmed one.
+namespace steadyrest::apps::cli {
+
+struct PathOptions {
+  double max_error_mm = 0.01;
+  double max_shift_mm = 0.5;
+  double gain_uncertainty_percent = 5.0;
+  bool hold = false;
+  LearningOptions learning;
+};
+
+/// Adds --max-error-mm, --max-shift-mm, --gain-uncertainty-percent, --hold-limit, --from-record and
+/// --cut-program.
+void add_path_options(Verb& verb, PathOptions& options);
+
+/// For the mark in the program, and what it says of `changes`.
+[[nodiscard]] std::string changes_of(const PathOptions& options);
+[[nodiscard]] std::vector<nc::rewrite::Told> told_of(const PathOptions& options);
+
+/// `file`: the program itself, or a stage of it.
+[[nodiscard]] kernel::outcome::Result<contour::offline::Predistorted> path_ahead(
+    const PathOptions& options, const SourceProgram& program, const std::string& file,
+    std::vector<nc::rewrite::Told> told, Progress& progress);
+
+/// The keys of the prediction, `uncertain`, `largest_shift_mm`, `remaining[]`, `too_far[]`,
+/// `not_better[]` and `learnt[]`, and the same for people.
+[[nodiscard]] std::string put_path(Answer& answer, const contour::offline::Predistorted& done,
+                                   const PathOptions& options);
+
+}  // namespace steadyrest::apps::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <steadyrest/contour/offline/learn/learnt.hpp>
+#include <steadyrest/contour/offline/learn/stretches.hpp>
+#include <steadyrest/contour/offline/predict/error_figures.hpp>
+#include <steadyrest/contour/offline/predict/model_run.hpp>
+#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/run_errors.hpp>
+#include <steadyrest/contour/offline/predistort/shape/joints.hpp>
+#include <steadyrest/contour/offline/predistort/shape/tool_motion.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// A changed program on the servo model.
+struct FollowedRun {
+  double seconds = 0.0;
+  ErrorFigures figures;
+  CommandSpeed speed;
+  std::vector<double> corner_mm;    ///< largest error near each corner
+  std::vector<ErrorSample> errors;  ///< what refinements are made from
+  std::vector<ErrorPlace> over;     ///< above Judging::hold_mm, in order
+  RunErrors runs;
+};
+
+/// What every run is judged by.
+struct Judging {
+  const kernel::machine::Machine& machine;
+  const nc::plan::PlannedPath& original;
+  const ServoModels& model;
+  const std::vector<ServoModels>& others;
+  const Learnt& learnt;  ///< what records have shown beyond the model
+  const CutRuns& runs;
+  double limit_mm = 0.01;
+  double hold_mm = 0.0;  ///< 0: no place is over it
+};
+
+[[nodiscard]] kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& changed,
+                                                          const std::vector<Corner>& corners);
+
+}  // namespace steadyrest::contour::offline

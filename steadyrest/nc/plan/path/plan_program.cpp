@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <expected>
+
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
+
+namespace steadyrest::nc::plan {
+
+using interpret::Sink;
+using kernel::machine::Machine;
+using kernel::outcome::Result;
+
+Result<PlannedPath> plan_moves(const Machine& machine, const std::string& file,
+                               const std::function<Result<interpret::Report>(Sink&)>& run) {
+  PathBuilder builder(machine);
+  const auto report = run(builder);
+  if (!report) {
+    return std::unexpected(report.error());
+  }
+  if (!report->refused.empty()) {
+    return std::unexpected(interpret::first_refusal(*report, file));
+  }
+  auto path = builder.take();
+  if (!path && path.error().file.empty()) {
+    path.error().file = file;
+  }
+  return path;
+}
+
+Result<PlannedPath> plan_file(const std::string& file, const interpret::Config& config,
+                              const Machine& machine) {
+  return plan_moves(machine, file,
+                    [&](Sink& sink) { return interpret::run_file(file, config, sink); });
+}
+
+Result<PlannedPath> plan_text(std::string_view text, const interpret::Config& config,
+                              const Machine& machine, const std::string& file) {
+  return plan_moves(machine, file,
+                    [&](Sink& sink) { return interpret::run_text(text, config, sink); });
+}
+
+}  // namespace steadyrest::nc::plan

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Learning from the part before, as a user does it: cut and record a part, then write the next one.
+#include <fstream>
+#include <regex>
+#include <string>
+
+#include "examples.hpp"
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+const std::string kLearnPart = "examples/programs/circle-r10.mpf";
+
+/// The machine as it is: every servo gain 5 % below its file. Returns the option.
+std::string softer_machine(const Scratch& scratch) {
+  const std::string file = text_of_file(project_file("examples/machines/vmc-840d.toml"));
+  const std::string softer =
+      std::regex_replace(file, std::regex("servo_gain_m_min_mm = 3"), "servo_gain_m_min_mm = 2.85");
+  std::ofstream(scratch.at("softer.toml")) << softer;
+  return " --machine " + scratch.at("softer.toml");
+}
+
+// One part as the file has the machine, one that has learnt from it.
+TEST(ProgramLearns, TakesAwayWhatTheFirstPartHasShown) {
+  const Scratch scratch;
+  const std::string softer = softer_machine(scratch);
+  const std::string against = " --against " + kLearnPart;
+  const std::string first = scratch.at("first.mpf");
+  answer_of("program predistort " + kLearnPart + kOnVmc + " -o " + first);
+  const auto before =
+      answer_of("cut " + first + against + softer + " --record " + scratch.at("part.csv"));
+
+  const std::string second = scratch.at("second.mpf");
+  const auto learnt =
+      answer_of("program predistort " + kLearnPart + kOnVmc + " --from-record " +
+                scratch.at("part.csv") + " --cut-program " + first + " -o " + second)["learnt"];
+  ASSERT_EQ(learnt.size(), 1U);
+  EXPECT_GT(learnt[0]["learns_s"].get<double>(), 0.9 * learnt[0]["cut_s"].get<double>());
+  EXPECT_LT(learnt[0]["convergence"].get<double>(), 0.5);
+  // The encoders see what the true tool has, up to the backlash.
+  const double was_mm = before["without"]["contour_error_rms_mm"].get<double>();
+  EXPECT_NEAR(learnt[0]["measured_rms_mm"].get<double>(), was_mm, 0.0015);
+
+  const auto after = answer_of("cut " + second + against + softer);
+  const double is_mm = after["without"]["contour_error_rms_mm"].get<double>();
+  EXPECT_GT(was_mm, 0.006);
+  EXPECT_LT(is_mm, 0.25 * was_mm);
+  EXPECT_NEAR(after["without"]["cycle_time_s"].get<double>(),
+              before["without"]["cycle_time_s"].get<double>(), 0.1);
+}
+
+// A feed override in the middle of the part: there it teaches nothing, and that is said.
+TEST(ProgramLearns, LeavesOutWhatWasOverridden) {
+  const Scratch scratch;
+  std::ofstream(scratch.at("slow.mpf")) << [] {
+    std::string text = text_of_file(project_file(kLearnPart));
+    const std::size_t feed = text.rfind("F4000");
+    return text.replace(feed, 5, "F3000");
+  }();
+  answer_of("cut " + scratch.at("slow.mpf") + kOnVmc + " --record " + scratch.at("part.csv"));
+  const std::string line = "program predistort " + kLearnPart + kOnVmc + " --from-record " +
+                           scratch.at("part.csv") + " -o " + scratch.at("changed.mpf");
+  expect_refused(line, "part.csv");
+  const Finished said = run_line(line);
+  EXPECT_THAT(said.err, testing::HasSubstr("another feed than planned"));
+}
+
+TEST(ProgramLearns, RefusesRecordsThatDoNotFit) {
+  const Scratch scratch;
+  const std::string line = "program predistort " + kLearnPart + kOnVmc + " -o " +
+                           scratch.at("changed.mpf") + " --from-record ";
+  std::ofstream(scratch.at("short.csv")) << "t_s,x_cmd_mm\n0,1\n";
+  expect_refused(line + scratch.at("short.csv"), "y_cmd_mm");
+  expect_refused(line + scratch.at("absent.csv"), "absent.csv");
+  expect_refused(line + scratch.at("short.csv") + " --cut-program " + kLearnPart +
+                     " --cut-program " + kLearnPart,
+                 "2 times");
+  expect_all_refused({"program predistort " + kLearnPart + kOnVmc + " -o " +
+                      scratch.at("changed.mpf") + " --cut-program " + kLearnPart});
+}
+
+}  // namespace
+}  // namespace steadyrest::test
