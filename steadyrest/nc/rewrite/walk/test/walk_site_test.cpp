@@ -36,6 +36,7 @@ TEST(WalkSite, IsARapidAClearanceOrAFeed) {
   EXPECT_EQ(site_after("", "G1 X5"), Site::none);
   EXPECT_EQ(site_after("", "M8"), Site::none) << "it makes no move";
   EXPECT_EQ(site_after("G1 X5\n", "G0 X9"), Site::none) << "no rapid before it";
+  EXPECT_EQ(site_after("G4 P1\n", "G0 X9"), Site::none) << "a dwell is no rapid";
   EXPECT_EQ(site_after("G1 X5\n", "G0 Z5"), Site::rapid);
 }
 
