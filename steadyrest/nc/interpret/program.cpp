@@ -117,7 +117,7 @@ class ProgramRun::Run {
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
       return follow(flow_.act(block_));
     }
-    executed_ = true;
+    executed_ = !(block_.deleted() && block_delete_);
     if (!interpreter_->execute(block_, counter_)) {
       return refuse(interpreter_->refused());
     }

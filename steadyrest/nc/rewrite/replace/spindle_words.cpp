@@ -55,8 +55,10 @@ class SpanSurvey {
     if (run_.in_main()) {
       marks_.mark(number, seen_, false);
     }
+    // With the switch in its other position a skipped line acts.
+    const bool acts = run_.executed() || run_.block().deleted();
     const read::Word* speed = word_of(run_.block(), 'S');
-    if (speed != nullptr && run_.executed() && is_speed(*speed)) {
+    if (speed != nullptr && acts && is_speed(*speed)) {
       spans_.push_back({});
       SpindleSpan& span = spans_.back();
       span.speed = {number, speed->value};
@@ -64,8 +66,7 @@ class SpanSurvey {
       span.line_fixed = !span.stays.empty();
       fed_ = false;
     }
-    if (const read::Word* feed = word_of(run_.block(), 'F');
-        feed != nullptr && run_.executed() && !dwells()) {
+    if (const read::Word* feed = word_of(run_.block(), 'F'); feed != nullptr && acts && !dwells()) {
       add_feed(number, *feed, text);
     }
     for (const Move& move : kept_.moves) {

@@ -7,11 +7,9 @@
 #include <rapidcheck/gtest.h>
 
 #include <steadyrest/math/geometry/vector.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
-#include <steadyrest/nc/rewrite/test/workshop.hpp>
-#include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
+#include <steadyrest/nc/rewrite/replace/test/read_back.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -19,27 +17,9 @@ namespace {
 using kernel::signal::Geometry;
 using kernel::signal::Point;
 using read::Dialect;
+using test::blocks_of;
+using test::moves_read_back;
 using test::Workshop;
-using test::write_file;
-
-CutBlocks blocks_of(const Workshop& shop, const std::string& program,
-                    Dialect dialect = Dialect::linuxcnc) {
-  write_file(shop.original(), program);
-  interpret::Config config = shop.config;
-  config.dialect = dialect;
-  auto found = cut_blocks(shop.original(), config);
-  EXPECT_TRUE(found.has_value());
-  return found ? *found : CutBlocks{};
-}
-
-std::vector<interpret::Move> moves_of(const std::string& program, Dialect dialect) {
-  interpret::Config config;
-  config.dialect = dialect;
-  KeptMoves kept;
-  const auto report = interpret::run_text(program, config, kept);
-  EXPECT_TRUE(report.has_value() && report->refused.empty()) << program;
-  return kept.moves;
-}
 
 /// Why each block that cuts stays as it is, by line.
 std::vector<std::pair<std::uint32_t, Stays>> stays(const CutBlocks& found) {
@@ -135,7 +115,7 @@ RC_GTEST_PROP(BlockText, IsReadAsItWasMeant, ()) {
   for (const std::string& text : texts) {
     program += text + "\n";
   }
-  const auto read = moves_of(program + "M30\n", dialect);
+  const auto read = moves_read_back(program + "M30\n", dialect);
   RC_ASSERT(read.size() == moves.size() + 1);
   const int decimals = decimals_of(dialect, block.unit_mm);
   const double step = 0.9 * std::pow(10.0, -decimals) * block.unit_mm;

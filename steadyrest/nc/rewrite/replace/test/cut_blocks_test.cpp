@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which blocks may be replaced, by programs with one block that cuts and one reason against it; and
+// what is known of a block that may.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
+#include <steadyrest/nc/rewrite/replace/test/read_back.hpp>
+
+namespace steadyrest::nc::rewrite {
+namespace {
+
+using read::Dialect;
+using test::blocks_of;
+using test::Workshop;
+
+/// Why the block in this line of a program stays.
+Stays why_it_stays(const std::string& program, std::uint32_t line,
+                   Dialect dialect = Dialect::linuxcnc) {
+  Workshop shop;
+  shop.config.axes = "XYZA";
+  const CutBlocks found = blocks_of(shop, program, dialect);
+  const CutBlock* const block = found.find(line);
+  EXPECT_NE(block, nullptr) << program;
+  return block == nullptr ? Stays::free : block->stays;
+}
+
+TEST(CutBlocks, StayWhereTheControlDoesMoreThanTheyShow) {
+  const std::string head = "G21 G90 G94 G17 F100\nG0 X0 Y0 Z1\n";
+  EXPECT_EQ(why_it_stays(head + "G1 X5\nM2\n", 3), Stays::free);
+  EXPECT_EQ(why_it_stays(head + "G41.1 D2 G1 X5\nG1 X9\nG40 G1 X12\nM2\n", 4), Stays::compensated);
+  EXPECT_EQ(why_it_stays(head + "G7\nG1 X5\nM2\n", 4), Stays::diameter);
+  EXPECT_EQ(why_it_stays(head + "G1 X5 A90\nM2\n", 3), Stays::more_words);
+  EXPECT_EQ(why_it_stays(head + "M49\nG1 X5\nM2\n", 4), Stays::locked);
+  EXPECT_EQ(why_it_stays(head + "G5 I0 J3 P0 Q-3 X2 Y2\nM2\n", 3), Stays::spline);
+  EXPECT_EQ(why_it_stays(head + "G1 X5 (" + std::string(230, '-') + ")\nM2\n", 3), Stays::too_long);
+  EXPECT_EQ(why_it_stays("G71 G90 G94 F100\nG0 X0\nR1=5\nG1 X=R1\nM30\n", 4, Dialect::sinumerik),
+            Stays::calculated);
+  EXPECT_EQ(why_it_stays("G71 G90 G94 F100\nG0 X0\nG1 X=AC(5)\nM30\n", 3, Dialect::sinumerik),
+            Stays::free);
+}
+
+// In inches F is inches a minute; G10 L2 R turns the work about Z, and shifts it.
+TEST(CutBlocks, TellInWhichModesTheyWereWritten) {
+  const Workshop shop;
+  const CutBlocks found = blocks_of(shop,
+                                    "G20 G91 G91.1 G18 G94\n"
+                                    "G10 L2 P1 X1 Y2 Z3 R90\n"
+                                    "G54 F12\n"
+                                    "G90 G0 X0 Y0 Z0\n"
+                                    "G91 G1 X2\n"
+                                    "M2\n");
+  ASSERT_EQ(found.blocks.size(), 1U);
+  EXPECT_EQ(found.find(4), nullptr);
+  const CutBlock& block = *found.find(5);
+  EXPECT_EQ(block.stays, Stays::more_words) << "it sets G91";
+  EXPECT_DOUBLE_EQ(block.feed, 12.0);
+  EXPECT_DOUBLE_EQ(block.unit_mm, 25.4);
+  EXPECT_TRUE(block.incremental);
+  EXPECT_FALSE(block.centre_absolute);
+  EXPECT_EQ(block.plane, interpret::Plane::zx);
+  EXPECT_DOUBLE_EQ(block.rotation_deg, 90.0);
+  EXPECT_NEAR(block.start_mm[0], 25.4, 1e-9);
+  EXPECT_NEAR(block.end_mm[0], 25.4, 1e-9);  // work X is the machine's Y
+  EXPECT_NEAR(block.end_mm[1], 4.0 * 25.4, 1e-9);
+  EXPECT_NEAR(block.end_mm[2], 3.0 * 25.4, 1e-9);
+}
+
+TEST(CutBlocks, TellWhatTheNextTakesOver) {
+  const Workshop shop;
+  const CutBlocks found = blocks_of(shop,
+                                    "G21 G90\nG0 X0\n"
+                                    "G1 X1 F9\nX2\n"        // 3 hands on both, 4 the feed
+                                    "G1 X3\nG1 X4 F8\n"     // 5, 6: G1 and F are said again
+                                    "G0 X0\nG1 X5\nM2\n");  // 6 hands on its feed across a rapid
+  const auto inherited = [&](std::uint32_t line) { return found.find(line)->inherited; };
+  const auto feed_inherited = [&](std::uint32_t line) { return found.find(line)->feed_inherited; };
+  ASSERT_EQ(found.blocks.size(), 5U);
+  EXPECT_TRUE(inherited(3) && feed_inherited(3));
+  EXPECT_TRUE(!inherited(4) && feed_inherited(4));
+  EXPECT_TRUE(!inherited(5) && !feed_inherited(5));
+  EXPECT_TRUE(!inherited(6) && feed_inherited(6));
+}
+
+}  // namespace
+}  // namespace steadyrest::nc::rewrite
