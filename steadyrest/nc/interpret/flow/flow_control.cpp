@@ -256,9 +256,9 @@ bool FlowControl::sub(const Block& block) {
 
 bool FlowControl::call(const Block& block) {
   const read::Flow& flow = block.flow();
-  if (frames_.size() > kDeepestCall) {
+  if (frames_.size() > kDeepestLinuxcncCall) {
     return refuse(block.line(), flow.label.view(), "calls_too_deep",
-                  "subprogram calls nested more than ten deep");
+                  "subprogram calls nested more than nine deep");
   }
   // Saves the caller's #1 to #30 before the subprogram can change them.
   parameters_.enter({flow.values.data(), flow.count});
@@ -268,8 +268,8 @@ bool FlowControl::call(const Block& block) {
 }
 
 bool FlowControl::call_program(std::uint32_t line, std::string_view label, double repeats) {
-  if (frames_.size() > kDeepestCall) {
-    return refuse(line, label, "calls_too_deep", "subprogram calls nested more than ten deep");
+  if (frames_.size() > kDeepestLinuxcncCall) {
+    return refuse(line, label, "calls_too_deep", "subprogram calls nested more than nine deep");
   }
   parameters_.enter_shared();
   return enter(line, label, Passing::to_program,

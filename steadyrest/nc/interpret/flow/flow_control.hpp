@@ -20,12 +20,14 @@ namespace steadyrest::nc::interpret {
 ///
 /// Follows LinuxCNC 2.9's interpreter (rs274, by experiment): a subprogram's definition is skipped
 /// where it occurs and executed where it is called; a call looks among the definitions seen so far,
-/// then for NAME.ngc, then further down in the file. Calls nest ten deep. A label belongs to the
-/// subprogram that contains it and may head only one block. Of skipped lines only O-words are read.
-/// Every program ends: lines executed in loops and calls count against a limit.
+/// then for NAME.ngc, then further down in the file. Calls nest nine deep, those of the other
+/// dialects ten. A label belongs to the subprogram that contains it and may head only one block. Of
+/// skipped lines only O-words are read. Every program ends: lines executed in loops and calls count
+/// against a limit.
 class FlowControl {
  public:
-  static constexpr std::size_t kDeepestCall = 10;
+  static constexpr std::size_t kDeepestCall = 10;         ///< of fanuc and sinumerik
+  static constexpr std::size_t kDeepestLinuxcncCall = 9;  ///< found with rs274 2.9
 
   /// All outlive the object.
   FlowControl(ProgramFiles& files, Parameters& parameters, read::Reader& reader,

@@ -18,8 +18,9 @@
 
 namespace steadyrest::nc::interpret {
 
-/// The parameters of a program: numbered (#1 … #5601), named local (#<a>) and global (#<_a>), and
-/// those that the interpreter itself answers (#5061 … #5070, #5161 …, #5400 …, #<_x> …).
+/// The parameters of a program: numbered (#1 … #5601), named local (#<depth>) and global
+/// (#<_depth>), and those that the interpreter itself answers (#5061 … #5070, #5161 …, #5400 …,
+/// #<_x> …).
 ///
 /// #1 … #30 and the local names belong to a call: enter() saves them, leave() restores them. The
 /// answers follow LinuxCNC 2.9 (rs274, by experiment): offsets, reference points and tool data in

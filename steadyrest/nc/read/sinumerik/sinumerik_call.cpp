@@ -125,8 +125,7 @@ bool SinumerikLine::definition(const char* word_begin) {
     return false;
   }
   // Definitions act at once, one after the other: `DEF REAL A=2, B=A*2` is allowed.
-  do {
-    at_ += next() == ',' ? 1 : 0;
+  for (;;) {
     Name name;
     double value = 0.0;
     if (!variable_name(word_begin, name)) {
@@ -141,8 +140,11 @@ bool SinumerikLine::definition(const char* word_begin) {
     if (!reading_.typed_values->define(name.view(), type, value)) {
       return refuse(since(word_begin), "definition", "a variable that is already defined");
     }
-  } while (next() == ',');
-  return next() == '\0' || refuse(since(word_begin), "definition", kOwnBlock);
+    if (next() != ',') {
+      return next() == '\0' || refuse(since(word_begin), "definition", kOwnBlock);
+    }
+    ++at_;
+  }
 }
 
 bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t place) {
@@ -328,7 +330,7 @@ bool SinumerikLine::call_values(const char* word_begin) {
 bool SinumerikLine::repeats(const char* word_begin) {
   Flow& flow = block_.flow();
   // P once, after a call: anything else on the line would act in an uncertain order.
-  const bool p = flow.kind == FlowKind::call && upper(*at_) == 'P' && flow.repeats == 1.0;
+  const bool p = flow.kind == FlowKind::call && upper(*at_) == 'P' && !repeats_given_;
   ++at_;
   double value = 0.0;
   if (p) {
@@ -347,6 +349,7 @@ bool SinumerikLine::repeats(const char* word_begin) {
                   "repeats (P) are a whole number from 1 to 9999");
   }
   flow.repeats = value;
+  repeats_given_ = true;
   return true;
 }
 

@@ -177,11 +177,12 @@ bool SinumerikExpression::bits(Operator op, double& left, double right) {
 // A signed operand, a bracket, a number, or a word: parameter, variable, function or constant.
 bool SinumerikExpression::operand(double& out) {
   const char c = peek();
+  const bool sign = c == '-' || c == '+';
   // A sign opens another level, so signs count for the depth as well.
-  if (++depth_ > kDeepest) {
+  if ((sign || c == '(') && ++depth_ > kDeepest) {
     return fail("expression_too_deep", "brackets or signs nested more than 64 deep");
   }
-  if (c == '-' || c == '+') {
+  if (sign) {
     ++at_;
     // The sign binds tightest: -2+5 is 3.
     if (!climb(out, kStrongest)) {
@@ -195,8 +196,6 @@ bool SinumerikExpression::operand(double& out) {
     ++at_;
     return climb(out, kComparison) && closing(')');
   }
-  // Neither bracket nor sign: no depth used.
-  --depth_;
   if (is_digit(c) || c == '.') {
     return number(out);
   }
@@ -292,7 +291,9 @@ bool SinumerikExpression::parameter(double& out, std::string_view name) {
   // Past the [ that peek() has found.
   if (name.size() == 1) {
     ++at_;
-    ++depth_;
+    if (++depth_ > kDeepest) {
+      return fail("expression_too_deep", "brackets nested more than 64 deep");
+    }
     if (!climb(index, kComparison) || !closing(']')) {
       return false;
     }

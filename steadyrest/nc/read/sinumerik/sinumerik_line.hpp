@@ -62,7 +62,8 @@ class SinumerikLine : private LineCursor {
   bool refuse_character();
   bool push(const char* word_begin, Word& word);
 
-  bool assigned_ = false;  ///< a variable was set
+  bool assigned_ = false;       ///< a variable was set
+  bool repeats_given_ = false;  ///< P after a call
 };
 
 }  // namespace steadyrest::nc::read

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <steadyrest/nc/interpret/decode/codes.hpp>
 #include <steadyrest/nc/interpret/decode/sinumerik/sinumerik.hpp>
 #include <steadyrest/nc/interpret/decode/step_writer.hpp>
 
@@ -140,6 +141,11 @@ bool SinumerikDecoder::g_word(const Word& word) {
   }
   for (const Translation& translation : kTranslations) {
     if (value == translation.theirs) {
+      // G500 is in the group of G54, but not in its place of the step.
+      if (step_.zero_offset && group_of_g(translation.ours).group == GGroup::work_offset) {
+        return refuse(word, "same_modal_group",
+                      "a second G word of the same modal group in one block");
+      }
       // G70 and G71 apply only to geometry: feeds stay in the control's basic unit, mm.
       step_.work_feed = step_.work_feed && translation.theirs != 70 && translation.theirs != 71;
       return put_g(word, translation.ours);
