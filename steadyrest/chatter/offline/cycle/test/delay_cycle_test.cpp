@@ -31,7 +31,8 @@ std::vector<Process> all_kinds() {
   out[1].cut.process_damping_n_mm = 300.0;
   out[2].tool.pitch_rad = {2.5, 2.0 * std::numbers::pi - 2.5};
   out[3].tool.helix_rad = 0.5;
-  out[3].modes.push_back({{0.6, 0.8}, 700.0, 0.03, 0.06});
+  out[2].modes.push_back({{0.6, 0.8}, 700.0, 0.03, 0.06});
+  out[3].modes = out[2].modes;
   return out;
 }
 

@@ -63,8 +63,8 @@ TEST(CellSight, EachModelIsJudgedAlone) {
 TEST(CellSight, AModelThatLostItsCellComesBackToTheNearerBorder) {
   for (const double lost : {-100.0, 100.0}) {
     ModelBank bank = models_at(all(lost), 1.0);
-    const Lanes share = truncate(bank, -0.5, 0.5);
-    const double border = lost < 0.0 ? -0.5 : 0.5;
+    const Lanes share = truncate(bank, -5.0, 5.0);
+    const double border = lost < 0.0 ? -5.0 : 5.0;
     EXPECT_LE(std::abs(bank.x[0] - border), 0.01 * std::abs(lost - border)) << lost;
     EXPECT_LT(bank.position_variance()[0], 0.01) << "and is sure of it";
     EXPECT_GT(share[0], 0.0) << "so that it can win its weight back";
