@@ -50,7 +50,7 @@ TEST(RecordedAxisByHand, AReversalCrossesTheSameLineTwice) {
 
 TEST(RecordedAxisByHand, TruthOfACubicIsExact) {
   const RecordedAxis axis =
-      recorded_axis(fine_log(60, [](int k) { return std::int64_t{2} * k * k * k - 90 * k * k; }));
+      recorded_axis(fine_log(60, [](int k) { return (std::int64_t{2} * k - 90) * k * k; }));
   for (int k = 0; k < 60; ++k) {
     const MotionState& truth = axis.record.truth[static_cast<std::size_t>(k)];
     EXPECT_NEAR(truth.position_mm, (2.0 * k * k * k - 90.0 * k * k + 0.5) * kFine_mm, 1e-12) << k;

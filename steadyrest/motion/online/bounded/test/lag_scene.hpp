@@ -46,7 +46,7 @@ inline LagSmoother lag_fed(std::size_t lag, int ticks, double rest = 0.0) {
     out.observed(t_s, all(z), all(kLagNoise));
     if (i % 2 == 1) {
       LagSmoother::Look look;
-      look.t_s = static_cast<double>(i / 2 + 1) * kLagCycle_s;
+      look.t_s = 0.5 * static_cast<double>(i + 1) * kLagCycle_s;
       bank.predict(look.t_s, all(kLagJerk), all(0.0));
       look.bank = bank;
       look.weight = all(0.25 * (1.0 - rest));

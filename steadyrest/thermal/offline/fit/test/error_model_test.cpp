@@ -17,9 +17,10 @@ const ErrorModel kWander{.drift_um = 2.5, .tau_s = 1800.0, .noise_um = 0.4};
 
 /// Uneven times, as thinned logs have them.
 std::vector<double> uneven_times_s() {
-  std::vector<double> out;
-  for (int i = 0; i < 40; ++i) {
-    out.push_back(60.0 * i + 25.0 * std::sin(i * i) + (i > 20 ? 5000.0 : 0.0));
+  std::vector<double> out(40);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto k = static_cast<double>(i);
+    out[i] = 60.0 * k + 25.0 * std::sin(k * k) + (i > 20 ? 5000.0 : 0.0);
   }
   return out;
 }
