@@ -71,7 +71,7 @@ void cut_into_blocks(FitData& data) {
   for (const std::size_t row : starts(*data.log)) {
     const double t = data.log->time_s[row];
     const double before_s = border_s.empty() ? data.time_s.front() : border_s.back();
-    if (t >= data.time_s.front() && t - before_s >= (border_s.empty() ? 0.0 : kLeastOwn_s) &&
+    if (t > data.time_s.front() && t - before_s >= (border_s.empty() ? 0.0 : kLeastOwn_s) &&
         data.time_s.back() - t >= kLeastOwn_s) {
       border_s.push_back(t);
     }

@@ -45,11 +45,6 @@ TEST(FitBlocks, RunFromStartToStart) {
               ElementsAre(0.0, 180.0, 340.0, 510.0));
 }
 
-TEST(FitBlocks, ARunThatBeginsWithTheLogIsABlockOfItsOwn) {
-  EXPECT_THAT(block_starts_min({{90, 3000}, {30, 0}, {90, 1000}, {30, 0}, {90, 2000}, {30, 0}}),
-              ElementsAre(0.0, 120.0, 240.0));
-}
-
 // A start 20 min before the log's end would leave a block of 20 min.
 TEST(FitBlocks, AStubIsNoBlockOfItsOwn) {
   Runs runs = {{10, 0}, {90, 3000}, {30, 0}, {90, 3000}, {30, 0}, {90, 3000}, {30, 0}};

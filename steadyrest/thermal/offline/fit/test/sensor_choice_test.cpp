@@ -66,13 +66,13 @@ TEST(SensorChoice, IsAsGoodAsTheBestOfTheSensorsAlone) {
   }
 }
 
-// Over six machines, as one alone may be lucky or unlucky; 0.9, since a few runs limit how good a
-// band can be.
+// Over three machines, as one alone may be lucky; 0.9, since a few runs limit how good a band can
+// be.
 TEST(SensorChoice, TheBandHoldsOnHoursKeptBack) {
   for (const std::size_t runs : cases({4U, 6U})) {
     double free = 0.0;
     double probed = 0.0;
-    const auto seeds = cases({1U, 2U, 3U, 4U, 5U, 6U});
+    const auto seeds = cases({1U, 2U, 3U});
     for (const unsigned seed : seeds) {
       const Log log = shop(seed, kShopDays_rpm);
       const double to_s = kShopRun_s * static_cast<double>(runs);
@@ -80,8 +80,8 @@ TEST(SensorChoice, TheBandHoldsOnHoursKeptBack) {
       free += kept_back(log, fit, to_s, 0.0).coverage / static_cast<double>(seeds.size());
       probed += kept_back(log, fit, to_s, 3600.0).coverage / static_cast<double>(seeds.size());
     }
-    // One machine alone: 0.69.
-    constexpr double kLeast = kSanitized ? 0.65 : 0.9;
+    // One machine alone: 0.82.
+    constexpr double kLeast = kSanitized ? 0.8 : 0.9;
     EXPECT_GT(free, kLeast) << runs;
     EXPECT_GT(probed, kLeast) << runs;
   }
