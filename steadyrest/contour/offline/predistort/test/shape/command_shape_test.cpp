@@ -18,11 +18,11 @@ using test::ShapeScene;
 // On the circle the command runs on R·√(1 + q²) about the same centre, q = v/(R·k), and v is the
 // tool's speed: the command's over √(1 + q²).
 TEST(CommandShape, OfACircleIsTheWiderCircle) {
-  constexpr double kRadius_mm = 5.0;
-  const ShapeScene scene(ShapeScene::from({kRadius_mm, 0, 0}).arc({0, 0, 0}, 30.0).path());
-  const double w = ShapeScene::kLead_mm / kRadius_mm;                // q·√(1 + q²)
+  constexpr double kWidened_mm = 5.0;
+  const ShapeScene scene(ShapeScene::from({kWidened_mm, 0, 0}).arc({0, 0, 0}, 30.0).path());
+  const double w = ShapeScene::kLead_mm / kWidened_mm;               // q·√(1 + q²)
   const double square = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * w * w));  // 1 + q²
-  const double wider_mm = kRadius_mm * std::sqrt(square);
+  const double wider_mm = kWidened_mm * std::sqrt(square);
   int inside = 0;
   for (const Piece& piece : scene.pieces()) {
     if (scene.is_inside(piece)) {

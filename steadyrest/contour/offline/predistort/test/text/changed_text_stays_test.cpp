@@ -28,6 +28,21 @@ TEST(ChangedTextAround, OfBlocksThatStayAreTheirOwn) {
   EXPECT_NEAR(changed->start_mm[4], 90.0, 1e-9);
 }
 
+// A square of 2 mm, its corners rounded, run three times: each of its lines has several segments of
+// the original, a few millimetres apart.
+TEST(ChangedTextAround, OfBlocksThatAreRunAgainAreThoseOfTheirTurn) {
+  const WrittenProgram program(
+      "G64 P0.1\nG0 X0 Y0\nO100 sub\nG1 X2 F1200\nY2\nX0\nY0\nO100 endsub\n"
+      "O100 call\nO100 call\nO100 call\nG0 Z5\n");
+  const auto changed = program.with({});
+  ASSERT_TRUE(changed.has_value());
+  ASSERT_GT(program.path.segments.size(), 20U) << "not rounded";
+  ASSERT_EQ(changed->start_mm.size(), program.path.segments.size());
+  for (std::size_t i = 0; i < program.path.segments.size(); ++i) {
+    EXPECT_NEAR(changed->start_mm[i], program.path.segments[i].position_mm, 1e-9) << i;
+  }
+}
+
 // Behind a block whose command goes beyond X30, X30 once more would go back.
 TEST(ChangedTextAround, ABlockThatRepeatsAPointGoesWithTheCommand) {
   const WrittenProgram program("G0 X10 Y0\nG1 X30 F1200\nG1 X30\nG1 X50\nG0 Z5\n");
