@@ -41,7 +41,7 @@ class Grouping {
       run = {.end = i, .before = before, .ratio = ratio[i]};
       do {
         run.ratio = std::min(run.ratio, ratio[run.end]);
-        run.seconds += static_cast<double>(search.runs()[run.end].seconds);
+        run.seconds += moving_s(run.end);
         ++run.end;
       } while (run.end < run_.size() && search.group()[run.end] == search.group()[i]);
       before = i;
@@ -98,6 +98,11 @@ class Grouping {
            cells_.ceiling[a] == cells_.ceiling[b] &&
            cells_.path.plans[a].per_revolution == cells_.path.plans[b].per_revolution;
   }
+  /// A dwell takes as long at any feed.
+  [[nodiscard]] double moving_s(std::size_t cell) const noexcept {
+    const CellRun& run = search_.runs()[cell];
+    return static_cast<double>(run.seconds - run.standing_s);
+  }
   /// What a run costs at a lower feed than its own.
   [[nodiscard]] double loss_s(std::size_t first, double ratio) const noexcept {
     const Run& run = run_[first];
@@ -106,8 +111,10 @@ class Grouping {
       return loss;
     }
     for (std::size_t i = first; i < run.end; ++i) {
-      const double reached = std::min(run.ratio, search_.ratio()[i] * search_.used_share(i));
-      loss += static_cast<double>(search_.runs()[i].seconds) * std::max(0.0, reached / ratio - 1.0);
+      // It was run at `reached`, and takes longer now if it has been united since.
+      const double reached = search_.ratio()[i] * std::min(1.0, search_.used_share(i));
+      const double now = std::max(1.0, reached / run.ratio);
+      loss += moving_s(i) * std::max(0.0, reached / ratio - now);
       if (loss > few_.most_loss_s) {
         return kNoUnion;
       }

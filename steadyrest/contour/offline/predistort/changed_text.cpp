@@ -146,14 +146,16 @@ class Mapping {
     changed_.start_mm.assign(segments.size() + 1, 0.0);
     std::size_t known = 0;
     double at = 0.0;
+    double passed = 0.0;  // since then
     for (std::size_t i = 0; i <= segments.size(); ++i) {
-      const double place = i < segments.size() ? place_of(i, at) : whole_mm();
-      if (std::isnan(place)) {
-        continue;
+      const double place = i < segments.size() ? place_of(i, at + passed) : whole_mm();
+      if (!std::isnan(place)) {
+        at = std::max(at, place);
+        spread(known, i, at);
+        known = i;
+        passed = 0.0;
       }
-      at = std::max(at, place);
-      spread(known, i, at);
-      known = i;
+      passed += i < segments.size() ? segments[i].length_mm : 0.0;
     }
     changed_.end_mm.assign(changed_.start_mm.begin() + 1, changed_.start_mm.end());
     changed_.start_mm.pop_back();
@@ -183,7 +185,8 @@ class Mapping {
     changed_.start_mm[to] = at_mm;
   }
 
-  /// Where a segment starts, as original path length; not a number where others decide.
+  /// Where a segment starts, as original path length; not a number where others decide. `at_mm`: by
+  /// what is passed.
   double place_of(std::size_t i, double at_mm) {
     const auto& segments = changed_.path.segments;
     const std::uint32_t line = segments[i].line;

@@ -7,37 +7,18 @@
 
 #include <steadyrest/contour/offline/closed_form.hpp>
 #include <steadyrest/contour/offline/feeds/feed_plan.hpp>
+#include <steadyrest/contour/offline/test/ideal_mill.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
 
 using kernel::machine::Machine;
 using nc::plan::PlannedPath;
+using test::ideal_mill;
+using test::planned_moves;
 
 constexpr double kFastFeed_mm_s = 4000.0 / 60.0;
-
-Machine feed_mill(double gain_1_s = 50.0) {
-  Machine machine;
-  for (const char* name : {"X", "Y", "Z"}) {
-    kernel::machine::Axis axis;
-    axis.name = name;
-    axis.servo_gain_1_s = gain_1_s;
-    machine.axes.push_back(axis);
-  }
-  machine.control.interpolator_period_s = 0.002;
-  return machine;
-}
-
-PlannedPath path_of_moves(const Machine& machine, const std::string& moves) {
-  nc::plan::PathBuilder builder(machine);
-  const auto report =
-      nc::interpret::run_text("G21 G90 G94 G17 G61\n" + moves + "M2\n", {}, builder);
-  EXPECT_TRUE(report.has_value() && report->refused.empty());
-  return builder.take().value();
-}
 
 /// A plan, and a run of the path with its feeds.
 struct PlannedFeeds {
@@ -102,10 +83,10 @@ double error_at_feeds(const Machine& machine, const PlannedPath& path,
 TEST(FeedPlan, TakesTheSpeedOfTheClosedFormOnACircle) {
   for (const double radius : {3.0, 10.0, 40.0}) {
     for (const double limit : {0.005, 0.02}) {
-      const Machine machine = feed_mill();
+      const Machine machine = ideal_mill();
       const std::string r = std::to_string(radius);
       const PlannedPath path =
-          path_of_moves(machine, "G0 X" + r + " Y0\nG3 X" + r + " Y0 I-" + r + " J0 P5 F4000\n");
+          planned_moves(machine, "G0 X" + r + " Y0\nG3 X" + r + " Y0 I-" + r + " J0 P5 F4000\n");
       const PlannedFeeds found = feed_plan_of(machine, path, limit);
       const double most = circle_limit({.gain_1_s = 50.0}, radius, limit).value().speed_mm_s;
       const auto longest = std::ranges::max_element(
@@ -120,8 +101,8 @@ TEST(FeedPlan, TakesTheSpeedOfTheClosedFormOnACircle) {
 }
 
 TEST(FeedPlan, KeepsTheLimitWhereLinesMeetArcs) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(
       machine, "G0 X0 Y0\nG1 X40 F4000\nG3 X43 Y3 I0 J3\nG1 Y20\nG2 X53 Y30 I10 J0\nG1 X90\n");
   constexpr double kLimit_mm = 0.010;
   const PlannedFeeds found = feed_plan_of(machine, path, kLimit_mm);
@@ -138,8 +119,8 @@ TEST(FeedPlan, KeepsTheLimitWhereLinesMeetArcs) {
 }
 
 TEST(FeedPlan, IsTheProgramWhereItKeepsTheLimit) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nX80\n");
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nX80\n");
   const PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   EXPECT_TRUE(found.plan.unchanged());
   EXPECT_TRUE(std::ranges::all_of(found.parts, [](const FeedPart& p) { return p.ratio == 1.0; }));
@@ -147,8 +128,8 @@ TEST(FeedPlan, IsTheProgramWhereItKeepsTheLimit) {
 
 // A right angle passed at v misses by about v/(k·e); no feed above nothing keeps a tenth of that.
 TEST(FeedPlan, TakesTheLowestFeedWhereNoneKeepsTheLimit) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nY40\n");
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(machine, "G0 X0 Y0\nG1 X40 F4000\nY40\n");
   const PlannedFeeds found = feed_plan_of(machine, path, 0.002);
   const auto slowest = std::ranges::min_element(found.parts, {}, &FeedPart::ratio);
   EXPECT_DOUBLE_EQ(slowest->ratio, 0.1);
@@ -158,8 +139,8 @@ TEST(FeedPlan, TakesTheLowestFeedWhereNoneKeepsTheLimit) {
 }
 
 TEST(FeedPlan, LeavesFixedSegmentsAndDividesNoWholeOnes) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(
       machine, "G0 X10 Y0\nG3 X-10 Y0 I-10 J0 F4000\nG3 X10 Y0 I10 J0\nG3 X-10 I-10 J0\n");
   const PlannedFeeds found = feed_plan_of(
       machine, path, 0.010,
@@ -171,16 +152,16 @@ TEST(FeedPlan, LeavesFixedSegmentsAndDividesNoWholeOnes) {
 
 // The plunge begins while the tool still comes from the rapid; a slower plunge is no remedy.
 TEST(FeedPlan, DoesNotSlowACutForWhatARapidLeaves) {
-  const Machine machine = feed_mill(20.0);
-  const PlannedPath path = path_of_moves(machine, "G0 X50 Y0 Z1\nG1 Z-2 F300\n");
+  const Machine machine = ideal_mill(20.0);
+  const PlannedPath path = planned_moves(machine, "G0 X50 Y0 Z1\nG1 Z-2 F300\n");
   const PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   EXPECT_TRUE(std::ranges::all_of(found.parts, [](const FeedPart& p) { return p.ratio == 1.0; }));
 }
 
 TEST(FeedPlan, SearchesAgainWithATighterLimit) {
-  const Machine machine = feed_mill();
+  const Machine machine = ideal_mill();
   const PlannedPath path =
-      path_of_moves(machine, "G0 X10 Y-20\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P3\nG1 Y20\n");
+      planned_moves(machine, "G0 X10 Y-20\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P3\nG1 Y20\n");
   PlannedFeeds found = feed_plan_of(machine, path, 0.010);
   const double before = found.plan.seconds();
   ASSERT_TRUE(found.plan.tighten({{1, 0.005}, {2, 0.005}, {3, 0.005}}).has_value());
@@ -189,8 +170,8 @@ TEST(FeedPlan, SearchesAgainWithATighterLimit) {
 }
 
 TEST(FeedPlan, RefusesLimitsOutOfRange) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X40 F4000\n");
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(machine, "G0 X0 Y0\nG1 X40 F4000\n");
   const PathMap map = same_path(path);
   const auto refused = [&](double limit_mm, double floor_ratio) {
     return !FeedPlan::make({.machine = machine,
@@ -212,9 +193,9 @@ TEST(FeedPlan, RefusesLimitsOutOfRange) {
 }
 
 TEST(FeedCells, AreThePathInPieces) {
-  const Machine machine = feed_mill();
+  const Machine machine = ideal_mill();
   const PlannedPath path =
-      path_of_moves(machine, "G0 X10 Y0\nG3 X0 Y10 Z4 I-10 J0 F4000\nG1 X-30\nG0 X0\n");
+      planned_moves(machine, "G0 X10 Y0\nG3 X0 Y10 Z4 I-10 J0 F4000\nG1 X-30\nG0 X0\n");
   const FeedCells cells = feed_cells(path, same_path(path), {.kind = {}, .ends_mm = {}});
   ASSERT_EQ(cells.of.size(), cells.path.segments.size());
   for (std::size_t i = 1; i < cells.of.size(); ++i) {
@@ -230,8 +211,8 @@ TEST(FeedCells, AreThePathInPieces) {
 }
 
 TEST(FeedCells, AreLongerWhereThereWouldBeTooMany) {
-  const Machine machine = feed_mill();
-  const PlannedPath path = path_of_moves(machine, "G0 X0 Y0\nG1 X400 F4000\n");
+  const Machine machine = ideal_mill();
+  const PlannedPath path = planned_moves(machine, "G0 X0 Y0\nG1 X400 F4000\n");
   const FeedCells cells =
       feed_cells(path, same_path(path), {.kind = {}, .ends_mm = {}, .most_cells = 100});
   EXPECT_LE(cells.of.size(), 102U);

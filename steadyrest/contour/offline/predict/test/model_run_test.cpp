@@ -8,8 +8,8 @@
 #include <steadyrest/contour/offline/closed_form.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predict/model_run.hpp>
+#include <steadyrest/contour/offline/test/ideal_mill.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
 
 namespace steadyrest::contour::offline {
@@ -17,28 +17,10 @@ namespace {
 
 using kernel::machine::Machine;
 using nc::plan::PlannedPath;
+using test::ideal_mill;
 
 constexpr double kRadius_mm = 10.0;
 constexpr double kSpeed_mm_s = 4000.0 / 60.0;
-
-Machine mill(double gain_1_s = 50.0) {
-  Machine machine;
-  for (const char* name : {"X", "Y", "Z"}) {
-    kernel::machine::Axis axis;
-    axis.name = name;
-    axis.servo_gain_1_s = gain_1_s;
-    machine.axes.push_back(axis);
-  }
-  machine.control.interpolator_period_s = 0.002;
-  return machine;
-}
-
-PlannedPath plan(const Machine& machine, const std::string& program) {
-  nc::plan::PathBuilder builder(machine);
-  const auto report = nc::interpret::run_text(program, {}, builder);
-  EXPECT_TRUE(report.has_value() && report->refused.empty());
-  return builder.take().value();
-}
 
 std::string circle(double radius_mm, double feed_mm_min, int turns = 4) {
   const auto number = [](double value) { return std::to_string(value); };
@@ -59,8 +41,8 @@ std::vector<ModelSample> samples(const ModelRun& run, double from_s, double to_s
 }
 
 TEST(ModelRun, HasTheClosedFormsErrorOnACircle) {
-  const Machine machine = mill();
-  const PlannedPath path = plan(machine, circle(kRadius_mm, 4000.0));
+  const Machine machine = ideal_mill();
+  const PlannedPath path = test::planned_text(machine, circle(kRadius_mm, 4000.0));
   const auto expected = circle_errors({.gain_1_s = 50.0}, kRadius_mm, kSpeed_mm_s).value();
   const auto found = samples({.machine = machine,
                               .path = path,
@@ -81,8 +63,8 @@ TEST(ModelRun, HasTheClosedFormsErrorOnACircle) {
 }
 
 TEST(ModelRun, FollowsTheOtherModelsToo) {
-  const Machine machine = mill();
-  const PlannedPath path = plan(machine, circle(kRadius_mm, 4000.0));
+  const Machine machine = ideal_mill();
+  const PlannedPath path = test::planned_text(machine, circle(kRadius_mm, 4000.0));
   std::vector<ServoModels> others(2, servo_models(machine.axes));
   for (std::size_t i = 0; i < 3; ++i) {
     others[0][i].gain_1_s = 47.5;
@@ -114,11 +96,12 @@ TEST(ModelRun, FollowsTheOtherModelsToo) {
 
 // The inverse of the servo on a circle: commanded with R·√(1 + q²), the tool runs on R.
 TEST(ModelRun, MeasuresAgainstTheOriginalPath) {
-  const Machine machine = mill();
-  const PlannedPath original = plan(machine, circle(kRadius_mm, 4000.0));
+  const Machine machine = ideal_mill();
+  const PlannedPath original = test::planned_text(machine, circle(kRadius_mm, 4000.0));
   const double q = kSpeed_mm_s / (kRadius_mm * 50.0);
   const double wider = std::sqrt(1.0 + q * q);
-  const PlannedPath changed = plan(machine, circle(kRadius_mm * wider, 4000.0 * wider));
+  const PlannedPath changed =
+      test::planned_text(machine, circle(kRadius_mm * wider, 4000.0 * wider));
   PathMap map = same_path(original);
   const auto found = samples({.machine = machine,
                               .path = changed,
@@ -135,7 +118,7 @@ TEST(ModelRun, MeasuresAgainstTheOriginalPath) {
 
 // Truth: the planner's own account of the program's time.
 TEST(ModelRun, TakesTheProgramsTime) {
-  Machine machine = mill();
+  Machine machine = ideal_mill();
   machine.spindle.acceleration_rev_s2 = 50.0;
   const std::string program =
       "G21 G90 G94 G64\nG0 X0 Y0 Z5\nS3000 M3\nG4 P0.3\nG1 Z-1 F300\nG1 X30 F2000\nG2 X40 Y10 I0 "
@@ -143,7 +126,7 @@ TEST(ModelRun, TakesTheProgramsTime) {
   auto timer = nc::plan::ProgramTimer::make(machine).value();
   ASSERT_TRUE(nc::interpret::run_text(program, {}, timer).has_value());
   const double time_s = timer.take().value().total_s;
-  const PlannedPath path = plan(machine, program);
+  const PlannedPath path = test::planned_text(machine, program);
   ErrorFigures figures(0.01);
   const auto run_s = run_model({.machine = machine,
                                 .path = path,

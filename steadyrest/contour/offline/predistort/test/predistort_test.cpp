@@ -8,13 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/contour/offline/test/ideal_mill.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/nc/rewrite/text/put_back.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
-
-using kernel::machine::Machine;
 
 class Desk {
  public:
@@ -32,20 +31,9 @@ class Desk {
   }
   [[nodiscard]] std::string file() const { return folder_.at("part.ngc"); }
 
-  Machine machine = ideal();
+  kernel::machine::Machine machine = test::ideal_mill();
 
  private:
-  static Machine ideal() {
-    Machine machine;
-    for (const char* name : {"X", "Y", "Z"}) {
-      kernel::machine::Axis axis;
-      axis.name = name;
-      axis.servo_gain_1_s = 50.0;
-      machine.axes.push_back(axis);
-    }
-    machine.control.interpolator_period_s = 0.002;
-    return machine;
-  }
   kernel::file::testing::OwnFolder folder_;
 };
 

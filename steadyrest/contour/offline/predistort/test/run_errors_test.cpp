@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs of blocks that are kept or given up together, and the error of each over all models.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/contour/offline/predistort/run_errors.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+struct RunBlock {
+  std::uint32_t line = 0;
+  bool free = true;
+  bool stops = false;
+};
+
+CutRuns runs_of(const std::vector<RunBlock>& blocks) {
+  nc::plan::PlannedPath path;
+  std::vector<SegmentUse> use;
+  for (const RunBlock& block : blocks) {
+    path.segments.emplace_back().line = block.line;
+    use.push_back({.free = block.free, .stops = block.stops});
+  }
+  return {path, use};
+}
+
+using RunLines = std::vector<std::uint32_t>;
+
+TEST(CutRuns, EndAtStopsAndAtBlocksThatStay) {
+  const CutRuns runs = runs_of({{.line = 1},
+                                {.line = 2, .stops = true},
+                                {.line = 3},
+                                {.line = 4, .free = false},
+                                {.line = 5, .free = false},
+                                {.line = 6},
+                                {.line = 7}});
+  ASSERT_EQ(runs.size(), 3U);
+  EXPECT_EQ(runs.lines(0), (RunLines{1, 2}));
+  EXPECT_EQ(runs.lines(1), (RunLines{3}));
+  EXPECT_EQ(runs.lines(2), (RunLines{6, 7}));
+  EXPECT_EQ(runs.of(3), 1U);
+  EXPECT_EQ(runs.of(7), 2U);
+  for (const std::uint32_t of_none : {0U, 4U, 5U, 8U}) {
+    EXPECT_EQ(runs.of(of_none), runs.size()) << of_none;
+  }
+}
+
+// A block is one line, however many segments the control makes of it.
+TEST(CutRuns, NameALineOnce) {
+  const CutRuns runs = runs_of({{.line = 3}, {.line = 3}, {.line = 4}, {.line = 4}});
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs.lines(0), (RunLines{3, 4}));
+}
+
+ModelSample run_sample(double error_mm, const std::array<double, 2>& others_mm) {
+  ModelSample sample;
+  sample.error_mm = error_mm;
+  sample.other_error_mm = others_mm;
+  return sample;
+}
+
+// The model has 3 and 4 µm (RMS √12.5), the first other 1 and 1, the second 0 and 4.5 (RMS
+// √10.125).
+TEST(RunErrors, AreThoseOfTheWorstModel) {
+  const CutRuns runs = runs_of({{.line = 1}, {.line = 2, .free = false}, {.line = 3}});
+  RunErrors errors(runs, 2);
+  constexpr std::array kFirst = {0.001, 0.0};
+  constexpr std::array kSecond = {0.001, 0.0045};
+  errors.add(run_sample(-0.003, kFirst), 1);
+  errors.add(run_sample(0.900, kSecond), 2);  // belongs to no run
+  errors.add(run_sample(0.004, kSecond), 1);
+  EXPECT_NEAR(errors.worst(0).rms_mm, 0.001 * std::sqrt(12.5), 1e-12);
+  EXPECT_DOUBLE_EQ(errors.worst(0).max_mm, 0.0045);
+  EXPECT_EQ(errors.worst(1).rms_mm, 0.0) << "no sample yet";
+  errors.add(run_sample(0.002, kSecond), 3);
+  EXPECT_DOUBLE_EQ(errors.worst(1).max_mm, 0.0045);
+  EXPECT_DOUBLE_EQ(errors.worst(1).rms_mm, 0.0045);
+  EXPECT_DOUBLE_EQ(errors.worst(0).max_mm, 0.0045);
+}
+
+}  // namespace
+}  // namespace steadyrest::contour::offline

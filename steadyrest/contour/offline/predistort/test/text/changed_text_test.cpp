@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces written into a program and planned again: where nothing is changed the path is its own.
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/contour/offline/predistort/test/text/written_program.hpp>
+#include <steadyrest/math/geometry/vector.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+namespace geometry = math::geometry;
+using test::WrittenProgram;
+
+TEST(ChangedText, WithThePathsOwnPiecesIsTheSamePath) {
+  const WrittenProgram program(
+      "G0 X10 Y0\nG1 Y20 F1200\nG3 X0 Y30 I-10 J0\nG1 X-20 Z-3\nG2 X-20 Y20 I0 J-5\n");
+  const auto changed = program.with(program.own_pieces());
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_EQ(changed->replaced.replaced, 4U);
+  ASSERT_EQ(changed->path.segments.size(), program.path.segments.size());
+  for (std::size_t i = 0; i < program.path.segments.size(); ++i) {
+    const auto& was = program.path.segments[i];
+    const auto& is = changed->path.segments[i];
+    EXPECT_LT(geometry::distance(is.end_mm, was.end_mm), 1e-4);
+    EXPECT_NEAR(is.length_mm, was.length_mm, 1e-4);
+    EXPECT_NEAR(is.feed_mm_s, was.feed_mm_s, 1e-6);
+    EXPECT_NEAR(changed->start_mm[i], was.position_mm, 1e-4);
+    EXPECT_NEAR(changed->end_mm[i], was.position_mm + was.length_mm, 1e-4);
+  }
+}
+
+TEST(ChangedText, WithoutPiecesIsTheProgram) {
+  const WrittenProgram program(
+      "G0 X10 Y0\nO100 sub\nG1 X20 F1200\nG1 X10\nO100 endsub\nO100 call\nO100 call\nG1 Y9\n");
+  const auto changed = program.with({});
+  ASSERT_TRUE(changed.has_value());
+  EXPECT_EQ(changed->replaced.replaced, 0U);
+  ASSERT_EQ(changed->start_mm.size(), program.path.segments.size());
+  // Blocks that are run twice stand for two stretches, one after the other.
+  for (std::size_t i = 0; i < program.path.segments.size(); ++i) {
+    EXPECT_NEAR(changed->start_mm[i], program.path.segments[i].position_mm, 1e-9) << i;
+  }
+  EXPECT_NEAR(changed->end_mm.back(), program.length_mm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace steadyrest::contour::offline
