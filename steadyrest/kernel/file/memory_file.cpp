@@ -19,23 +19,22 @@ MemoryFile::~MemoryFile() {
 }
 
 outcome::Result<MemoryFile> MemoryFile::make(std::string_view text) {
-  const auto failed = [] {
-    return std::unexpected(
-        outcome::Refusal{.kind = outcome::Kind::unavailable,
-                         .file = {},
-                         .line = 0,
-                         .what = std::string("no memory for a file: ") + std::strerror(errno),
-                         .to_do = "free some memory and try again"});
+  const auto failed = [](const char* what) {
+    return std::unexpected(outcome::Refusal{.kind = outcome::Kind::unavailable,
+                                            .file = {},
+                                            .line = 0,
+                                            .what = std::string(what) + std::strerror(errno),
+                                            .to_do = "free some memory and try again"});
   };
   const int descriptor = ::memfd_create("steadyrest", MFD_CLOEXEC);
   if (descriptor < 0) {
-    return failed();
+    return failed("no memory for a file: ");
   }
   MemoryFile file(descriptor);
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written <= 0 && errno != EINTR) {
-      return failed();
+      return failed("a file in memory: write failed: ");
     }
     text.remove_prefix(static_cast<std::size_t>(written > 0 ? written : 0));
   }
