@@ -75,7 +75,8 @@ class Writer {
       ++segment;
     }
     const double feed = segments[segment].feed_mm_s;
-    if (!led_ || pieces_[next_].begins_run) {
+    const bool begins = !led_ || pieces_[next_].begins_run;
+    if (begins) {
       at_mm_ = block.start_mm;
     }
     std::vector<NewMove> moves;
@@ -83,21 +84,29 @@ class Writer {
         program_.config.dialect, nc::rewrite::decimals_of(program_.config.dialect, block.unit_mm));
     std::vector<std::string> texts;
     written_.emplace_back();
-    for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
-      const PathSegment& of = pieces_[next_].segment;
-      const bool arc = of.geometry == Geometry::arc && of.radius_mm > kLeastArc_mm &&
-                       of.radius_mm * of.sweep_rad > kLeastArc_mm;
-      const NewMove move = {.geometry = arc ? Geometry::arc : Geometry::line,
-                            .end_mm = of.end_mm,
-                            .centre_mm = of.centre_mm,
-                            .clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0,
-                            .feed_ratio = feed > 0.0 ? of.feed_mm_s / feed : 1.0};
+    const auto put = [&](const NewMove& move) {
       const auto text = writer.write(block, texts.empty() ? line : "", {&move, 1}, at_mm_);
       if (!text.empty()) {
         texts.push_back(text.front());
         written_.back().push_back(next_);
         moves.push_back(move);
       }
+    };
+    // The control rounds the corner before the run, so the run begins behind it; the block before,
+    // which stays, ends at the corner.
+    const Point& first = pieces_[next_].segment.start_mm;
+    if (math::geometry::distance(at_mm_, first) > kLeastArc_mm && begins) {
+      put({.geometry = Geometry::line, .end_mm = first, .feed_ratio = 1.0});
+    }
+    for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
+      const PathSegment& of = pieces_[next_].segment;
+      const bool arc = of.geometry == Geometry::arc && of.radius_mm > kLeastArc_mm &&
+                       of.radius_mm * of.sweep_rad > kLeastArc_mm;
+      put({.geometry = arc ? Geometry::arc : Geometry::line,
+           .end_mm = of.end_mm,
+           .centre_mm = of.centre_mm,
+           .clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0,
+           .feed_ratio = feed > 0.0 ? of.feed_mm_s / feed : 1.0});
     }
     led_ = true;
     // Where the next block is not replaced it may take motion and feed over.
@@ -229,6 +238,18 @@ class Mapping {
   std::size_t taken_ = kNone;
 };
 
+/// A refusal of what was written, at the block that it replaces.
+kernel::outcome::Refusal of_original(kernel::outcome::Refusal refusal, const std::string& file,
+                                     const std::vector<std::uint32_t>& origin) {
+  const auto line = static_cast<std::size_t>(refusal.line);
+  if (refusal.file == file && line > 0 && line < origin.size()) {
+    refusal.line = origin[line];
+    refusal.what = "the control would refuse what would replace this block: " + refusal.what;
+    refusal.to_do = "report this as a fault of predistort, with the program";
+  }
+  return refusal;
+}
+
 }  // namespace
 
 Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& pieces) {
@@ -243,7 +264,7 @@ Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& p
   }
   auto path = nc::plan::plan_text(replaced->text, program.config, program.machine, program.file);
   if (!path) {
-    return std::unexpected(path.error());
+    return std::unexpected(of_original(path.error(), program.file, replaced->origin));
   }
   Changed changed{.lines = {},
                   .replaced = std::move(*replaced),
