@@ -90,22 +90,7 @@ class Predistortion {
     }
     keep_original(std::move(planned->replaced));
     for (int revision = 0; revision <= kMostRevisions; ++revision) {
-      speed_ = best_speed_ = first_speed_;
-      caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
-      holds_ = false;
-      learnt_.unrefine(0);
-      if (auto done = rounds(how_.rounds); !done) {
-        return std::unexpected(done.error());
-      }
-      if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
-        if (auto done = try_corners(); !done) {
-          return std::unexpected(done.error());
-        }
-      }
-      if (auto done = refine(); !done) {
-        return std::unexpected(done.error());
-      }
-      if (auto done = hold(); !done) {
+      if (auto done = attempt(revision); !done) {
         return std::unexpected(done.error());
       }
       if (best_mm_ < 0.0 || !bar_worse()) {
@@ -122,6 +107,26 @@ class Predistortion {
   }
 
  private:
+  /// All rounds with the blocks that may be changed now.
+  Result<void> attempt(int revision) {
+    speed_ = best_speed_ = first_speed_;
+    caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
+    holds_ = false;
+    learnt_.unrefine(0);
+    if (auto done = rounds(how_.rounds); !done) {
+      return done;
+    }
+    if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
+      if (auto done = try_corners(); !done) {
+        return done;
+      }
+    }
+    if (auto done = refine(); !done) {
+      return done;
+    }
+    return hold();
+  }
+
   /// The result is the program as it is, until a round is better.
   void keep_original(nc::rewrite::Replaced replaced) {
     if (!replaced.text.empty()) {

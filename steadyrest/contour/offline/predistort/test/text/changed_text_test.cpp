@@ -38,7 +38,7 @@ TEST(ChangedText, WithoutPiecesIsTheProgram) {
   ASSERT_TRUE(changed.has_value());
   EXPECT_EQ(changed->replaced.replaced, 0U);
   ASSERT_EQ(changed->start_mm.size(), program.path.segments.size());
-  // Blocks that are run twice stand for two stretches, one after the other.
+  // Blocks that are run twice cover two stretches, one after the other.
   for (std::size_t i = 0; i < program.path.segments.size(); ++i) {
     EXPECT_NEAR(changed->start_mm[i], program.path.segments[i].position_mm, 1e-9) << i;
   }

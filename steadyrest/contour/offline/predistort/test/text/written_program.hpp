@@ -58,7 +58,7 @@ struct WrittenProgram {
   nc::rewrite::CutBlocks blocks;
 };
 
-/// Its segments stand for the whole original, in order and without a gap.
+/// Its segments cover the whole original, in order and without a gap.
 inline void expect_in_order(const Changed& changed, double whole_mm) {
   ASSERT_EQ(changed.start_mm.size(), changed.path.segments.size());
   ASSERT_EQ(changed.end_mm.size(), changed.path.segments.size());
