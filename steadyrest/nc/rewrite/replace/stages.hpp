@@ -12,8 +12,7 @@
 /// before.
 namespace steadyrest::nc::rewrite {
 
-/// A program with new lines in place of its own and without any mark: what the next stage is made
-/// for.
+/// A program with lines replaced and without any mark: what the next stage is made for.
 struct Stage {
   std::string text;
   std::vector<std::uint32_t> origin;  ///< the original's line of each of its lines, from 1

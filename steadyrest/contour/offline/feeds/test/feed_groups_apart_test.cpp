@@ -38,7 +38,7 @@ TEST(FeedGroupsApart, EqualNeighboursCostNothing) {
   EXPECT_EQ(groups_on(scene, {.most_loss_s = 0.0, .shortest_s = 0.0}, ratio), 3U);
 }
 
-// However long the control stands before a cell, a lower feed costs what it costs in motion:
+// However long the control waits before a cell, a lower feed costs what it costs in motion:
 // 1 s at 1.0 is 1.25 s at 0.8.
 TEST(FeedGroupsApart, ADwellCostsNothingAtALowerFeed) {
   for (const char* const dwell : {"G4 P0.1\n", "G4 P20\n"}) {

@@ -62,7 +62,7 @@ TEST(StretchesAtGaps, FadeOnlyTowardsADisturbance) {
   }
 }
 
-// The tool stands and goes back a little: those samples belong to no place further on.
+// The tool stops and goes back a little: those samples belong to no place further on.
 TEST(StretchesAtGaps, SamplesThatDoNotMoveOnAreLeftOut) {
   auto samples = even_samples(30);
   for (const std::size_t i : {10U, 11U, 12U}) {

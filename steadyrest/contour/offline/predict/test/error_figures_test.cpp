@@ -53,7 +53,7 @@ TEST(ErrorFigures, TellTheLargestOfEachLineInAnyOrder) {
   }
 }
 
-// Each of the other models has figures of its own.
+// Each of the other models has its figures.
 TEST(ErrorFigures, KeepTheModelsApart) {
   ErrorFigures figures(0.01, 2);
   constexpr std::array kOne = {0.001, 0.020};

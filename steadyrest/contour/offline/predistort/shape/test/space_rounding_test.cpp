@@ -9,7 +9,7 @@ namespace {
 
 using test::UsedPath;
 
-/// Line 2's corner is rounded by an arc of its own, in the plane of this axis.
+/// Line 2's corner is rounded by a separate arc, in the plane of this axis.
 UsedPath with_rounding(const kernel::signal::Point& axis) {
   UsedPath used(4);
   auto& rounding = used.path.segments[2];

@@ -13,7 +13,7 @@
 
 namespace steadyrest::contour::offline::test {
 
-/// A program in a file of its own, planned on the ideal mill; its first move is on line 2.
+/// A program in a separate file, planned on the ideal mill; its first move is on line 2.
 struct WrittenProgram {
   explicit WrittenProgram(const std::string& moves)
       : file(folder.file("part.ngc", exact_program(moves))),
