@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a new move may have of its own: its path, its feed and its speed as far as is permitted, and
+// What a new move may change: its path, its feed and its speed as far as is permitted, and
 // nothing else.
 #include <functional>
 #include <string>

@@ -10,7 +10,7 @@
 
 namespace steadyrest::contour::offline::test {
 
-/// A path of free blocks without stops, each segment the block of its own line, and a control that
+/// A path of free blocks without stops, one segment for each line, and a control that
 /// runs it at one speed.
 class ShapeScene {
  public:
