@@ -22,28 +22,59 @@ double end_of(const PathSegment& segment) noexcept {
   return segment.position_mm + segment.length_mm;
 }
 
+/// The segments of a path in order.
+class Neighbours {
+ public:
+  explicit Neighbours(const std::vector<PathSegment>& segments) noexcept : segments_(segments) {}
+
+  /// Those between two places along the path; both may only grow from call to call.
+  void within(double from_mm, double to_mm) noexcept {
+    while (first_ + 1 < segments_.size() && end_of(segments_[first_]) < from_mm) {
+      ++first_;
+    }
+    to_mm_ = to_mm;
+    likely_ = std::max(likely_, first_);
+  }
+
+  /// Distance to the nearest of them, or any one that is at most `enough_mm`: the search begins
+  /// with the segment at this place, which is nearly always near enough.
+  [[nodiscard]] double nearest_mm(const Point& point, double place_mm, double enough_mm) noexcept {
+    while (likely_ + 1 < segments_.size() && end_of(segments_[likely_]) < place_mm) {
+      ++likely_;
+    }
+    double nearest = geometry::foot_point(segments_[likely_], point).distance_mm;
+    for (std::size_t j = first_;
+         nearest > enough_mm && j < segments_.size() && segments_[j].position_mm <= to_mm_; ++j) {
+      nearest = std::min(nearest, geometry::foot_point(segments_[j], point).distance_mm);
+    }
+    return nearest;
+  }
+
+ private:
+  const std::vector<PathSegment>& segments_;
+  std::size_t first_ = 0;
+  std::size_t likely_ = 0;
+  double to_mm_ = 0.0;
+};
+
 }  // namespace
 
 Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& pieces,
                double bound_mm) {
   Shift out;
-  const auto& segments = path.segments;
-  std::size_t index = 0;
+  Neighbours neighbours(path.segments);
   for (const Piece& piece : pieces) {
     double largest = 0.0;
     const double around = std::max(kLeastReach_mm, kReach * bound_mm) + piece.segment.length_mm;
-    while (index + 1 < segments.size() &&
-           end_of(segments[index]) < piece.progress_start_mm - around) {
-      ++index;
-    }
+    neighbours.within(piece.progress_start_mm - around, piece.progress_end_mm + around);
     for (int i = 0; i <= kPoints; ++i) {
-      const Point point = geometry::point_at(piece.segment, static_cast<double>(i) / kPoints);
-      double nearest = 1e9;
-      for (std::size_t j = index;
-           j < segments.size() && segments[j].position_mm <= piece.progress_end_mm + around; ++j) {
-        nearest = std::min(nearest, geometry::foot_point(segments[j], point).distance_mm);
-      }
-      largest = std::max(largest, nearest);
+      const double along = static_cast<double>(i) / kPoints;
+      // What is nearer than the largest so far, and within the bound, changes nothing.
+      largest = std::max(
+          largest,
+          neighbours.nearest_mm(geometry::point_at(piece.segment, along),
+                                std::lerp(piece.progress_start_mm, piece.progress_end_mm, along),
+                                std::min(bound_mm, std::max(largest, out.largest_mm))));
     }
     out.largest_mm = std::max(out.largest_mm, largest);
     if (largest > bound_mm && (out.too_far.empty() || out.too_far.back() != piece.segment.line)) {
