@@ -86,8 +86,12 @@ void FeedCaps::unite() {
   }
 }
 
-std::vector<Piece> FeedCaps::apply(const std::vector<Piece>& pieces) const {
+std::vector<Piece> FeedCaps::apply(std::vector<Piece> pieces) const {
+  if (stretches_.empty()) {
+    return pieces;
+  }
   std::vector<Piece> out;
+  out.reserve(pieces.size());
   auto next = stretches_.begin();
   for (const Piece& piece : pieces) {
     const double start = piece.progress_start_mm;

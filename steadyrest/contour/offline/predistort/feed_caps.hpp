@@ -33,7 +33,7 @@ class FeedCaps {
                              double limit_mm);
 
   /// The pieces with these feeds; a piece is divided where its feed changes.
-  [[nodiscard]] std::vector<Piece> apply(const std::vector<Piece>& pieces) const;
+  [[nodiscard]] std::vector<Piece> apply(std::vector<Piece> pieces) const;
 
  private:
   /// Where the feed is lowered.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -43,6 +46,20 @@ Point machine_from(const CutBlock& block, const Point& work) noexcept {
                                     block.unit_mm);
 }
 
+constexpr int kFeedDecimals = 4;
+
+/// Rounded to so many decimals, without the noughts behind the last figure but one.
+std::string decimal(double value, int decimals) {
+  std::array<char, std::numeric_limits<double>::max_exponent10 + 16> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::fixed, decimals);
+  std::string text(digits.data(), end.ptr);
+  while (text.ends_with('0') && !text.ends_with(".0")) {
+    text.pop_back();
+  }
+  return text;
+}
+
 int code_of(const NewMove& move) noexcept {
   return move.geometry == Geometry::line ? interpret::g::kLinear
          : move.clockwise                ? interpret::g::kArcClockwise
@@ -77,19 +94,12 @@ std::string_view block_number(std::string_view line) noexcept {
 }
 
 std::string BlockText::number(double value) const {
-  std::string text = fmt::format("{:.{}f}", value, decimals_);
-  while (text.ends_with('0') && !text.ends_with(".0")) {
-    text.pop_back();
-  }
+  std::string text = decimal(value, decimals_);
   return text == "-0.0" ? "0.0" : text;
 }
 
 std::string BlockText::feed_word(const CutBlock& block, double feed_ratio) {
-  std::string text = fmt::format("{:.4f}", block.feed * feed_ratio);
-  while (text.ends_with('0') && !text.ends_with(".0")) {
-    text.pop_back();
-  }
-  return "F" + text;
+  return "F" + decimal(block.feed * feed_ratio, kFeedDecimals);
 }
 
 std::string BlockText::code(const CutBlock& block, const NewMove& move, Point& at_mm) const {
@@ -103,21 +113,21 @@ std::string BlockText::code(const CutBlock& block, const NewMove& move, Point& a
   const Point to = work_of(block, move.end_mm);
   const Point centre = work_of(block, move.centre_mm);
   Point reached = from;
-  std::string text = fmt::format("G{}", code_of(move) / 10);
+  std::string text = "G" + std::to_string(code_of(move) / 10);
   for (std::size_t i = 0; i < 3; ++i) {
     const double value = rounded(block.incremental ? to[i] - from[i] : to[i]);
     const double then = block.incremental ? from[i] + value : value;
     const bool in_plane = i == plane.first || i == plane.second;
     // An axis that does not move is left out, unless the arc needs it to be read as one.
     if (std::abs(then - from[i]) > 0.5 / scale || (arc && in_plane)) {
-      text += fmt::format(" {}{}", kAxes[i], number(value));
+      text.append(1, ' ').append(1, kAxes[i]).append(number(value));
       reached[i] = then;
     }
   }
   for (const std::size_t i : {plane.first, plane.second}) {
     if (arc) {
       const double value = block.centre_absolute ? centre[i] : centre[i] - from[i];
-      text += fmt::format(" {}{}", kCentres[i], number(rounded(value)));
+      text.append(1, ' ').append(1, kCentres[i]).append(number(rounded(value)));
     }
   }
   at_mm = machine_from(block, reached);

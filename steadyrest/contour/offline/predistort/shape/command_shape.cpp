@@ -168,6 +168,7 @@ std::vector<CurvePoint> CommandShape::curve(std::size_t segment, const End& star
 
 std::vector<Piece> CommandShape::pieces() {
   std::vector<Piece> out;
+  out.reserve(path_.segments.size());
   End start;
   for (std::size_t i = 0; i < path_.segments.size(); ++i) {
     const PathSegment& of = path_.segments[i];
