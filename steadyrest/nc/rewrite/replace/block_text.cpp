@@ -47,6 +47,8 @@ Point machine_from(const CutBlock& block, const Point& work) noexcept {
 }
 
 constexpr int kFeedDecimals = 4;
+constexpr int kGivenDecimals = 9;  ///< beyond any control's, short of the noise of a double
+constexpr double kSamePoint_mm = 1e-9;
 
 /// Rounded to so many decimals, without the noughts behind the last figure but one.
 std::string decimal(double value, int decimals) {
@@ -58,6 +60,11 @@ std::string decimal(double value, int decimals) {
     text.pop_back();
   }
   return text;
+}
+
+double rounded(double value, int decimals) noexcept {
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale;
 }
 
 int code_of(const NewMove& move) noexcept {
@@ -93,8 +100,8 @@ std::string_view block_number(std::string_view line) noexcept {
   return end == first + 1 ? std::string_view{} : line.substr(first, end - first);
 }
 
-std::string BlockText::number(double value) const {
-  std::string text = decimal(value, decimals_);
+std::string BlockText::number(double value, int decimals) {
+  std::string text = decimal(value, decimals);
   return text == "-0.0" ? "0.0" : text;
 }
 
@@ -105,8 +112,11 @@ std::string BlockText::feed_word(const CutBlock& block, double feed_ratio) {
 std::string BlockText::code(const CutBlock& block, const NewMove& move, Point& at_mm) const {
   constexpr std::string_view kAxes = "XYZ";
   constexpr std::string_view kCentres = "IJK";
-  const double scale = std::pow(10.0, decimals_);
-  const auto rounded = [scale](double value) { return std::round(value * scale) / scale; };
+  // The block's own end keeps all digits that the program gave it: a full circle that stays behind
+  // it is one only while its start is its end.
+  const int decimals = math::geometry::distance(move.end_mm, block.end_mm) < kSamePoint_mm
+                           ? std::max(decimals_, kGivenDecimals)
+                           : decimals_;
   const interpret::PlaneAxes plane = interpret::axes_of(block.plane);
   const bool arc = move.geometry == Geometry::arc;
   const Point from = work_of(block, at_mm);
@@ -115,19 +125,19 @@ std::string BlockText::code(const CutBlock& block, const NewMove& move, Point& a
   Point reached = from;
   std::string text = "G" + std::to_string(code_of(move) / 10);
   for (std::size_t i = 0; i < 3; ++i) {
-    const double value = rounded(block.incremental ? to[i] - from[i] : to[i]);
+    const double value = rounded(block.incremental ? to[i] - from[i] : to[i], decimals);
     const double then = block.incremental ? from[i] + value : value;
     const bool in_plane = i == plane.first || i == plane.second;
     // An axis that does not move is left out, unless the arc needs it to be read as one.
-    if (std::abs(then - from[i]) > 0.5 / scale || (arc && in_plane)) {
-      text.append(1, ' ').append(1, kAxes[i]).append(number(value));
+    if (std::abs(then - from[i]) > 0.5 * std::pow(10.0, -decimals) || (arc && in_plane)) {
+      text.append(1, ' ').append(1, kAxes[i]).append(number(value, decimals));
       reached[i] = then;
     }
   }
   for (const std::size_t i : {plane.first, plane.second}) {
     if (arc) {
       const double value = block.centre_absolute ? centre[i] : centre[i] - from[i];
-      text.append(1, ' ').append(1, kCentres[i]).append(number(rounded(value)));
+      text.append(1, ' ').append(1, kCentres[i]).append(number(value, decimals_));
     }
   }
   at_mm = machine_from(block, reached);

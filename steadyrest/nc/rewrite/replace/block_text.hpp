@@ -49,7 +49,7 @@ class BlockText {
   [[nodiscard]] static std::string feed_word(const CutBlock& block, double feed_ratio);
 
  private:
-  [[nodiscard]] std::string number(double value) const;
+  [[nodiscard]] static std::string number(double value, int decimals);
   [[nodiscard]] std::string code(const CutBlock& block, const NewMove& move,
                                  kernel::signal::Point& at_mm) const;
 

@@ -137,6 +137,27 @@ RC_GTEST_PROP(BlockText, IsReadAsItWasMeant, ()) {
   RC_ASSERT(math::geometry::distance({last[0], last[1], last[2]}, at) < 1e-9);
 }
 
+TEST(BlockText, KeepsAllDigitsOfTheBlocksOwnEnd) {
+  const Workshop shop;
+  const auto found = blocks_of(shop,
+                               "G21 G90 G17 G64 F300\n"
+                               "G0 X-14.372598 Y15.985548 Z21.805119\n"
+                               "G1 X-15.372598 Y18.485548 Z18.3\n"
+                               "G2 I0 J-8\n"
+                               "M2\n");
+  const CutBlock& block = found.blocks.front();
+  Point at = block.start_mm;
+  const Point between = {-15.0, 17.1234567, 20.0};
+  const BlockText writer(Dialect::linuxcnc, decimals_of(Dialect::linuxcnc, 1.0));
+  const std::vector<NewMove> moves = {
+      {.geometry = Geometry::line, .end_mm = between, .feed_ratio = 0.5},
+      {.geometry = Geometry::line, .end_mm = block.end_mm, .feed_ratio = 1.0}};
+  EXPECT_EQ(writer.write(block, "", moves, at),
+            (std::vector<std::string>{"G1 X-15.0 Y17.12346 Z20.0 F150.0",
+                                      "G1 X-15.372598 Y18.485548 Z18.3 F300.0"}));
+  EXPECT_EQ(at, block.end_mm);
+}
+
 TEST(BlockText, ChangesTheFeedAlone) {
   const Workshop shop;
   const auto found = blocks_of(shop, "G21 G90\nG0 X0\nG1 X5 F100\nM2\n");
