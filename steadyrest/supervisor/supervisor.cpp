@@ -22,7 +22,7 @@ using kernel::override::OffsetEnvelope;
 using machine::Mode;
 
 // Age of the frame before the first reading: stale by any limit.
-constexpr double kNeverReadS = 1e9;  ///< older than any limit on stale input
+constexpr double kNeverReadS = 1e9;
 /// Between two blocks a control may report idle for some cycles with the tool in the cut. Tests
 /// AfterAnAbortTheOffsetFades, ADwellOrAShortIdleInTheCutKeepsTheOffset.
 constexpr double kIdleLeavesCutS = 1.0;
@@ -158,7 +158,8 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
       motion_(std::move(motion)),
       offset_(offset),
       path_offset_(path_offset),
-      offset_available_(capability.axis_offset) {
+      offset_available_(capability.axis_offset),
+      path_offset_available_(capability.path_offset) {
   state_.mode_wanted = machine.mode;
 }
 
@@ -211,7 +212,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
   const signal::InForce come_down = in_force();
   if (contour_) {
-    estimates_.contour = contour_->update(frame, come_down);
+    estimates_.contour = contour_->update(frame, come_down, unfit);
   }
   if (chatter_) {
     hear(frame, fit);

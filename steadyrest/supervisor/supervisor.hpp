@@ -29,8 +29,8 @@ namespace steadyrest::supervisor {
 ///
 /// Modes. observe: the rooms estimate, the Command is the panel's own. advise: the Command is what
 /// would be written. act: the Command is written, and only then is `Command::write` set. Leaving
-/// act hands back first: neutral through the slew limit, offsets out once no tool is in the cut;
-/// until then the mode in force stays act.
+/// act hands back first: neutral through the slew limit, path offsets out at once, thermal ones
+/// once no tool is in the cut; until then the mode in force stays act.
 /// Time. FrameClock turns the frames' stamps into good time, and rooms, envelopes and words get
 /// nothing else. A stamp in doubt gives no credit to any slew and settles no word.
 /// What the envelopes let pass comes down to the rooms with the next frame (InForce); no room keeps
@@ -201,6 +201,7 @@ class Supervisor {
   kernel::override::OffsetEnvelope offset_;
   kernel::override::OffsetEnvelope path_offset_;
   bool offset_available_;
+  bool path_offset_available_;
   bool handed_back_ = true;  ///< nothing of the layer is on the machine
   Written before_;           ///< the last cycle
   State state_;              ///< the parts that are not a member's own

@@ -29,8 +29,8 @@ double shown(const signal::OverrideState& panel) noexcept {
   return kernel::override::fault_of(panel.panel_ratio) == Reason::none ? panel.panel_ratio : 1.0;
 }
 
-/// Of an override that the machine does not have.
-// A wish that nobody can carry out must not look like one that is in force.
+/// The reason of an override that the machine does not have: a wish that nobody can carry out must
+/// not look like one in force.
 template <class Request>
 Reason without_channel(const Request& request, Reason unfit) noexcept {
   if (unfit != Reason::none) {
@@ -65,6 +65,11 @@ bool put(std::optional<Channel>& channel, const kernel::override::RatioEnvelope:
   return out.handed_back;
 }
 
+// A port that takes no offsets has a limit of 0 for them; the reason says why nothing moves.
+Reason offset_reason(Reason shown, const signal::OffsetRequest& wanted, bool available) noexcept {
+  return !available && kernel::override::is_wish(wanted.reason) ? Reason::port_cannot_write : shown;
+}
+
 }  // namespace
 
 /// What holds without the layer: the panel's own value.
@@ -76,11 +81,12 @@ signal::Command Supervisor::panel_command(const signal::Frame& frame) noexcept {
           .offset_mm = {},
           .feed_reason = Reason::observe_only,
           .spindle_reason = Reason::observe_only,
-          .offset_reason = Reason::observe_only};
+          .offset_reason = Reason::observe_only,
+          .path_offset_reason = Reason::observe_only};
 }
 
-// The last step before the port. All three channels run in every cycle, also when one is unfit:
-// each slews back on its own.
+// The last step before the port. Both overrides and both offsets run in every cycle, also when one
+// is unfit: each slews back on its own.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
   const bool feed_back =
@@ -99,9 +105,7 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
                                       .unfit = decisions.unfit,
                                       .tool_in_cut = state_.tool_in_cut});
   command.offset_mm = offset.offset_mm;
-  // The port takes no offsets, so their limit is 0; the reason says why nothing moves.
-  const bool stuck = !offset_available_ && kernel::override::is_wish(decisions.offset.reason);
-  command.offset_reason = stuck ? Reason::port_cannot_write : offset.reason;
+  command.offset_reason = offset_reason(offset.reason, decisions.offset, offset_available_);
   // Heat first: the contour room gets what its limit leaves beside that.
   const auto path = path_offset_.update({.step_s = step_s,
                                          .request = decisions.path_offset,
@@ -109,7 +113,8 @@ void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decision
                                          .unfit = decisions.unfit,
                                          .tool_in_cut = state_.tool_in_cut});
   command.path_offset_mm = path.offset_mm;
-  command.path_offset_reason = path.reason;
+  command.path_offset_reason =
+      offset_reason(path.reason, decisions.path_offset, path_offset_available_);
   handed_back_ = handed_back_ && offset.at_zero && path.at_zero;
 }
 

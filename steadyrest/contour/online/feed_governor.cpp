@@ -189,7 +189,6 @@ void FeedGovernor::remember(const kernel::signal::InForce& in_force) noexcept {
 /// The ratios already under way: at each time the largest of those that may act then.
 void FeedGovernor::fill_pending(const Frame& frame) noexcept {
   const Forecast::Timing& timing = forecast_.timing();
-  const double cycle = std::max(cycle_s_, 1e-4);
   auto& pending = forecast_.pending();
   std::size_t n = 0;
   for (; n < Forecast::kMaxSteps; ++n) {
@@ -201,8 +200,8 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
       break;
     }
     const double newest = std::max(0.0, timing.dead_s - t);
-    const auto first = static_cast<std::size_t>(newest / cycle);
-    const auto last = std::min(kHistory - 1, static_cast<std::size_t>(oldest / cycle) + 1);
+    const auto last = std::min(kHistory - 1, static_cast<std::size_t>(oldest / cycle_s_) + 1);
+    const auto first = std::min(last, static_cast<std::size_t>(newest / cycle_s_));
     double most = 0.0;
     for (std::size_t back = first; back <= last; ++back) {
       most = std::max(most, history_[(history_at_ + kHistory - 1 - back) % kHistory]);
@@ -237,7 +236,8 @@ void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
 }
 
 FeedGovernor::Output FeedGovernor::update(const Frame& frame,
-                                          const kernel::signal::InForce& in_force) noexcept {
+                                          const kernel::signal::InForce& in_force,
+                                          Reason unfit) noexcept {
   if (!config_.contour.enabled) {
     return {};
   }
@@ -257,10 +257,13 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
     state_.fallen_s = frame.time_s - config_.pause_s;
     state_.idle_effect_s = 0.0;
   }
-  if (frame.age_s > config_.envelope.stale_after_s) {
+  if (unfit == Reason::none && frame.age_s > config_.envelope.stale_after_s) {
+    unfit = Reason::input_stale;
+  }
+  if (unfit != Reason::none) {
     servo_.pause();
     precompensator_.reset();
-    return state_.last = withdraw(Reason::input_stale, {});
+    return state_.last = withdraw(unfit, {});
   }
 
   Output output = state_.last;

@@ -54,7 +54,7 @@ struct Candidate {
 ///                     the fastest. Since ε grows with v it ends at the lowest step wherever no
 ///                     step reaches the target
 ///   feed priority     the largest admissible step
-///   combined          the admissible step with the smallest J
+///   combined          the step with the smallest J, or the largest admissible one below it
 ///
 /// Admissible: "go to the step, hold it for one decision, then fall to the lowest step as fast as
 /// the slew permits" keeps |ε| ≤ ε_max·(1 − margin) − reserve all the way. The fall can thus always
@@ -164,9 +164,10 @@ class FeedGovernor {
   static kernel::outcome::Result<FeedGovernor> make(const Config& config);
   static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
 
-  /// One cycle. The request remains in force until the next call.
-  Output update(const kernel::signal::Frame& frame,
-                const kernel::signal::InForce& in_force) noexcept;
+  /// One cycle. The request remains in force until the next call. `unfit`: why the frame must not
+  /// be acted on; nothing is learnt from it either.
+  Output update(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force,
+                kernel::outcome::Reason unfit = kernel::outcome::Reason::none) noexcept;
 
   [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
@@ -192,6 +193,7 @@ class FeedGovernor {
 
   FeedGovernor(const Config& config, const ContourError& contour, const ServoModel& servo,
                Precompensator precompensator);
+  [[nodiscard]] kernel::outcome::Result<void> check_reach() const;
   std::optional<kernel::signal::Point> run_model(const kernel::signal::Frame& frame,
                                                  double dt) noexcept;
   void observe(const kernel::signal::Frame& frame, const ContourError::Output& error,

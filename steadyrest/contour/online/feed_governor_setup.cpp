@@ -191,6 +191,9 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
     return std::unexpected(precompensator.error());
   }
   FeedGovernor governor(config, *contour, *servo, *std::move(precompensator));
+  if (auto seen = governor.check_reach(); !seen) {
+    return std::unexpected(seen.error());
+  }
   if (governor.candidate_.empty()) {
     return refuse(
         "no step of the override table lies between min_percent and max_percent of [contour]",
@@ -238,8 +241,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   search_steps_ = static_cast<std::size_t>(
       std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
   Forecast::Timing timing;
-  // 0.12/k: eight steps per time constant of the stiffest axis. The step itself is exact; the
-  // change of curvature within one step must stay small.
+  // The step itself is exact; the change of curvature within one step must stay small.
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
                                                 : std::clamp(kStep / stiffest(m.axes), 5e-4, 4e-3);
   // A word written now acts after the table's dead time, one interpolator cycle and half of the
@@ -250,7 +252,6 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   const double walk_1_s = walking_1_s(m.feed_override, candidate_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
-  // After four time constants of the softest axis e⁻⁴ of a change is left.
   timing.settle_s = kSettle / softest(m.axes) + kSettleLag * longest_lag(m.axes);
   forecast_.set_timing(timing);
   forecast_.set_table(table_ratio_);
@@ -260,6 +261,24 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
              timing.settle_s;
   refresh_model(0.0);
   history_.fill(1.0);
+}
+
+// A word is followed from when it was told until it acts: no longer than the history of words and
+// half of the forecast reach, so that the other half shows what the next one does.
+kernel::outcome::Result<void> FeedGovernor::check_reach() const {
+  const Forecast::Timing& timing = forecast_.timing();
+  const double most_s =
+      std::min(static_cast<double>(kHistory - 1) * config_.control.interpolator_period_s,
+               0.5 * static_cast<double>(Forecast::kMaxSteps) * timing.step_s);
+  if (timing.dead_s + timing.scan_s <= most_s) {
+    return {};
+  }
+  return refuse("a feed override word acts up to " +
+                    std::to_string(1e3 * (timing.dead_s + timing.scan_s)) +
+                    " ms after it is written; allowed: at most " + std::to_string(1e3 * most_s) +
+                    " ms with this servo gain and interpolator period",
+                "correct dead_time_ms and scan_period_ms in [feed_override], or switch [contour] "
+                "off: an override this slow cannot hold a contour");
 }
 
 // A search may overshoot its budget by one look, which is up to two forecasts; the fall and one

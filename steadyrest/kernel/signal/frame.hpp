@@ -18,7 +18,8 @@ namespace steadyrest::kernel::signal {
 struct AxisSample {
   double command_mm = 0.0;          ///< commanded position
   double actual_mm = 0.0;           ///< position by the encoder
-  double following_error_mm = 0.0;  ///< command − actual, as the control reports it
+  double following_error_mm = 0.0;  ///< command − actual, as the control reports it; shown as
+                                    ///< Ed, no decision uses it
   bool encoder_shown = false;       ///< `count` is valid
   std::int64_t count = 0;           ///< of the encoder at `time_s`, ×4 decoded
   /// Time of the last edge up to now, in the frame's time; NaN: none yet, or no time stamps.

@@ -34,7 +34,7 @@ std::span<const Key<Contour>> contour_keys() noexcept {
       // of them; with 0 it creeps wherever the path is curved.
       Key<Contour>{"target_um", &Contour::target_mm, 0, 1e5,
                    "Contour priority: errors below this count as equal."},
-      Key<Contour>{"min_percent", &Contour::min_ratio, 0, 1000,
+      Key<Contour>{"min_percent", &Contour::min_ratio, 0.1, 1000,
                    "The layer never asks for less than this share of the programmed feed."},
       Key<Contour>{"max_percent", &Contour::max_ratio, 0.1, 1000,
                    "The layer never asks for more than this share of the programmed feed."},

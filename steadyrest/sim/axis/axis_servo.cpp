@@ -17,7 +17,8 @@ namespace {
 using kernel::outcome::Result;
 
 /// Standstill window of an axis whose encoder is ideal or finer than this.
-constexpr double kFinestWindowMm = 5e-4;
+constexpr double kFinestWindow_mm = 5e-4;
+constexpr double kFinestWindow_rad = 5e-6;  ///< 1″; 0.5 µm on a radius of 100 mm
 
 Result<void> check(const AxisServo::Config& c) {
   constexpr double kMax = 1e12;
@@ -60,7 +61,8 @@ AxisServo::AxisServo(const Config& config, const Encoder& encoder) noexcept
       lag_s_(config.axis.velocity_lag_s),
       drive_mm_s2_(config.axis.drive_acceleration_au_s2),
       half_backlash_mm_(config.axis.backlash_au / 2.0),
-      window_mm_(std::max(config.axis.encoder.count_au, kFinestWindowMm)),
+      window_mm_(std::max(config.axis.encoder.count_au,
+                          config.axis.rotary ? kFinestWindow_rad : kFinestWindow_mm)),
       period_s_(config.period_s),
       friction_(config.axis.friction, config.period_s),
       encoder_(encoder) {

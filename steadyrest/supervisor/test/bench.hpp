@@ -43,7 +43,8 @@ class Bench {
 
   signal::Command cycle() {
     frame.time_s += kCycle_s;
-    return supervisor.update(frame, {.feed = feed, .spindle = spindle, .offset = offset});
+    return supervisor.update(
+        frame, {.feed = feed, .spindle = spindle, .offset = offset, .path_offset = offset});
   }
   signal::Command cycles(int count) {
     auto command = cycle();

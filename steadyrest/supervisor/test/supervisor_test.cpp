@@ -32,6 +32,7 @@ TEST(Supervisor, WhatThePortCannotWriteIsSaidAndNotWritten) {
   EXPECT_EQ(command.feed_reason, Reason::port_cannot_write);
   EXPECT_EQ(command.spindle_reason, Reason::port_cannot_write);
   EXPECT_EQ(command.offset_reason, Reason::port_cannot_write);
+  EXPECT_EQ(command.path_offset_reason, Reason::port_cannot_write);
 }
 
 // The operator's 70 % passes unchanged, although nothing knows its code.

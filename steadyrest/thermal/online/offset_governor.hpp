@@ -24,8 +24,8 @@ namespace steadyrest::thermal::online {
 /// on once a second, speed and feed as means, and whenever cutting, coolant or spindle standstill
 /// changes.
 ///
-/// For each axis, with the displacement δ, the displacement r at which the workpiece's zero was
-/// set, and m the smaller of the two largest offsets of the machine file:
+/// For each axis, with the displacement δ, the displacement plus the offset on the machine when the
+/// workpiece's zero was set, r, and m the smaller of the two largest offsets of the machine file:
 ///   wish = clamp(r − δ, ±m),   at most as fast as slope
 /// The envelope leads the offset there, at that slope or at its own slew, whichever is slower; what
 /// it let pass comes in with the frame. In a thread, tap or probing move the slope is 0: the offset

@@ -183,9 +183,9 @@ double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& aft
     if (delta > 1e-9) {
       jump = std::min(jump, junction_share_ * acceleration_[i] * period_s_ / delta);
       facets_a = std::min(facets_a, acceleration_[i] / delta);
-      least_a = std::min(least_a, acceleration_[i]);
     }
     if (i < 3) {
+      least_a = delta > 1e-9 ? std::min(least_a, acceleration_[i]) : least_a;
       dot += before[i] * after[i];
       norm_before += before[i] * before[i];
       norm_after += after[i] * after[i];

@@ -40,8 +40,8 @@ class PathReceiver {
 /// In continuous mode with a tolerance, lines are merged while all points between lie within
 /// merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY plane
 /// nearer to its chord than that, r·(1 − cos(sweep/2)), becomes two lines through its middle. Every
-/// event stops the path. Splines are refused, and so are programs longer than kLongestProgram_s
-/// (LeastTime).
+/// event stops the path. Splines become chords within 0.5 µm (spline_lines.hpp). Programs longer
+/// than kLongestProgram_s are refused (LeastTime).
 class PathStream final : public interpret::Sink {
  public:
   PathStream(const kernel::machine::Machine& machine, PathReceiver& receiver);

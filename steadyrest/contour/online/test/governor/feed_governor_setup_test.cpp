@@ -179,5 +179,17 @@ TEST(FeedGovernorConfig, WorkAndObjectiveAreRefusedByTheirNames) {
   EXPECT_NE(refused(config).find("the servo gain is 0.5"), std::string::npos);
 }
 
+// 1023 cycles of words are remembered; half of the forecast's 512 steps of 2.4 ms is less.
+TEST(FeedGovernorSetup, RefusesAnOverrideThatActsLaterThanItCanForesee) {
+  Machine machine = test::mill();
+  machine.feed_override.dead_time_s = 0.3;
+  EXPECT_TRUE(FeedGovernor::make(machine));
+  machine.feed_override.dead_time_s = 1.1;
+  const auto made = FeedGovernor::make(machine);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().what.find("acts up to 11"), std::string::npos);
+  EXPECT_NE(made.error().to_do.find("dead_time_ms"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace steadyrest::contour::online

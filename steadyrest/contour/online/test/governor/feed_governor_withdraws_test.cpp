@@ -161,5 +161,17 @@ TEST(FeedGovernor, WithdrawsWhenInputIsNotFiniteOrStale) {
   EXPECT_LT(governor.update(frame, kAtPanel).request.ratio, 1.0);
 }
 
+// Without the reason given the same frame would be acted on.
+TEST(FeedGovernor, AFrameThatTheSupervisorFindsUnfitIsNotActedOn) {
+  auto governor = *FeedGovernor::make(test::mill(50.0));
+  kernel::signal::Frame frame;
+  frame.motion = Motion::feed;
+  frame.time_s = 1.0;
+  EXPECT_EQ(governor.update(frame, {}, Reason::input_out_of_range).request.reason,
+            Reason::input_out_of_range);
+  frame.time_s = 1.001;
+  EXPECT_NE(governor.update(frame, {}).request.reason, Reason::input_out_of_range);
+}
+
 }  // namespace
 }  // namespace steadyrest::contour::online

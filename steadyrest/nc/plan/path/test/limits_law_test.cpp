@@ -207,5 +207,20 @@ TEST(PathLimitsLaw, TheJerkTimeIsTheLongestOfAll) {
   EXPECT_NEAR(PathLimits(axes, control).jerk_time_s(), 0.05, 1e-15) << "an axis again";
 }
 
+// rad/s² is no mm/s²: however slow a rotary axis, it does not enter the law of lengths in space.
+TEST(PathLimitsLaw, ARotaryAxisThatBarelyTurnsSlowsNoCorner) {
+  std::vector<kernel::machine::Axis> axes(4);
+  axes[3].rotary = true;
+  axes[3].max_acceleration_au_s2 = 10.0;
+  kernel::machine::Control control;
+  control.junction_deviation_mm = 0.01;
+  const PathLimits limits(axes, control);
+  const double still = limits.junction_mm_s({1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, 10.0, 10.0);
+  const double turning =
+      limits.junction_mm_s({1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 1e-6}, 10.0, 10.0);
+  EXPECT_GT(still, 0.0);
+  EXPECT_DOUBLE_EQ(turning, still);
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::plan
