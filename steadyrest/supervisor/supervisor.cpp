@@ -84,10 +84,6 @@ bool in_cut(signal::Motion motion, double idle_s, bool before) noexcept {
   return before;
 }
 
-bool in_thread(signal::Motion motion) noexcept {
-  return motion == signal::Motion::thread || motion == signal::Motion::tap;
-}
-
 /// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
@@ -183,7 +179,7 @@ Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& t
   if (fault == Reason::none) {
     state_.idle_s = frame.motion == signal::Motion::idle ? state_.idle_s + tick.step_s : 0.0;
     state_.tool_in_cut = in_cut(frame.motion, state_.idle_s, state_.tool_in_cut);
-    state_.in_thread = in_thread(frame.motion);
+    state_.in_thread = signal::is_locked(frame.motion);
   }
   return fault;
 }
@@ -256,7 +252,7 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
           // The raw frame's motion too: an unfit frame that shows a tap holds at once, while only a
           // fit one ends the hold.
-          .hold = state_.in_thread || in_thread(frame.motion)};
+          .hold = state_.in_thread || signal::is_locked(frame.motion)};
 }
 
 // resume() and settle_mode() may put the words back to the panel, so the copy that a refused write

@@ -23,7 +23,7 @@ using kernel::signal::Motion;
 constexpr double kRoomToRise = 0.998;
 /// An actual speed below this share of the programmed one means that it is not shown or the spindle
 /// is stopped.
-constexpr double kStands = 1e-3;
+constexpr double kStandstill_ratio = 1e-3;
 /// Words sent to the control count for at least this many delays, at most twice as many.
 constexpr double kDelaysKept = 1.5;
 
@@ -56,15 +56,11 @@ Extent extent_of(Law law) noexcept {
   return {.high = 1.0, .low = -1.0};
 }
 
-bool jumps(Law law) noexcept {
-  return law == Law::square || law == Law::pulse || law == Law::stop;
-}
-
 /// The actual speed as a ratio of the programmed one; the override's ratio where none is shown.
 double speed_ratio(const Frame& frame) noexcept {
   const double programmed = std::abs(frame.spindle_programmed_rev_s);
   const double ratio = programmed > 0.0 ? std::abs(frame.spindle_actual_rev_s) / programmed : 0.0;
-  return ratio > kStands ? ratio : frame.spindle.effective_ratio;
+  return ratio > kStandstill_ratio ? ratio : frame.spindle.effective_ratio;
 }
 
 }  // namespace
@@ -253,7 +249,8 @@ void Modulator::ask_spindle(const Frame& frame, const Limits& limits, const Swin
 /// `ahead`: the lowest speed ratio from now until the feed could respond.
 void Modulator::ask_feed(const Frame& frame, double ahead, Output& output) noexcept {
   const double actual = speed_ratio(frame);
-  output.feed_per_tooth_ratio = actual > kStands ? frame.feed.effective_ratio / actual : 1.0;
+  output.feed_per_tooth_ratio =
+      actual > kStandstill_ratio ? frame.feed.effective_ratio / actual : 1.0;
   const bool coupled = frame.motion == Motion::feed && !frame.feed_per_revolution;
   if (!coupled || !feed_) {
     state_.fed = false;
@@ -332,7 +329,7 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   if (fault != Reason::none) {
     return withdraw(fault);
   }
-  if (frame.motion == Motion::thread || frame.motion == Motion::tap) {
+  if (kernel::signal::is_locked(frame.motion)) {
     return withdraw(Reason::withdrawn_thread);
   }
   const double speed_rev_s = std::abs(frame.spindle_programmed_rev_s);

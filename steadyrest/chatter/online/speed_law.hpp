@@ -51,6 +51,11 @@ class SpeedLaw {
   std::array<double, kRandomKnots + 1> knot_integral_{};
 };
 
+/// S itself jumps, so no drive follows it exactly.
+[[nodiscard]] constexpr bool jumps(Law law) noexcept {
+  return law == Law::square || law == Law::pulse || law == Law::stop;
+}
+
 /// The law's word at the borders: constant, square, pulse, triangle, sine, random, stop.
 [[nodiscard]] const char* name(Law law) noexcept;
 /// The law of a word; nullopt for any other word.

@@ -34,10 +34,6 @@ bool is_fit(const Frame& frame) noexcept {
   return fit;
 }
 
-bool is_locked(Motion motion) noexcept {
-  return motion == Motion::thread || motion == Motion::tap;
-}
-
 }  // namespace
 
 void FeedGovernor::reset() noexcept {
@@ -273,7 +269,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   output.error_valid = error.valid;
   output.error_mm = error.error_mm;
   output.nominal_error_mm = nominal_error_mm(frame);
-  if (is_locked(frame.motion)) {
+  if (kernel::signal::is_locked(frame.motion)) {
     servo_.pause();
   } else {
     servo_.update(frame);
@@ -284,7 +280,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   cancel(frame, dt, output);
   watch_effect(frame, dt);
 
-  if (is_locked(frame.motion)) {
+  if (kernel::signal::is_locked(frame.motion)) {
     output = withdraw(Reason::withdrawn_thread, output);
   } else if (frame.motion != Motion::feed &&
              (frame.motion == Motion::idle || !cutting_within_reach(frame))) {

@@ -83,13 +83,13 @@ bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) n
 
 /// The offsets that take the contour error away, where the machine takes any.
 void FeedGovernor::cancel(const Frame& frame, double dt, Output& output) noexcept {
-  const bool is_locked = frame.motion == Motion::thread || frame.motion == Motion::tap;
+  const bool locked = kernel::signal::is_locked(frame.motion);
   const bool is_regular = dt > 0.0 && dt < 0.1;
   output.path_offset = precompensator_.update({.frame = frame,
                                                .path = ahead_,
                                                .step_s = is_regular ? dt : 0.0,
                                                .active = state_.offsets_act,
-                                               .permitted = output.path_known && !is_locked});
+                                               .permitted = output.path_known && !locked});
 }
 
 bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {

@@ -32,6 +32,11 @@ enum class Motion : std::uint8_t {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;
 }
 
+/// The feed belongs to the spindle: neither may change.
+[[nodiscard]] constexpr bool is_locked(Motion motion) noexcept {
+  return motion == Motion::thread || motion == Motion::tap;
+}
+
 enum class Geometry : std::uint8_t {
   line,
   arc  ///< circle, helix (rise ≠ 0) or spiral (radius_end ≠ radius), any number of turns

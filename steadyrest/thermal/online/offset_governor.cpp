@@ -27,7 +27,7 @@ namespace {
 /// of the true course is off by 1/(2·60) of the level's change within that second.
 constexpr double kHold_s = 1.0;
 /// Anything slower is the noise of a stationary encoder: 0.6 rpm, one count of 1024 in 0.1 s.
-constexpr double kStands_rev_s = 0.01;
+constexpr double kStandstill_rev_s = 0.01;
 /// What happened in longer gaps is unknown: a restart or a lost link, not a pause between blocks.
 /// Test AGapBelowAMinuteIsNone.
 constexpr double kGap_s = 60.0;
@@ -39,7 +39,7 @@ constexpr double kThere_mm = 1e-4;  ///< closer to the wish counts as there: a c
 OffsetGovernor::Running running_of(const Frame& frame) noexcept {
   OffsetGovernor::Running drive;
   const double speed = std::abs(frame.spindle_actual_rev_s);
-  drive.speed_rev_s = speed < kStands_rev_s ? 0.0 : speed;
+  drive.speed_rev_s = speed < kStandstill_rev_s ? 0.0 : speed;
   drive.feed_mm_s = frame.path_speed_mm_s;
   drive.cutting = kernel::signal::in_cut(frame.motion);
   drive.coolant = frame.coolant;
@@ -53,7 +53,7 @@ bool same_class(const OffsetGovernor::Running& a, const OffsetGovernor::Running&
 }
 
 bool must_hold(Motion motion) noexcept {
-  return motion == Motion::thread || motion == Motion::tap || motion == Motion::probe;
+  return kernel::signal::is_locked(motion) || motion == Motion::probe;
 }
 
 /// The worse a reason, the more it must be shown. The page shows one reason for all axes. A model
@@ -260,7 +260,7 @@ const OffsetGovernor::Output& OffsetGovernor::update(const Frame& frame, Reason 
   state_.last.request.tool_in_cut = tool_in_cut;
   for (Axis& axis : axes_) {
     // On the machine, not requested: in observe and advise no offset is there.
-    axis.standing_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
+    axis.applied_mm = in_force.written ? in_force.offset_mm[axis.index] : 0.0;
   }
   if (unfit != Reason::none || !std::isfinite(frame.time_s)) {
     state_.last.request.reason = unfit != Reason::none ? unfit : Reason::input_not_finite;
@@ -285,7 +285,7 @@ void OffsetGovernor::zero_here() noexcept {
   for (Axis& axis : axes_) {
     // r = δ + the offset on the machine, so the wish r − δ equals the present offset and nothing
     // moves.
-    axis.reference_mm = axis.filter.displacement_mm() + axis.standing_mm;
+    axis.reference_mm = axis.filter.displacement_mm() + axis.applied_mm;
   }
 }
 
@@ -303,7 +303,7 @@ StateFilter::Verdict OffsetGovernor::measure(std::size_t axis,
   step();
   // The probe finds e = δ + offset − r, so in the model's terms δ = e + r − offset.
   return of->filter.measure(
-      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
+      {.displacement_mm = reading.displacement_mm + of->reference_mm - of->applied_mm,
        .sd_mm = reading.sd_mm});
 }
 
@@ -311,7 +311,7 @@ void OffsetGovernor::rezero(std::size_t axis, const StateFilter::Reading& readin
   if (Axis* of = find(axis); of != nullptr) {
     step();
     of->filter.rezero(
-        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->standing_mm,
+        {.displacement_mm = reading.displacement_mm + of->reference_mm - of->applied_mm,
          .sd_mm = reading.sd_mm});
   }
 }
@@ -322,7 +322,7 @@ OffsetGovernor::State OffsetGovernor::state() const noexcept {
   for (const Axis& axis : axes_) {
     state.axis[axis.index] = {.filter = axis.filter.state(),
                               .reference_mm = axis.reference_mm,
-                              .standing_mm = axis.standing_mm};
+                              .applied_mm = axis.applied_mm};
   }
   return state;
 }
@@ -343,7 +343,7 @@ void OffsetGovernor::restore(const State& state) noexcept {
       axis.filter.restore(of.filter);
       axis.reference_mm = of.reference_mm;
     }
-    axis.standing_mm = std::isfinite(of.standing_mm) ? of.standing_mm : 0.0;
+    axis.applied_mm = std::isfinite(of.applied_mm) ? of.applied_mm : 0.0;
     double& wish = state_.last.request.offset_mm[axis.index];
     wish = std::isfinite(wish) ? std::clamp(wish, -max_offset_mm_, max_offset_mm_) : 0.0;
   }
@@ -357,7 +357,7 @@ void OffsetGovernor::reset() noexcept {
   for (Axis& axis : axes_) {
     axis.filter.reset();
     axis.reference_mm = 0.0;
-    axis.standing_mm = 0.0;
+    axis.applied_mm = 0.0;
   }
 }
 

@@ -67,7 +67,7 @@ class OffsetGovernor {
   struct AxisState {
     StateFilter::State filter;
     double reference_mm = 0.0;  ///< r
-    double standing_mm = 0.0;   ///< offset on the machine at the last update
+    double applied_mm = 0.0;    ///< offset on the machine at the last update
   };
 
   /// What heats the machine, except for the temperatures.
@@ -131,7 +131,7 @@ class OffsetGovernor {
     std::array<std::size_t, kMaxThermalAmbients> sensor{};  ///< in the frame
     StateFilter filter;
     double reference_mm = 0.0;
-    double standing_mm = 0.0;  ///< offset on the machine
+    double applied_mm = 0.0;  ///< offset on the machine
   };
 
   OffsetGovernor() = default;

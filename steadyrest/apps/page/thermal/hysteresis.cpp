@@ -15,7 +15,7 @@ using thermal::offline::LogChannel;
 /// A spindle under load breathes by a per cent or two.
 constexpr double kSameSpeed = 0.02;  ///< of it: noise of the reading
 /// Below half a revolution per second the spindle is at rest.
-constexpr double kStands_rev_s = 0.5;
+constexpr double kStandstill_rev_s = 0.5;
 constexpr double kShortest_s = 300.0;  ///< shorter stretches are no regime
 /// Displacements at "one temperature": within half a kelvin.
 constexpr double kCell_c = 0.5;
@@ -81,8 +81,8 @@ std::vector<Regime> regimes_of(const Log& log, std::size_t points) {
   for (std::size_t i = 0; i < log.rows();) {
     const double speed = log.speed_rev_s[i];
     std::size_t end = i + 1;
-    while (end < log.rows() &&
-           std::abs(log.speed_rev_s[end] - speed) <= std::max(kStands_rev_s, kSameSpeed * speed)) {
+    while (end < log.rows() && std::abs(log.speed_rev_s[end] - speed) <=
+                                   std::max(kStandstill_rev_s, kSameSpeed * speed)) {
       ++end;
     }
     Regime regime{.speed_rev_s = speed,

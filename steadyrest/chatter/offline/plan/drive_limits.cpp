@@ -24,10 +24,6 @@ constexpr double kLeastScans = 8.0;
 constexpr double kMostRampShare = 0.2;
 constexpr double kMostLevelError = 0.25;  ///< of the amplitude
 
-bool jumps(Law law) {
-  return law == Law::square || law == Law::pulse || law == Law::stop;
-}
-
 /// Mean force along the cut times its path in one revolution, N·mm; times 1e-3, W·s at 1 rev/s.
 double work_per_rev_n_mm(const Process& process, double depth_mm) {
   const Cut& cut = process.cut;
@@ -140,7 +136,7 @@ DriveLimits::Shape DriveLimits::shape(const Modulation& modulation) const {
   }
   out.low = *std::ranges::min_element(out.at);
   out.high = *std::ranges::max_element(out.at);
-  if (jumps(modulation.law)) {
+  if (online::jumps(modulation.law)) {
     for (std::size_t k = 0; k < law.corner_count(); ++k) {
       const double next = k + 1 < law.corner_count() ? law.corners()[k + 1] : 1.0;
       out.shortest_part = std::min(out.shortest_part, next - law.corners()[k]);
@@ -178,7 +174,7 @@ DriveDemand DriveLimits::modulated(double programmed_rev_s, const Modulation& mo
             1e3 * scans * table_.scan_period_s, scans, kLeastScans,
             modulation.rvf * scans / kLeastScans));
   }
-  if (jumps(modulation.law)) {
+  if (online::jumps(modulation.law)) {
     check_jumps(programmed_rev_s, modulation, s, out);
   } else {
     check_sweep(programmed_rev_s, modulation, s, out);
@@ -312,7 +308,7 @@ void DriveLimits::check_monitor(double speed, const Modulation& m, const Shape& 
   // may hold the path; a relative deviation is greatest at the lowest speed.
   const double lowest = 1.0 + m.rva * s.low;
   const double off =
-      jumps(m.law)
+      online::jumps(m.law)
           ? m.rva * (s.high - s.low)
           : std::max(step_ratio(out), m.rva * m.rvf * speed * s.steepest * table_.scan_period_s);
   out.off_ratio = off / lowest;

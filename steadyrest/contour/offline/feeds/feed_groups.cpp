@@ -101,7 +101,7 @@ class Grouping {
   /// A dwell takes as long at any feed.
   [[nodiscard]] double moving_s(std::size_t cell) const noexcept {
     const CellRun& run = search_.runs()[cell];
-    return static_cast<double>(run.seconds - run.standing_s);
+    return static_cast<double>(run.seconds - run.waiting_s);
   }
   /// What a run costs at a lower feed than its own.
   [[nodiscard]] double loss_s(std::size_t first, double ratio) const noexcept {

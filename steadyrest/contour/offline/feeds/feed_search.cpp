@@ -67,7 +67,7 @@ kernel::outcome::Result<double> FeedSearch::measure() {
     CellRun& cell = run_[sample.segment];
     const auto passed_s = static_cast<float>(sample.time_s - before_s);
     cell.seconds += passed_s;
-    cell.standing_s += sample.command_mm_s > 0.0 ? 0.0F : passed_s;
+    cell.waiting_s += sample.command_mm_s > 0.0 ? 0.0F : passed_s;
     before_s = sample.time_s;
     cell.speed_mm_s = std::max(cell.speed_mm_s, static_cast<float>(sample.command_mm_s));
     const bool feed = cells_.path.segments[sample.segment].motion == kernel::signal::Motion::feed;

@@ -15,7 +15,7 @@ namespace steadyrest::contour::offline {
 /// What one cell shows in a run; single precision, since there are many.
 struct CellRun {
   float seconds = 0.0F;
-  float standing_s = 0.0F;  ///< of them: dwells and waits before the cell
+  float waiting_s = 0.0F;   ///< of them: dwells and waits before the cell
   float speed_mm_s = 0.0F;  ///< highest
   float error_mm = 0.0F;    ///< largest contour error while the command is in the cell …
   float of_feed_mm = 0.0F;  ///< … less what a rapid before has left

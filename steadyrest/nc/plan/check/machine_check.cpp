@@ -97,7 +97,7 @@ void MachineCheck::on_move(const Move& move) {
   }
   if (feeds(move)) {
     check_feed(move);
-    check_standing(move);
+    check_stopped(move);
   }
 }
 
@@ -172,13 +172,13 @@ void MachineCheck::check_feed(const Move& move) {
                    mm_min_from_mm_s(most_mm_s)));
 }
 
-void MachineCheck::check_standing(const Move& move) {
+void MachineCheck::check_stopped(const Move& move) {
   const bool stands = move.spindle_rev_s == 0.0 && move.surface_speed_mm_s == 0.0;
-  if (stands && !stands_warned_) {
+  if (stands && !stopped_warned_) {
     warn(move.line, What::standing, 0,
          "cuts with the spindle stopped: no S with M3 or M4 is in force");
   }
-  stands_warned_ = stands;
+  stopped_warned_ = stands;
 }
 
 // From the first tool change on, Z (on a lathe X too) depends on a length that only the tool table

@@ -64,7 +64,7 @@ class MachineCheck final : public interpret::Sink {
 
   void check_travel(const interpret::Move& move, std::size_t axis);
   void check_feed(const interpret::Move& move);
-  void check_standing(const interpret::Move& move);
+  void check_stopped(const interpret::Move& move);
   void warn(std::uint32_t line, What what, std::size_t axis, std::string text);
   /// Whether the machine coordinates of the move's end are known.
   [[nodiscard]] bool placed(const interpret::Move& move, std::size_t axis) const noexcept;
@@ -76,7 +76,7 @@ class MachineCheck final : public interpret::Sink {
   double always_mm_s_ = 0.0;  ///< what every axis and the control can do in any direction
   bool lathe_ = false;
   bool tool_came_ = false;
-  bool stands_warned_ = false;
+  bool stopped_warned_ = false;
   double feed_warned_mm_s_ = 0.0;
   std::array<const kernel::machine::Axis*, 9> axis_{};  ///< linear ones, by X Y Z A B C U V W
   std::array<Extent, 9> extent_;

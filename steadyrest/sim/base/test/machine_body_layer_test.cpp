@@ -38,7 +38,7 @@ TEST(MachineBody, TheLayersWordSlowsTheFeedAndTheErrorFollows) {
 
 // The heartbeat stops at 1 s. Afterwards the panel's 100 % comes back by no more than one scan's
 // share of the rise (2 1/s · 10 ms = 0.02).
-TEST(MachineBody, DeadLayerLeavesNoCorrectionStanding) {
+TEST(MachineBody, DeadLayerLeavesNoCorrectionInForce) {
   MachineBody body = body_of(ideal_machine());
   body.reset({10.0, 0.0, 0.0});
   CircleSource source(0.001);

@@ -138,7 +138,7 @@ TEST(OffsetGovernor, HoldsWhenTheReadingsNoLongerFit) {
 }
 
 // The request was not in force: the reading is the whole displacement.
-TEST(OffsetGovernor, RezeroCountsWhatStandsOnTheMachineNotWhatWasAsked) {
+TEST(OffsetGovernor, RezeroCountsTheOffsetInForceNotTheOneAskedFor) {
   Governed on;
   on.seconds(1200.0);
   ASSERT_LT(on.offset_mm()[kZ], -0.015);
@@ -188,7 +188,7 @@ TEST(OffsetGovernor, AfterTheZeroWasSetOnlyWhatChangesIsCorrected) {
   EXPECT_NEAR(out.offset_mm[kZ] - offset, -(out.displacement_mm[kZ] - grown), 1e-4);
 }
 
-TEST(OffsetGovernor, AfterAGapTheMachineHasStood) {
+TEST(OffsetGovernor, AGapCountsAsStandstill) {
   Governed on;
   const double warm = on.seconds(1200.0).displacement_mm[kZ];
   // Longer than a minute: the machine counts as stopped, and the mode decays by e^(−t/τ).

@@ -43,8 +43,7 @@ constexpr std::array kNotes = {
     Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
     Note{270, "g_code_not_interpreted", "the reference check (G27) is not interpreted"},
     Note{290, "g_code_not_interpreted",
-         "the return from the reference point (G29) is not "
-         "interpreted"},
+         "the return from the reference point (G29) is not interpreted"},
     Note{310, "g_code_not_interpreted", "a skip move (G31) ends where the machine decides"},
     Note{320, "lathe_code", "G32 threads on a lathe; lathe programs are not interpreted"},
     Note{g::kThread, "ambiguous_code",
@@ -123,7 +122,6 @@ bool FanucDecoder::g_word(const Word& word) {
       return put_g(word, g::kExactStop);
     case g::kStoreHome:
     case g::kStoreSecondHome:
-    case g::kRigidTap:
     case g::kToolLengthByWords:
     case g::kAddToolLength:
     case 521:  // G52.1
