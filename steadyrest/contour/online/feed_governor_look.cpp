@@ -12,7 +12,6 @@ namespace {
 
 namespace geometry = math::geometry;
 using kernel::signal::Frame;
-using kernel::signal::Motion;
 using kernel::signal::Point;
 
 }  // namespace
