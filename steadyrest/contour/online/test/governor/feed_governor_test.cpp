@@ -283,5 +283,34 @@ TEST(FeedGovernor, RefusesWhatIsOutsideOfItsRange) {
   EXPECT_FALSE(FeedGovernor::make(machine).has_value());
 }
 
+/// The step in force in the end on 10 mm of radius, after so many turns on 2 mm.
+double step_after(double turns, double limit_mm) {
+  Machine machine = test::mill(50.0);
+  machine.contour.limit_mm = limit_mm;
+  const auto path = PathMaker({2.0, 0, 0}, 4000.0 / 60.0)
+                        .arc({0, 0, 0}, turns * kTurn)
+                        .arc({-8.0, 0, 0}, 8.0 * kTurn)
+                        .limited(2000.0, 1.0);
+  ClosedLoop loop(machine, path);
+  return loop.run(0.010, 0.0, 6.0 + 2.0 * turns).sample.back().effective;
+}
+
+// After one turn on 2 mm, which is over before the feed can fall far, it comes down to the largest
+// admissible step; after eight it rises, and only to one that leaves 2 % of the limit.
+TEST(FeedGovernor, ARiseNeedsRoomThatAFallDoesNot) {
+  const auto least_limit_mm = [](double turns) {
+    double low_mm = 0.010;
+    double high_mm = 0.020;
+    EXPECT_LT(step_after(turns, low_mm), 0.40);
+    EXPECT_EQ(step_after(turns, high_mm), 0.40);
+    for (int i = 0; i < 12; ++i) {
+      const double middle_mm = 0.5 * (low_mm + high_mm);
+      (step_after(turns, middle_mm) < 0.40 ? low_mm : high_mm) = middle_mm;
+    }
+    return high_mm;
+  };
+  EXPECT_NEAR(least_limit_mm(8.0) / least_limit_mm(1.0), 1.0 / 0.98, 0.003);
+}
+
 }  // namespace
 }  // namespace steadyrest::contour::online
