@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
@@ -61,6 +65,50 @@ bool turns_others(const Move& move) {
   return !std::equal(move.start.begin() + 3, move.start.end(), move.end.begin() + 3);
 }
 
+/// What depends on whether the operator lets blocks be skipped (`/`): a block that begins there, or
+/// takes its motion, feed or modes from there, is another one in the other position of the switch.
+class BySwitch {
+ public:
+  /// Of a block that can be skipped.
+  void skippable(const std::vector<Move>& moves, const Modes& before, Modes after) noexcept {
+    for (const Move& move : moves) {
+      for (std::size_t i = 0; i < place_.size(); ++i) {
+        place_[i] = place_[i] || move.start[i] != move.end[i];
+      }
+    }
+    motion_ = motion_ || after.motion != before.motion;
+    feed_ = feed_ || after.feed_mm_s != before.feed_mm_s;
+    after.motion = before.motion;
+    after.feed_mm_s = before.feed_mm_s;
+    after.spindle_speed_rev_s = before.spindle_speed_rev_s;
+    after.spindle_direction = before.spindle_direction;
+    after.coolant = before.coolant;
+    after.selected_tool = before.selected_tool;
+    modes_ = modes_ || after != before;
+  }
+
+  /// Of the next block that cannot; forgets what it says anew.
+  bool depends(const Says& said, const read::Block& block, bool incremental) noexcept {
+    motion_ = motion_ && !said.motion;
+    feed_ = feed_ && !said.feed;
+    const bool depends = modes_ || motion_ || feed_ || place_[0] || place_[1] || place_[2];
+    if (!incremental && !modes_) {
+      for (const read::Word& word : block.words()) {
+        if (word.letter >= 'X' && word.letter <= 'Z') {
+          place_[static_cast<std::size_t>(word.letter - 'X')] = false;
+        }
+      }
+    }
+    return depends;
+  }
+
+ private:
+  std::array<bool, 3> place_{};
+  bool motion_ = false;
+  bool feed_ = false;
+  bool modes_ = false;  ///< for good: what they were is not known again
+};
+
 /// Runs a program and notes what cuts.
 class CutSurvey {
  public:
@@ -80,6 +128,12 @@ class CutSurvey {
              move.kind == MoveKind::spline;
     });
     inherit(said, !kept_.moves.empty(), cuts);
+    by_switch_now_ = false;
+    if (run_.block().deleted()) {
+      by_switch_.skippable(kept_.moves, before_, modes_of(run_.state()));
+    } else {
+      by_switch_now_ = by_switch_.depends(said, run_.block(), run_.state().incremental);
+    }
     if (cuts && main && !again && !is_inserted(text)) {
       add(number, said, text);
     }
@@ -160,7 +214,8 @@ class CutSurvey {
     if (said.calculated) {
       return Stays::calculated;
     }
-    if (!said.plain || !kept_.events.empty() || after != before_) {
+    if (!said.plain || !kept_.events.empty() || after != before_ ||
+        !active_comment(dialect_, text).empty()) {
       return Stays::more_words;
     }
     if (state.feed_mode == interpret::FeedMode::inverse_time) {
@@ -175,7 +230,10 @@ class CutSurvey {
     if (move.override_locked) {
       return Stays::locked;
     }
-    return too_long_to_keep(dialect_, text) ? Stays::too_long : Stays::free;
+    if (too_long_to_keep(dialect_, text)) {
+      return Stays::too_long;
+    }
+    return by_switch_now_ ? Stays::after_switch : Stays::free;
   }
 
   interpret::ProgramRun& run_;
@@ -183,7 +241,9 @@ class CutSurvey {
   read::Dialect dialect_;
   CutBlocks found_;
   Modes before_;
-  Survey marks_;  ///< the lines executed twice
+  BySwitch by_switch_;
+  bool by_switch_now_ = false;  ///< of the block at hand
+  Survey marks_;                ///< the lines executed twice
   std::vector<bool> seen_;
   bool motion_open_ = false;  ///< no motion word since the last block found
   bool feed_open_ = false;
@@ -211,6 +271,33 @@ std::string_view word_beyond_a_cut(const read::Block& block) {
   return block.flow().kind == read::FlowKind::none ? std::string_view{} : "an O-word";
 }
 
+std::string active_comment(read::Dialect dialect, std::string_view line) {
+  constexpr std::array<std::string_view, 6> kWithComma = {"MSG", "DEBUG", "PRINT",
+                                                          "LOG", "ABORT", "PY"};
+  constexpr std::array<std::string_view, 5> kAlone = {"LOGOPEN", "LOGAPPEND", "LOGCLOSE",
+                                                      "PROBEOPEN", "PROBECLOSE"};
+  if (dialect != read::Dialect::linuxcnc) {
+    return {};
+  }
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  for (std::size_t at = line.find_first_of("(;"); at != std::string_view::npos;
+       at = line.find_first_of("(;", at + 1)) {
+    auto next =
+        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(at) + 1, line.end(), blank);
+    std::string name;
+    for (; next != line.end() && std::isalpha(static_cast<unsigned char>(*next)) != 0; ++next) {
+      name += static_cast<char>(std::toupper(static_cast<unsigned char>(*next)));
+    }
+    next = std::find_if_not(next, line.end(), blank);
+    const bool comma = next != line.end() && *next == ',';
+    if (std::ranges::find(kAlone, name) != kAlone.end() ||
+        (comma && std::ranges::find(kWithComma, name) != kWithComma.end())) {
+      return name;
+    }
+  }
+  return {};
+}
+
 std::string_view sentence(Stays stays) noexcept {
   switch (stays) {
     case Stays::free:
@@ -219,6 +306,8 @@ std::string_view sentence(Stays stays) noexcept {
       return "it is in a subprogram, a loop or a condition, or is executed more than once";
     case Stays::switchable:
       return "the operator can skip it (block delete)";
+    case Stays::after_switch:
+      return "it begins, or cuts, as a block says that the operator can skip (block delete)";
     case Stays::calculated:
       return "its words hold parameters or expressions";
     case Stays::more_words:

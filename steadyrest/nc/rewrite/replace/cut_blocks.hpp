@@ -20,6 +20,7 @@ enum class Stays : std::uint8_t {
   free,           ///< it may be replaced
   repeated,       ///< it is in a subprogram, a condition or a loop, or is executed twice
   switchable,     ///< the operator can skip it (block delete)
+  after_switch,   ///< it begins, or cuts, as a block says that the operator can skip
   calculated,     ///< its words hold parameters or expressions
   more_words,     ///< it does more than move along a line or an arc
   feed_mode,      ///< its feed is a time (G93)
@@ -38,6 +39,9 @@ enum class Stays : std::uint8_t {
 /// The first word of a block beyond a line or an arc in plain numbers with its feed; empty when
 /// there is none.
 [[nodiscard]] std::string_view word_beyond_a_cut(const read::Block& block);
+/// The name of a comment that LinuxCNC acts on, such as `MSG` or `PROBEOPEN`; empty where there is
+/// none, and in other dialects. A block that has one does more than cut.
+[[nodiscard]] std::string active_comment(read::Dialect dialect, std::string_view line);
 
 /// A block that cuts, and what must be known to write other blocks in its place.
 struct CutBlock {

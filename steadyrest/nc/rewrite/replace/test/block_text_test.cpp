@@ -137,6 +137,54 @@ RC_GTEST_PROP(BlockText, IsReadAsItWasMeant, ()) {
   RC_ASSERT(math::geometry::distance({last[0], last[1], last[2]}, at) < 1e-9);
 }
 
+// In the other position of the switch it would be another block, until X, Y and Z, the motion or
+// the feed that the skipped line gave are given again.
+TEST(CutBlocks, WhatFollowsASkippableLineStays) {
+  const Workshop shop;
+  const auto found = blocks_of(shop,
+                               "G21 G90 G94 G17 G64\n"
+                               "G0 X0 Y0 Z1\n"
+                               "G1 X5 F100\n"      // 3
+                               "/G1 X8\n"          // 4
+                               "Y2\n"              // 5 X from 4
+                               "G3 X20 Y20 R20\n"  // 6 begins at the X of 4
+                               "G1 X0\n"           // 7
+                               "/F200\n"           // 8
+                               "X1\n"              // 9 feed of 8
+                               "X2 F300\n"         // 10
+                               "/M8\n"             // 11 no matter
+                               "X3\n"              // 12
+                               "/G91\n"            // 13
+                               "G90 G1 X4\n"       // 14
+                               "G1 X5\n"           // 15 never known again
+                               "M2\n");
+  EXPECT_EQ(stays(found),
+            (std::vector<std::pair<std::uint32_t, Stays>>{{3, Stays::free},
+                                                          {4, Stays::switchable},
+                                                          {5, Stays::after_switch},
+                                                          {6, Stays::after_switch},
+                                                          {7, Stays::free},
+                                                          {9, Stays::after_switch},
+                                                          {10, Stays::free},
+                                                          {12, Stays::free},
+                                                          {14, Stays::more_words},
+                                                          {15, Stays::after_switch}}));
+}
+
+TEST(CutBlocks, ABlockWithACommentThatTheControlActsOnStays) {
+  for (const char* comment :
+       {"(MSG,on)", "( msg , on)", "(PROBEOPEN a.txt)", "(LOGCLOSE)", ";py,x"}) {
+    EXPECT_FALSE(active_comment(Dialect::linuxcnc, std::string("G1 X5 ") + comment).empty());
+    EXPECT_TRUE(active_comment(Dialect::fanuc, std::string("G1 X5 ") + comment).empty());
+  }
+  EXPECT_EQ(active_comment(Dialect::linuxcnc, "G1 X5 (message) (log book) (log,x)"), "LOG");
+  EXPECT_EQ(active_comment(Dialect::linuxcnc, "G1 X5 (message, of the tool)"), "");
+  const Workshop shop;
+  const auto found = blocks_of(shop, "G21 G90 G94\nG1 X5 F100\nX6 (LOG, x)\nX7 (the log)\nM2\n");
+  EXPECT_EQ(stays(found), (std::vector<std::pair<std::uint32_t, Stays>>{
+                              {2, Stays::free}, {3, Stays::more_words}, {4, Stays::free}}));
+}
+
 TEST(BlockText, KeepsAllDigitsOfTheBlocksOwnEnd) {
   const Workshop shop;
   const auto found = blocks_of(shop,
