@@ -199,9 +199,12 @@ class Predistortion {
       how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
       const Shift shift = shift_of(path_, made, how_.max_shift_mm);
-      if (!shift.too_far.empty()) {
+      const auto past = past_travel(path_, made, machine_.axes);
+      if (!shift.too_far.empty() || !past.empty()) {
         out_.too_far.insert(out_.too_far.end(), shift.too_far.begin(), shift.too_far.end());
+        out_.past_travel.insert(out_.past_travel.end(), past.begin(), past.end());
         barred_.insert(shift.too_far.begin(), shift.too_far.end());
+        barred_.insert(past.begin(), past.end());
         use = this->use();
         made = pieces(use, speed_);
       }

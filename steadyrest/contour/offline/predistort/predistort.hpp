@@ -62,7 +62,9 @@ struct Predistorted : PredictedChange {
   double worst_rms_before_mm = 0.0;
   double worst_rms_after_mm = 0.0;
   double largest_shift_mm = 0.0;
-  std::vector<Remaining> remaining;    ///< the worst first
+  std::vector<Remaining> remaining;  ///< the worst first
+  std::vector<std::uint32_t>
+      past_travel;                     ///< lines that stay, since an axis would leave its travel
   std::vector<std::uint32_t> too_far;  ///< lines that stay, since the shift would be too large
   std::vector<std::uint32_t> worse;    ///< lines that stay, since some model makes them worse
 };

@@ -39,6 +39,7 @@ void add_report(Predistorted& done, double limit_mm) {
   done.remaining.resize(std::min(done.remaining.size(), kMostRemaining));
   std::ranges::sort(done.worse);
   std::ranges::sort(done.too_far);
+  std::ranges::sort(done.past_travel);
 }
 
 }  // namespace steadyrest::contour::offline

@@ -17,6 +17,9 @@ using kernel::signal::Point;
 constexpr int kPoints = 4;  ///< parts of a piece
 constexpr double kReach = 4.0;
 constexpr double kLeastReach_mm = 1.0;
+constexpr int kArcParts = 64;
+constexpr double kFar_mm = 1e12;
+constexpr double kTravelNoise_mm = 1e-6;
 
 double end_of(const PathSegment& segment) noexcept {
   return segment.position_mm + segment.length_mm;
@@ -57,6 +60,29 @@ class Neighbours {
   double to_mm_ = 0.0;
 };
 
+/// The box that a path stays within.
+struct Box {
+  Point low{kFar_mm, kFar_mm, kFar_mm};
+  Point high{-kFar_mm, -kFar_mm, -kFar_mm};
+
+  void add(const PathSegment& segment) noexcept {
+    const bool arc = segment.geometry == kernel::signal::Geometry::arc;
+    const int parts = arc ? kArcParts : 1;
+    // How far an arc bulges between two of its points.
+    const double beside = arc ? std::max(segment.radius_mm, segment.radius_end_mm) *
+                                    (1.0 - std::cos(std::min(0.5 * segment.sweep_rad / parts, 1.5)))
+                              : 0.0;
+    for (int k = 0; k <= parts; ++k) {
+      const Point point = geometry::point_at(segment, static_cast<double>(k) / parts);
+      const double more = k == 0 || k == parts ? 0.0 : beside;
+      for (std::size_t i = 0; i < point.size(); ++i) {
+        low[i] = std::min(low[i], point[i] - more);
+        high[i] = std::max(high[i], point[i] + more);
+      }
+    }
+  }
+};
+
 }  // namespace
 
 Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& pieces,
@@ -79,6 +105,33 @@ Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& piec
     out.largest_mm = std::max(out.largest_mm, largest);
     if (largest > bound_mm && (out.too_far.empty() || out.too_far.back() != piece.segment.line)) {
       out.too_far.push_back(piece.segment.line);
+    }
+  }
+  return out;
+}
+
+std::vector<std::uint32_t> past_travel(const nc::plan::PlannedPath& path,
+                                       const std::vector<Piece>& pieces,
+                                       std::span<const kernel::machine::Axis> axes) {
+  Box allowed;
+  for (const PathSegment& segment : path.segments) {
+    allowed.add(segment);
+  }
+  const std::size_t count = std::min<std::size_t>(axes.size(), 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    allowed.low[i] = std::min(allowed.low[i], axes[i].min_au) - kTravelNoise_mm;
+    allowed.high[i] = std::max(allowed.high[i], axes[i].max_au) + kTravelNoise_mm;
+  }
+  std::vector<std::uint32_t> out;
+  for (const Piece& piece : pieces) {
+    Box own;
+    own.add(piece.segment);
+    bool past = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      past = past || own.low[i] < allowed.low[i] || own.high[i] > allowed.high[i];
+    }
+    if (past && (out.empty() || out.back() != piece.segment.line)) {
+      out.push_back(piece.segment.line);
     }
   }
   return out;

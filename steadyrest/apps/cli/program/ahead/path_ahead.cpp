@@ -33,6 +33,7 @@ void put_figures(Answer& answer, const Predistorted& done, const PathOptions& op
                                  {"predicted_error_mm", one.after_mm}});
   }
   json["too_far"] = done.too_far;
+  json["past_travel"] = done.past_travel;
   json["not_better"] = done.worse;
 }
 
@@ -54,6 +55,11 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
     return fmt::format("line {}: {} remain of {}\n", one.line, in_um(one.after_mm),
                        in_um(one.before_mm));
   });
+  if (!done.past_travel.empty()) {
+    text +=
+        fmt::format("unchanged, because an axis would leave its travel: {} blocks, line {} first\n",
+                    done.past_travel.size(), done.past_travel.front());
+  }
   if (!done.too_far.empty()) {
     text += fmt::format("unchanged, because the shift would exceed {:g} mm: {} blocks\n",
                         options.max_shift_mm, done.too_far.size());

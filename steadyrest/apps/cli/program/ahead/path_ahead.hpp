@@ -34,7 +34,7 @@ void add_path_options(Verb& verb, PathOptions& options);
     std::vector<nc::rewrite::Told> told, Progress& progress);
 
 /// The keys of the prediction, `uncertain`, `largest_shift_mm`, `remaining[]`, `too_far[]`,
-/// `not_better[]` and `learnt[]`, and the same for people.
+/// `past_travel[]`, `not_better[]` and `learnt[]`, and the same for people.
 [[nodiscard]] std::string put_path(Answer& answer, const contour::offline::Predistorted& done,
                                    const PathOptions& options);
 
