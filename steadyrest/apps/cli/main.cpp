@@ -216,8 +216,9 @@ int run(int argc, char** argv) {
 }  // namespace steadyrest::apps::cli
 
 int main(int argc, char** argv) {
-  // Long programs need buffers of 100 MB, made anew in each round. Handed back to the system in
-  // between, their pages cost a fifth of the time (predistort, 200 000 lines).
+  // Long programs allocate buffers of 100 MB again in each round. If the allocator returned them to
+  // the system every time, faulting the pages in again would take a fifth of the time (predistort,
+  // 200 000 lines).
   constexpr int kKeptBytes = 1 << 30;
   mallopt(M_MMAP_THRESHOLD, kKeptBytes);
   mallopt(M_TRIM_THRESHOLD, kKeptBytes / 4);

@@ -66,6 +66,7 @@ class Predistortion {
       return std::unexpected(done.error());
     }
     runs_.emplace(path_, use());
+    travel_.emplace(path_, machine_.axes);
     // The control's own plan of the program as it is, on the path that the shape is made from.
     auto planned = write({});
     if (!planned) {
@@ -199,7 +200,7 @@ class Predistortion {
       how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
       const Shift shift = shift_of(path_, made, how_.max_shift_mm);
-      const auto past = past_travel(path_, made, machine_.axes);
+      const auto past = travel_->left_by(made);
       if (!shift.too_far.empty() || !past.empty()) {
         out_.too_far.insert(out_.too_far.end(), shift.too_far.begin(), shift.too_far.end());
         out_.past_travel.insert(out_.past_travel.end(), past.begin(), past.end());
@@ -379,6 +380,7 @@ class Predistortion {
   int done_ = 0;
   std::set<std::uint32_t> barred_;  ///< lines that stay after all
   std::optional<CutRuns> runs_;
+  std::optional<Travel> travel_;
   std::optional<RunErrors> runs_before_;
   std::optional<RunErrors> runs_after_;  ///< of the best round
   Predistorted out_;

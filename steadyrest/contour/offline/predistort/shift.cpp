@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
@@ -17,7 +18,6 @@ using kernel::signal::Point;
 constexpr int kPoints = 4;  ///< parts of a piece
 constexpr double kReach = 4.0;
 constexpr double kLeastReach_mm = 1.0;
-constexpr int kArcParts = 64;
 constexpr double kFar_mm = 1e12;
 constexpr double kTravelNoise_mm = 1e-6;
 
@@ -65,19 +65,27 @@ struct Box {
   Point low{kFar_mm, kFar_mm, kFar_mm};
   Point high{-kFar_mm, -kFar_mm, -kFar_mm};
 
+  void add(const Point& point) noexcept {
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      low[i] = std::min(low[i], point[i]);
+      high[i] = std::max(high[i], point[i]);
+    }
+  }
+
+  /// An arc reaches farthest along an axis at its ends or at its quadrants.
   void add(const PathSegment& segment) noexcept {
-    const bool arc = segment.geometry == kernel::signal::Geometry::arc;
-    const int parts = arc ? kArcParts : 1;
-    // How far an arc bulges between two of its points.
-    const double beside = arc ? std::max(segment.radius_mm, segment.radius_end_mm) *
-                                    (1.0 - std::cos(std::min(0.5 * segment.sweep_rad / parts, 1.5)))
-                              : 0.0;
-    for (int k = 0; k <= parts; ++k) {
-      const Point point = geometry::point_at(segment, static_cast<double>(k) / parts);
-      const double more = k == 0 || k == parts ? 0.0 : beside;
-      for (std::size_t i = 0; i < point.size(); ++i) {
-        low[i] = std::min(low[i], point[i] - more);
-        high[i] = std::max(high[i], point[i] + more);
+    add(segment.start_mm);
+    add(segment.end_mm);
+    if (segment.geometry == kernel::signal::Geometry::line || !(segment.sweep_rad > 0.0)) {
+      return;
+    }
+    const geometry::ArcFrame frame = geometry::arc_frame(segment);
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      const double first = std::atan2(frame.e2[i], frame.e1[i]);
+      for (double angle = first; angle < segment.sweep_rad; angle += std::numbers::pi) {
+        if (angle > 0.0) {
+          add(geometry::point_at(segment, angle / segment.sweep_rad));
+        }
       }
     }
   }
@@ -110,27 +118,29 @@ Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& piec
   return out;
 }
 
-std::vector<std::uint32_t> past_travel(const nc::plan::PlannedPath& path,
-                                       const std::vector<Piece>& pieces,
-                                       std::span<const kernel::machine::Axis> axes) {
-  Box allowed;
+Travel::Travel(const nc::plan::PlannedPath& path, std::span<const kernel::machine::Axis> axes) {
+  Box used;
   for (const PathSegment& segment : path.segments) {
-    allowed.add(segment);
+    used.add(segment);
   }
-  const std::size_t count = std::min<std::size_t>(axes.size(), 3);
-  for (std::size_t i = 0; i < count; ++i) {
-    allowed.low[i] = std::min(allowed.low[i], axes[i].min_au) - kTravelNoise_mm;
-    allowed.high[i] = std::max(allowed.high[i], axes[i].max_au) + kTravelNoise_mm;
+  low_mm_.fill(-kFar_mm);
+  high_mm_.fill(kFar_mm);
+  for (std::size_t i = 0; i < std::min(axes.size(), low_mm_.size()); ++i) {
+    low_mm_[i] = std::min(used.low[i], axes[i].min_au) - kTravelNoise_mm;
+    high_mm_[i] = std::max(used.high[i], axes[i].max_au) + kTravelNoise_mm;
   }
+}
+
+std::vector<std::uint32_t> Travel::left_by(const std::vector<Piece>& pieces) const {
   std::vector<std::uint32_t> out;
   for (const Piece& piece : pieces) {
     Box own;
     own.add(piece.segment);
-    bool past = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      past = past || own.low[i] < allowed.low[i] || own.high[i] > allowed.high[i];
+    bool left = false;
+    for (std::size_t i = 0; i < low_mm_.size(); ++i) {
+      left = left || own.low[i] < low_mm_[i] || own.high[i] > high_mm_[i];
     }
-    if (past && (out.empty() || out.back() != piece.segment.line)) {
+    if (left && (out.empty() || out.back() != piece.segment.line)) {
       out.push_back(piece.segment.line);
     }
   }

@@ -22,10 +22,17 @@ struct Shift {
 [[nodiscard]] Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& pieces,
                              double bound_mm);
 
-/// Lines with a piece that takes X, Y or Z past an end of its travel by more than the path itself
-/// does, ascending. Arcs count by at most (1 − cos(sweep/128))·R too much.
-[[nodiscard]] std::vector<std::uint32_t> past_travel(const nc::plan::PlannedPath& path,
-                                                     const std::vector<Piece>& pieces,
-                                                     std::span<const kernel::machine::Axis> axes);
+/// The travel of X, Y and Z, widened to what the path itself uses.
+class Travel {
+ public:
+  Travel(const nc::plan::PlannedPath& path, std::span<const kernel::machine::Axis> axes);
+
+  /// Lines with a piece that leaves it, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> left_by(const std::vector<Piece>& pieces) const;
+
+ private:
+  kernel::signal::Point low_mm_{};
+  kernel::signal::Point high_mm_{};
+};
 
 }  // namespace steadyrest::contour::offline

@@ -173,12 +173,12 @@ void MachineCheck::check_feed(const Move& move) {
 }
 
 void MachineCheck::check_stopped(const Move& move) {
-  const bool stands = move.spindle_rev_s == 0.0 && move.surface_speed_mm_s == 0.0;
-  if (stands && !stopped_warned_) {
+  const bool is_stopped = move.spindle_rev_s == 0.0 && move.surface_speed_mm_s == 0.0;
+  if (is_stopped && !stopped_warned_) {
     warn(move.line, What::standing, 0,
          "cuts with the spindle stopped: no S with M3 or M4 is in force");
   }
-  stopped_warned_ = stands;
+  stopped_warned_ = is_stopped;
 }
 
 // From the first tool change on, Z (on a lathe X too) depends on a length that only the tool table

@@ -69,7 +69,7 @@ bool turns_others(const Move& move) {
 /// takes its motion, feed or modes from there, is another one in the other position of the switch.
 class BySwitch {
  public:
-  /// Of a block that can be skipped.
+  /// Of a block that can be skipped: notes what it changes.
   void skippable(const std::vector<Move>& moves, const Modes& before, Modes after) noexcept {
     for (const Move& move : moves) {
       for (std::size_t i = 0; i < place_.size(); ++i) {
@@ -87,7 +87,7 @@ class BySwitch {
     modes_ = modes_ || after != before;
   }
 
-  /// Of the next block that cannot; forgets what it says anew.
+  /// Of a block that cannot be skipped. Whatever the block states itself no longer depends.
   bool depends(const Says& said, const read::Block& block, bool incremental) noexcept {
     motion_ = motion_ && !said.motion;
     feed_ = feed_ && !said.feed;

@@ -82,27 +82,29 @@ TEST(ShiftOfACommand, NamesALineOnceAndNoneWithinTheBound) {
 }
 
 // A circle of 10 mm that reaches X489.9 … 499.9 of a travel to 500; its command runs on 10.7 mm.
-TEST(PastTravel, NamesTheLinesThatLeaveATravelWhichTheirPathKeeps) {
+TEST(TravelOfAPath, NamesTheLinesThatLeaveATravelWhichTheirPathKeeps) {
   nc::plan::PlannedPath path;
   path.segments = PathMaker({499.9, 0, 0}, 50.0).arc({489.9, 0, 0}, 6.28).path();
   const auto piece =
       shifted_piece(PathMaker({500.6, 0, 0}, 50.0).arc({489.9, 0, 0}, 6.28), 0.0, 62.0, 7);
   std::vector<kernel::machine::Axis> axes(3);
-  EXPECT_TRUE(past_travel(path, {piece}, axes).empty());
+  EXPECT_TRUE(Travel(path, axes).left_by({piece}).empty());
   axes[0].max_au = 500.0;
-  EXPECT_EQ(past_travel(path, {piece}, axes), (std::vector<std::uint32_t>{7}));
-  axes[0].max_au = 500.7;
-  EXPECT_TRUE(past_travel(path, {piece}, axes).empty());
-  axes[1].min_au = -10.5;
-  EXPECT_EQ(past_travel(path, {piece}, axes), (std::vector<std::uint32_t>{7}));
+  EXPECT_EQ(Travel(path, axes).left_by({piece}), (std::vector<std::uint32_t>{7}));
+  axes[0].max_au = 500.599;
+  EXPECT_EQ(Travel(path, axes).left_by({piece}), (std::vector<std::uint32_t>{7}));
+  axes[0].max_au = 500.601;
+  EXPECT_TRUE(Travel(path, axes).left_by({piece}).empty());
+  axes[1].min_au = -10.701;
+  EXPECT_TRUE(Travel(path, axes).left_by({piece}).empty());
+  axes[1].min_au = -10.699;
+  EXPECT_EQ(Travel(path, axes).left_by({piece}), (std::vector<std::uint32_t>{7}));
   axes[1].min_au = 0.0;  // the path itself leaves this travel
   axes[0].max_au = 1000.0;
-  EXPECT_EQ(past_travel(path, {piece}, axes), (std::vector<std::uint32_t>{7}));
-  EXPECT_TRUE(
-      past_travel(
-          path, {shifted_piece(PathMaker({499.9, 0, 0}, 50.0).arc({489.9, 0, 0}, 6.28), 0.0, 62.0)},
-          axes)
-          .empty());
+  EXPECT_EQ(Travel(path, axes).left_by({piece}), (std::vector<std::uint32_t>{7}));
+  const auto own =
+      shifted_piece(PathMaker({499.9, 0, 0}, 50.0).arc({489.9, 0, 0}, 6.28), 0.0, 62.0);
+  EXPECT_TRUE(Travel(path, axes).left_by({own}).empty());
 }
 
 }  // namespace
