@@ -39,6 +39,23 @@ TEST(ProgramVerify, ProvesAPredistortedProgramByWhatItSaysOfItself) {
                  "was made with --dialect sinumerik");
 }
 
+TEST(ProgramVerify, ProvesATextThatHadNotToBeChanged) {
+  const auto proof = answer_of("program verify " + kTubePocket + " " + kTubePocket + kTubeMill);
+  EXPECT_TRUE(proof["proved"].get<bool>());
+  EXPECT_EQ(proof["replaced_lines"], 0);
+  EXPECT_GT(proof["moves"].get<int>(), 0);
+}
+
+TEST(ProgramVerify, NamesTheLowestFeed) {
+  const Scratch scratch;
+  const std::string feeds = scratch.at("feeds.ngc");
+  answer_of("program feeds " + kTubePocket + kTubeMill + " --max-error-mm 0.02 -o " + feeds);
+  const auto proof = answer_of("program verify " + kTubePocket + " " + feeds + kTubeMill);
+  EXPECT_GT(proof["least_feed_ratio"].get<double>(), 0.0);
+  EXPECT_LT(proof["least_feed_ratio"].get<double>(), 1.0);
+  EXPECT_GT(proof["slowest_line"].get<int>(), 0);
+}
+
 /// Writes the text with `what` put in at a place; the number of its line.
 std::ptrdiff_t put_in(const std::string& file, std::string text, std::size_t at,
                       const std::string& what) {
@@ -96,8 +113,11 @@ TEST(ProgramVerify, ProvesCorrectionsAndReplacedBlocksInOneProgram) {
   expect_refused(verify + plan, "both.ngc:" + std::to_string(line + 1));
 }
 
-TEST(ProgramVerify, SaysThatNothingWasChanged) {
-  expect_refused("program verify " + kTubePocket + " " + kTubePocket + kTubeMill,
+TEST(ProgramVerify, RefusesAnotherProgramWithoutMarks) {
+  const Scratch scratch;
+  const std::string other = scratch.at("other.ngc");
+  std::ofstream(other, std::ios::binary) << text_of_file(kTubePocket) << "\n";
+  expect_refused("program verify " + kTubePocket + " " + other + kTubeMill,
                  "has neither corrections inserted nor blocks replaced");
   expect_all_refused(
       {"program verify " + kTubePocket + " " + kTubePocket + kTubeMill + " --tube-mm 0",

@@ -21,6 +21,7 @@
 #include <steadyrest/kernel/file/memory_file.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/rewrite/replace/stages.hpp>
+#include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
 #include <steadyrest/nc/rewrite/tube/permitted.hpp>
 #include <steadyrest/nc/rewrite/tube/verify_tube.hpp>
 
@@ -116,6 +117,16 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   return nc::rewrite::composed(lines, *stage, path->lines);
 }
 
+/// A refusal about the text that was made, which is in no file yet: the original's line.
+Refusals of_made(Refusal refusal, const MemoryFile& made, const std::string& original) {
+  if (refusal.file == made.path()) {
+    const auto lines = nc::rewrite::ChangedLines::compare(original, made.path());
+    refusal.file = original;
+    refusal.line = lines ? lines->origin(static_cast<std::uint32_t>(refusal.line)) : 0;
+  }
+  return {std::move(refusal)};
+}
+
 /// The text with its blocks replaced, proved against the original.
 std::expected<nc::rewrite::Replaced, Refusals> replace(const Options& options,
                                                        const SourceProgram& program,
@@ -138,12 +149,12 @@ std::expected<nc::rewrite::Replaced, Refusals> replace(const Options& options,
   const auto permitted =
       nc::rewrite::permitted_of(file->path(), told, std::nullopt, &program.machine);
   if (!permitted) {
-    return refused(permitted.error());
+    return std::unexpected(of_made(permitted.error(), *file, options.file()));
   }
   const auto proof =
       nc::rewrite::verify_tube(options.file(), file->path(), program.config, *permitted);
   if (!proof) {
-    return refused(proof.error());
+    return std::unexpected(of_made(proof.error(), *file, options.file()));
   }
   answer.json["tube_mm"] = proof->tube_mm;
   answer.json["farthest_mm"] = proof->farthest_mm;

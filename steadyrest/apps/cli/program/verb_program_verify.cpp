@@ -40,6 +40,11 @@ struct Marks {
   std::vector<Told> replaced;
 };
 
+/// Nothing had to be changed: the text is the original's.
+bool is_original(const Options& options) {
+  return ChangedLines::compare(options.rewrite.program.file, options.changed).has_value();
+}
+
 std::expected<Marks, Refusals> marks_of(const Options& options) {
   auto inserted = nc::rewrite::read_mark(options.changed);
   auto replaced = nc::rewrite::read_replaced_mark(options.changed);
@@ -51,12 +56,21 @@ std::expected<Marks, Refusals> marks_of(const Options& options) {
     return refused(bad_input(options.changed, "has corrections of a plan inserted",
                              "give the plan with --plan PLAN.json"));
   }
-  if (inserted->empty() && replaced->empty() && !planned) {
+  if (inserted->empty() && replaced->empty() && !planned && !is_original(options)) {
     return refused(
         bad_input(options.changed, "has neither corrections inserted nor blocks replaced",
                   "give the program that compensate, predistort, feeds or speeds has written"));
   }
   return Marks{std::move(*inserted), std::move(*replaced)};
+}
+
+/// Where the program runs slower than the original: how much that is, nobody but its user can
+/// judge.
+std::string slowest(const TubeProof& tube) {
+  return tube.slowest_line == 0
+             ? std::string{}
+             : fmt::format("the lowest feed is {:.3g} of the original's (line {}); ",
+                           tube.least_feed_ratio, tube.slowest_line);
 }
 
 void put(Answer& answer, const std::optional<Proof>& plan, const std::optional<TubeProof>& tube) {
@@ -81,10 +95,13 @@ void put(Answer& answer, const std::optional<Proof>& plan, const std::optional<T
     json["new_lines"] = tube->new_lines;
     json["tube_mm"] = tube->tube_mm;
     json["farthest_mm"] = tube->farthest_mm;
+    json["least_feed_ratio"] = tube->least_feed_ratio;
+    json["slowest_line"] = tube->slowest_line == 0 ? Json(nullptr) : Json(tube->slowest_line);
     answer.text += fmt::format(
         "proved: {} moves; {} lines replaced by {}, at most {:.4f} mm from the original's path "
-        "(tube {:g} mm); everything else is the same\n",
-        tube->moves, tube->replaced_lines, tube->new_lines, tube->farthest_mm, tube->tube_mm);
+        "(tube {:g} mm); {}everything else is the same\n",
+        tube->moves, tube->replaced_lines, tube->new_lines, tube->farthest_mm, tube->tube_mm,
+        slowest(*tube));
   }
 }
 
@@ -119,8 +136,10 @@ std::expected<Reading, Refusals> read(const Options& options, const std::vector<
 std::expected<TubeProof, Refusals> prove_tube(const Options& options, const Reading& reading,
                                               const std::string& original,
                                               const std::vector<Told>& mark, Progress& progress) {
-  const auto permitted = nc::rewrite::permitted_of(options.changed, mark, options.tube_mm,
-                                                   reading.machine ? &*reading.machine : nullptr);
+  const kernel::outcome::Result<nc::rewrite::Permitted> permitted =
+      mark.empty() ? nc::rewrite::Permitted{}
+                   : nc::rewrite::permitted_of(options.changed, mark, options.tube_mm,
+                                               reading.machine ? &*reading.machine : nullptr);
   if (!permitted) {
     return refused(permitted.error());
   }
@@ -199,7 +218,7 @@ Outcome run(const Options& options, Progress& progress) {
     return prove_both(options, *marks, progress);
   }
   Answer answer;
-  if (!marks->replaced.empty()) {
+  if (options.rewrite.plan.empty()) {
     const auto reading = read(options, marks->replaced);
     if (!reading) {
       return std::unexpected(reading.error());

@@ -83,6 +83,7 @@ Result<Permitted> permitted_of(const std::string& changed, const std::vector<Tol
   if (machine != nullptr) {
     out.least_rev_s = machine->spindle.min_rev_s;
     out.most_rev_s = machine->spindle.max_rev_s;
+    out.axes = machine->axes;
   }
   return out;
 }
@@ -106,12 +107,13 @@ std::string feed_fault(const Permitted& permitted, const Move& block, const Move
                      feed_text(fresh), feed_text(block), least, most);
 }
 
-// program feeds writes F only where it changes: a block that stays may take over a lower one.
-std::string kept_feed_fault(const Permitted& permitted, const Move& original, const Move& changed) {
+// program feeds writes F only where it changes, and puts it back before a block that must stay.
+std::string kept_feed_fault(const Permitted& permitted, const Move& original, const Move& changed,
+                            bool replaceable) {
   const double ratio = speed_ratio(permitted, original, changed);
   const bool cuts =
       original.kind == interpret::MoveKind::linear || original.kind == interpret::MoveKind::arc;
-  const bool lower = permitted.feeds && cuts && !original.override_locked &&
+  const bool lower = permitted.feeds && replaceable && cuts && !original.override_locked &&
                      changed.feed_mm_s > 0.0 && changed.feed_mm_s < original.feed_mm_s;
   if (original.feed_mode == changed.feed_mode &&
       (lower || same_feed(original.feed_mm_s, changed.feed_mm_s) ||

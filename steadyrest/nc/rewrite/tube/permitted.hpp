@@ -23,13 +23,14 @@ struct Permitted {
   bool feeds = false;   ///< lower feeds
   bool speeds = false;  ///< spindle speeds, and feeds in the same proportion
   double tube_mm = kUsualTube_mm;
-  double least_rev_s = 0.0;  ///< range of the spindle
-  double most_rev_s = 1e9;   // no machine is given
+  double least_rev_s = 0.0;                 ///< range of the spindle
+  double most_rev_s = 1e9;                  // no machine is given
+  std::vector<kernel::machine::Axis> axes{};  ///< their travel; none without a machine
 };
 
 /// From the mark: `changes` (predistort, feeds, speeds, with commas between) and `tube-mm`, which
-/// `tube_mm` overrides. The spindle's range is the machine's, where one is given. Refused: other
-/// changes, and a mark that names none.
+/// `tube_mm` overrides. Travel and the spindle's range are the machine's, where one is given.
+/// Refused: other changes, and a mark that names none.
 [[nodiscard]] kernel::outcome::Result<Permitted> permitted_of(
     const std::string& changed, const std::vector<Told>& told, std::optional<double> tube_mm,
     const kernel::machine::Machine* machine);
@@ -39,11 +40,11 @@ struct Permitted {
 /// when it may.
 [[nodiscard]] std::string feed_fault(const Permitted& permitted, const interpret::Move& block,
                                      const interpret::Move& fresh);
-/// The same for a move of a line that stays: the same feed; for feeds a lower one that a block
-/// takes over; for speeds in proportion, too.
+/// The same for a move of a line that is kept: the same feed; for feeds a lower one, too, where the
+/// line is a block that could have been replaced and takes over F; for speeds in proportion, too.
 [[nodiscard]] std::string kept_feed_fault(const Permitted& permitted,
                                           const interpret::Move& original,
-                                          const interpret::Move& changed);
+                                          const interpret::Move& changed, bool replaceable);
 /// Why the spindle may not turn at `changed` in place of `original`, rev/s with sign.
 [[nodiscard]] std::string spindle_fault(const Permitted& permitted, double original,
                                         double changed);

@@ -23,6 +23,7 @@ void Running::note_position() {
   for (const interpret::Move& move : kept.moves) {
     if (move.kind != interpret::MoveKind::dwell) {
       at_mm = machine_point(move, move.end);
+      used.add(move, run->line());
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/signal/path.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
+#include <steadyrest/nc/rewrite/tube/used_travel.hpp>
 #include <steadyrest/nc/rewrite/walk/kept_moves.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -25,7 +26,7 @@ struct Running {
     kept.clear();
     return run->step();
   }
-  /// After a line: where its last move has ended.
+  /// After a line: where its last move has ended, and what it used of the travel.
   void note_position();
 
   read::LineSource source;
@@ -33,6 +34,7 @@ struct Running {
   KeptMoves kept;
   std::optional<interpret::ProgramRun> run;
   std::optional<kernel::signal::Point> at_mm;  ///< machine
+  UsedTravel used;
 };
 
 }  // namespace steadyrest::nc::rewrite

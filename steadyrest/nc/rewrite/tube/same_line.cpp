@@ -69,6 +69,10 @@ std::string start_difference(const Move& a, const Move& b, double rounding_mm, d
                              apart, most);
 }
 
+bool no_length(const Move& move) noexcept {
+  return move.kind == MoveKind::linear && largest_difference(move.start, move.end) <= kSame_mm;
+}
+
 bool same_control_points(const Move& a, const Move& b, double within_mm) noexcept {
   return std::ranges::equal(a.spline, b.spline, [within_mm](const auto& x, const auto& y) {
     return std::abs(x.x_mm - y.x_mm) <= within_mm && std::abs(x.y_mm - y.y_mm) <= within_mm &&
@@ -82,7 +86,9 @@ std::string move_difference(const Move& a, Move b, const LinePair& pair,
     return fault;
   }
   const bool dwell = a.kind == MoveKind::dwell && b.kind == a.kind;
-  if (auto fault = dwell ? std::string{} : kept_feed_fault(permitted, a, b); !fault.empty()) {
+  if (auto fault = dwell ? std::string{}
+                         : kept_feed_fault(permitted, a, b, pair.replaceable || no_length(a));
+      !fault.empty()) {
     return fault;
   }
   // A dwell of so many turns (sinumerik G4 S) is shorter at a higher speed.

@@ -22,6 +22,7 @@ struct LinePair {
   /// Half of the last digit that new blocks are written with, mm: an axis that the line does not
   /// name keeps what that has made of it.
   double rounding_mm = 0.0;
+  bool replaceable = false;  ///< a block whose feed could have been changed
 };
 
 /// What differs; empty when the line does the same. Kinds of moves, feeds, path modes, ends and

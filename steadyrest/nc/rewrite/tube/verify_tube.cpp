@@ -63,6 +63,7 @@ class TubeProver {
     a_ = std::move(*before);
     b_ = std::move(*after);
     b_->run->read_with(*a_->run);
+    start_known_ = config.start_known;
     constexpr std::uint32_t kEvery = 1U << 14U;
     const double lines =
         std::max<double>(1.0, blocks_.blocks.empty() ? 1.0 : blocks_.blocks.back().line);
@@ -144,7 +145,10 @@ class TubeProver {
     if ((!a.empty() || !a_->kept.events.empty()) && !close()) {
       return false;
     }
-    const LinePair pair{.original = a, .changed = b, .rounding_mm = rounding_mm()};
+    const LinePair pair{.original = a,
+                        .changed = b,
+                        .rounding_mm = rounding_mm(),
+                        .replaceable = b_->run->in_main() && may_be_replaced(a_->run->line())};
     if (auto fault = event_difference(a_->kept.events, b_->kept.events, permitted_);
         !fault.empty()) {
       return refuse(std::move(fault));
@@ -156,6 +160,7 @@ class TubeProver {
       if (is_moved_arc(a[i], b[i]) && !moved_arc(a[i], b[i])) {
         return false;
       }
+      note_feed(a[i], b[i]);
     }
     return true;
   }
@@ -179,11 +184,7 @@ class TubeProver {
     if (!b_->kept.moves.empty() || !b_->kept.events.empty()) {
       return refuse("a comment that keeps a replaced line does something");
     }
-    const CutBlock* block = blocks_.find(number);
-    const bool cut =
-        block != nullptr && (block->stays == Stays::free || block->stays == Stays::motion_needed ||
-                             block->stays == Stays::after_switch);
-    if (cut) {
+    if (may_be_replaced(number)) {
       return replaced_block(fresh);
     }
     const std::uint32_t was = b_->run->line();
@@ -200,10 +201,26 @@ class TubeProver {
                  ? kept()
                  : refuse("replaces a line that must stay, and differs in more than S and F");
     }
+    const CutBlock* block = blocks_.find(number);
     return refuse_at(changed_, was,
                      fmt::format("replaces line {} of the original, which must stay: {}", number,
                                  block == nullptr ? "it does not cut" : sentence(block->stays)),
                      std::string(kMakeChangedAgain));
+  }
+
+  [[nodiscard]] bool may_be_replaced(std::uint32_t number) const {
+    const CutBlock* block = blocks_.find(number);
+    return block != nullptr &&
+           (block->stays == Stays::free || block->stays == Stays::motion_needed ||
+            block->stays == Stays::after_switch);
+  }
+
+  void note_feed(const Move& block, const Move& move) {
+    const double ratio = move.feed_mm_s / block.feed_mm_s;
+    if (block.feed_mode == move.feed_mode && ratio < proof_.least_feed_ratio) {
+      proof_.least_feed_ratio = ratio;
+      proof_.slowest_line = b_->run->line();
+    }
   }
 
   /// F after a line that stays: the feed that the next block takes over.
@@ -276,6 +293,7 @@ class TubeProver {
         return refuse(std::move(fault));
       }
       stretch_.fresh(move);
+      note_feed(block, move);
     }
     b_->note_position();
     return true;
@@ -305,7 +323,13 @@ class TubeProver {
       refusal_ = interpret::first_refusal(report, changed_);
       return false;
     }
-    return close() && ends_the_same();
+    return close() && (!start_known_ || within_travel()) && ends_the_same();
+  }
+
+  bool within_travel() {
+    auto fault = travel_fault(permitted_.axes, a_->used, b_->used);
+    return !fault || refuse_at(changed_, fault->line, std::move(fault->what),
+                               "make the changed program with a smaller shift");
   }
 
   bool ends_the_same() {
@@ -339,6 +363,7 @@ class TubeProver {
   std::unique_ptr<Running> b_;
   Stretch stretch_;
   bool switchable_ = false;
+  bool start_known_ = false;
   TubeProof proof_;
   Refusal refusal_;
 };

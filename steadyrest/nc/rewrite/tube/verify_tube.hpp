@@ -20,6 +20,8 @@ struct TubeProof {
   double tube_mm = 0.0;
   double farthest_mm = 0.0;         ///< largest distance of the new moves from the original's
   std::uint32_t farthest_line = 0;  ///< of the changed program
+  double least_feed_ratio = 1.0;    ///< lowest feed as a share of the original's
+  std::uint32_t slowest_line = 0;   ///< of the changed program, where that is; 0: none is lower
 };
 
 /// Proves that `changed`, whose blocks were replaced (replace()), does what `original` does, except
@@ -31,8 +33,9 @@ struct TubeProof {
 /// except motion and feed; they stay within the tube of the original's path, in order, with nothing
 /// left out (stretch.hpp), and their feeds are those permitted. Where speeds are, a line may also
 /// have other values of S and F. At the end position, offsets, modes and what the control keeps are
-/// the original's; the feed may be the last new block's. All this with the other position of block
-/// delete, too, where the program has lines with `/`.
+/// the original's; the feed may be the last new block's. The axes keep within their travel, or
+/// within what the original uses, where the machine and the start are known. All this with the
+/// other position of block delete, too, where the program has lines with `/`.
 ///
 /// Refused with the line of the changed program otherwise, or of the original where something of it
 /// is missing.

@@ -40,6 +40,26 @@ TEST(Permitted, FeedsAreAtMostTheBlocks) {
               StartsWith("changed:6: is 0.010000 mm from the original's path"));
 }
 
+// F is put back before a block that must stay; one that is left out, or changed, is not proved.
+TEST(Permitted, ALineThatMustStayKeepsItsFeed) {
+  const TubeShop shop("feeds", 0.005);
+  const std::string program = "G21 G90 G94\nG0 X0 Y0\nG1 X10 F600\nX20 M8\nX30 M9\nX30 M9\nM2\n";
+  EXPECT_EQ(shop.verdict(program, {{3, {"G1 X10 F60.0", "F600.0"}}}), "proved");
+  EXPECT_THAT(shop.verdict(program, {{3, {"G1 X10 F60.0", "F0.1"}}}),
+              StartsWith("changed:7: runs at 0.1 mm/min in place of 600 mm/min"));
+  EXPECT_THAT(shop.verdict(program, {{3, {"G1 X10 F60.0"}}}),
+              StartsWith("changed:6: runs at 60 mm/min in place of 600 mm/min"));
+}
+
+TEST(Permitted, TheLowestFeedIsNamed) {
+  const TubeShop shop("feeds", 0.005);
+  shop.change(kSlot, {{4, {"G1 X4 F600.0", "X10 F150.0"}}});
+  const auto proof = shop.prove();
+  ASSERT_TRUE(proof.has_value());
+  EXPECT_DOUBLE_EQ(proof->least_feed_ratio, 0.25);
+  EXPECT_EQ(proof->slowest_line, 7U);
+}
+
 TEST(Permitted, AnFMayFollowALineThatStays) {
   const TubeShop shop("feeds", 0.005);
   const std::string program = "G21 G90 G94\n#1=10\nG0 X0\nG1 X[#1] F600\nX20\nM2\n";

@@ -43,14 +43,21 @@ TEST(SameValues, TenTurnsAreTenTurnsAtAnotherSpeed) {
               HasSubstr("the spindle turns at 3300 rpm in place of 3000"));
 }
 
-// A block that cuts may take a lower feed over; a probe and what no override acts on may not.
+// A block that may be replaced takes a lower feed over; a probe, what no override acts on and what
+// must stay do not.
 TEST(SameValues, OnlyACutTakesALowerFeed) {
+  const auto speed_difference = [](const Move& a, const Move& b, const Permitted& permitted,
+                                   bool replaceable = true) {
+    return line_difference({.original = {&a, 1}, .changed = {&b, 1}, .replaceable = replaceable},
+                           permitted);
+  };
   Move original = made_line({0, 0, 0}, {9, 0, 0}, 10.0);
   Move slower = made_line({0, 0, 0}, {9, 0, 0}, 5.0);
   EXPECT_EQ(speed_difference(original, slower, kSameFeeds), "");
+  EXPECT_NE(speed_difference(original, slower, kSameFeeds, false), "");
   EXPECT_THAT(speed_difference(slower, original, kSameFeeds),
               HasSubstr("runs at 600 mm/min in place of 300 mm/min"));
-  EXPECT_NE(speed_difference(original, slower), "");
+  EXPECT_NE(speed_difference(original, slower, kSameSpeeds), "");
   original.override_locked = slower.override_locked = true;
   EXPECT_NE(speed_difference(original, slower, kSameFeeds), "");
   original.override_locked = slower.override_locked = false;

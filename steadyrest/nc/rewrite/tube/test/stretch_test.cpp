@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -16,6 +17,7 @@ namespace {
 using kernel::signal::Point;
 using test::at_line;
 using test::made_line;
+using ::testing::HasSubstr;
 
 Point random_place() {
   const auto random_mm = [] { return 0.01 * *rc::gen::inRange(-3000, 3000); };
@@ -65,6 +67,46 @@ TEST(Stretch, RemembersTheFarthestOfAll) {
   EXPECT_NEAR(stretch.farthest_mm(), 0.25, 1e-9);
   EXPECT_FALSE(fault_of_line(stretch, {0, 0, 0}, {5, 0, 0}, {0, 0, -0.5}));
   EXPECT_NEAR(stretch.farthest_mm(), 0.5, 1e-9);
+}
+
+// The order of a path counts: each point of one is near a point of the other, and yet they differ.
+// Whoever waits for a tool that goes back by s is at best s/2 from it.
+TEST(StretchOrder, AStepBackIsHalfItsLengthFromTheLine) {
+  constexpr double kBack_mm = 3.0;
+  const auto fault = [](double tube_mm) {
+    Stretch stretch(tube_mm);
+    stretch.begin({0, 0, 0}, {0, 0, 0});
+    stretch.block(made_line({0, 0, 0}, {10, 0, 0}));
+    stretch.fresh(made_line({0, 0, 0}, {6, 0, 0}));
+    stretch.fresh(made_line({6, 0, 0}, {6 - kBack_mm, 0, 0}));
+    stretch.fresh(made_line({6 - kBack_mm, 0, 0}, {10, 0, 0}));
+    return stretch.close();
+  };
+  EXPECT_FALSE(fault(0.5 * kBack_mm + 1e-6));
+  ASSERT_TRUE(fault(0.5 * kBack_mm - 1e-6));
+  EXPECT_THAT(fault(0.5 * kBack_mm - 1e-6)->what, HasSubstr("it turns back"));
+}
+
+// A slot of depth h that is passed over is h from the path, in the original's own line.
+TEST(StretchOrder, ASlotThatIsPassedOverIsLeftOutByItsDepth) {
+  constexpr double kDepth_mm = 2.0;
+  const auto fault = [](double tube_mm) {
+    Stretch stretch(tube_mm);
+    stretch.begin({0, 0, 0}, {0, 0, 0});
+    stretch.block(at_line(4, made_line({0, 0, 0}, {10, 0, 0})));
+    stretch.fresh(made_line({0, 0, 0}, {10, 0, 0}));
+    stretch.block(at_line(5, made_line({10, 0, 0}, {10, 0, -kDepth_mm})));
+    stretch.block(at_line(6, made_line({10, 0, -kDepth_mm}, {10, 0, 0})));
+    stretch.block(at_line(7, made_line({10, 0, 0}, {20, 0, 0})));
+    stretch.fresh(made_line({10, 0, 0}, {20, 0, 0}));
+    return stretch.close();
+  };
+  EXPECT_FALSE(fault(kDepth_mm + 1e-6));
+  const auto narrow = fault(kDepth_mm - 1e-6);
+  ASSERT_TRUE(narrow);
+  EXPECT_TRUE(narrow->of_original);
+  EXPECT_EQ(narrow->line, 5U);
+  EXPECT_THAT(narrow->what, HasSubstr("left out by 2.000000 mm at X10.0000 Y0.0000 Z-2.0000"));
 }
 
 }  // namespace
