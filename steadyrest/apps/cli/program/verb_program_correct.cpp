@@ -111,7 +111,7 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   }
   Answer part;
   answer.text += put_path(part, *path, options.path);
-  answer.text += put_kept(part, program.blocks);
+  answer.text += put_kept(part, program.blocks, Rewrites::path);
   answer.json["path"] = std::move(part.json);
   return nc::rewrite::composed(lines, *stage, path->lines);
 }

@@ -61,7 +61,7 @@ Answer answer_of(const FeedsAhead& done, const SourceProgram& program, const Fee
         {{"line", one.line}, {"predicted_error_mm", one.error_mm}, {"reason", one.why}});
   }
   answer.text = text_of(done, reserve, max_error_mm);
-  answer.text += put_kept(answer, program.blocks);
+  answer.text += put_kept(answer, program.blocks, Rewrites::feeds);
   return answer;
 }
 

@@ -42,7 +42,7 @@ Outcome run(const Options& options, Progress& progress) {
   Answer answer;
   answer.text = put_path(answer, *done, options.path);
   put_replaced(answer, done->replaced);
-  answer.text += put_kept(answer, program->blocks);
+  answer.text += put_kept(answer, program->blocks, Rewrites::path);
   return answer;
 }
 

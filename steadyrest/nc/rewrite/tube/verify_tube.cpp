@@ -181,8 +181,7 @@ class TubeProver {
     }
     const CutBlock* block = blocks_.find(number);
     const bool cut =
-        block != nullptr && (block->stays == Stays::free || block->stays == Stays::motion_needed ||
-                             block->stays == Stays::after_switch);
+        block != nullptr && (takes_feed(block->stays) || block->stays == Stays::after_switch);
     if (cut) {
       return replaced_block(fresh);
     }

@@ -147,10 +147,13 @@ std::expected<std::vector<Told>, Refusals> told_of_change(const std::string& cha
   return told;
 }
 
-std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks) {
+std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks, Rewrites rewrites) {
   std::map<Stays, std::vector<std::uint32_t>> lines;
   for (const CutBlock& block : blocks.blocks) {
-    if (block.stays != Stays::free && block.stays != Stays::motion_needed) {
+    const bool changes = rewrites == Rewrites::feeds
+                             ? nc::rewrite::takes_feed(block.stays)
+                             : block.stays == Stays::free || block.stays == Stays::motion_needed;
+    if (!changes) {
       lines[block.stays].push_back(block.line);
     }
   }

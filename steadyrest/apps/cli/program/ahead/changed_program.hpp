@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <string>
 #include <vector>
@@ -42,9 +43,13 @@ struct SourceProgram {
     const std::string& changes, const CLI::App& verb, const SourceProgram& program,
     std::vector<nc::rewrite::Told> more);
 
+/// What a verb writes into a block.
+enum class Rewrites : std::uint8_t { path, feeds };
+
 /// The key `kept[]`: `reason` and `lines[]` of the blocks that cut and had to stay. The text for
 /// people, empty for none.
-[[nodiscard]] std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks);
+[[nodiscard]] std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks,
+                                   Rewrites rewrites);
 
 /// Positions of the changed program within this of the original's are the same, mm.
 [[nodiscard]] double tolerance_mm(const SourceProgram& program);

@@ -174,8 +174,7 @@ class Writer {
         continue;
       }
       const auto* block = program_.blocks.find(line);
-      const bool stays = block == nullptr || (block->stays != nc::rewrite::Stays::free &&
-                                              block->stays != nc::rewrite::Stays::motion_needed);
+      const bool stays = block == nullptr || !nc::rewrite::takes_feed(block->stays);
       std::string why = "the lowest feed permitted";
       if (!of_feed_mm_.contains(line)) {
         why = "the rapid before it";
