@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include <steadyrest/contour/offline/predistort/barred_lines.hpp>
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
@@ -15,7 +15,6 @@
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
 #include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
-#include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
@@ -65,8 +64,8 @@ class Predistortion {
     if (auto done = learn_from_parts(); !done) {
       return std::unexpected(done.error());
     }
+    barred_.emplace(path_, machine_.axes, how_.max_shift_mm);
     runs_.emplace(path_, use());
-    travel_.emplace(path_, machine_.axes);
     // The control's own plan of the program as it is, on the path that the shape is made from.
     auto planned = write({});
     if (!planned) {
@@ -86,7 +85,7 @@ class Predistortion {
     runs_before_ = std::move(before->runs);
     for (std::size_t i = 0; i < runs_->size(); ++i) {
       if (runs_before_->worst(i).max_mm <= kWorthwhile * how_.limit_mm) {
-        barred_.insert(runs_->lines(i).begin(), runs_->lines(i).end());
+        barred_->bar(runs_->lines(i));
       }
     }
     keep_original(std::move(planned->replaced));
@@ -94,7 +93,7 @@ class Predistortion {
       if (auto done = attempt(revision); !done) {
         return std::unexpected(done.error());
       }
-      if (best_mm_ < 0.0 || !bar_worse()) {
+      if (best_mm_ < 0.0 || !barred_->bar_worse(worse_lines(*runs_, *runs_before_, *runs_after_))) {
         break;
       }
       // What was found has blocks that must stay.
@@ -103,6 +102,9 @@ class Predistortion {
     }
     out_.lines = std::move(best_.lines);
     out_.replaced = std::move(best_.replaced);
+    out_.too_far = std::move(barred_->too_far);
+    out_.past_travel = std::move(barred_->past_travel);
+    out_.worse = std::move(barred_->worse);
     add_report(out_, how_.limit_mm);
     return std::move(out_);
   }
@@ -154,7 +156,9 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] std::vector<SegmentUse> use() const { return segment_use(path_, blocks_, barred_); }
+  [[nodiscard]] std::vector<SegmentUse> use() const {
+    return segment_use(path_, blocks_, barred_->lines());
+  }
 
   Result<void> learn_from_parts() {
     auto learnt = learn_from(how_.parts, {.machine = machine_,
@@ -199,17 +203,11 @@ class Predistortion {
     for (int round = 0; round < count; ++round) {
       how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
-      const Shift shift = shift_of(path_, made, how_.max_shift_mm);
-      const auto past = travel_->left_by(made);
-      if (!shift.too_far.empty() || !past.empty()) {
-        out_.too_far.insert(out_.too_far.end(), shift.too_far.begin(), shift.too_far.end());
-        out_.past_travel.insert(out_.past_travel.end(), past.begin(), past.end());
-        barred_.insert(shift.too_far.begin(), shift.too_far.end());
-        barred_.insert(past.begin(), past.end());
+      while (barred_->bar_beyond(made)) {
         use = this->use();
         made = pieces(use, speed_);
       }
-      if (auto done = try_pieces(made, shift.largest_mm); !done) {
+      if (auto done = try_pieces(made); !done) {
         return done;
       }
     }
@@ -226,7 +224,7 @@ class Predistortion {
                         made);
   }
 
-  Result<void> try_pieces(const std::vector<Piece>& made, double shift_mm) {
+  Result<void> try_pieces(const std::vector<Piece>& made) {
     auto changed = write(made);
     if (!changed) {
       return std::unexpected(changed.error());
@@ -250,7 +248,7 @@ class Predistortion {
       best_ = std::move(*changed);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
-      out_.largest_shift_mm = std::min(shift_mm, how_.max_shift_mm);
+      out_.largest_shift_mm = best_.lines.empty() ? 0.0 : barred_->largest_shift_mm();
     }
     over_ = std::move(run->over);
     speed_ = std::move(run->speed);
@@ -344,16 +342,6 @@ class Predistortion {
     return {};
   }
 
-  /// Runs whose error grows, over all models, stay. True when there are new ones.
-  bool bar_worse() {
-    bool fresh = false;
-    for (const std::uint32_t line : worse_lines(*runs_, *runs_before_, *runs_after_)) {
-      fresh = barred_.insert(line).second || fresh;
-      out_.worse.push_back(line);
-    }
-    return fresh;
-  }
-
   const std::string& file_;
   const nc::interpret::Config& config_;
   const Machine& machine_;
@@ -378,9 +366,8 @@ class Predistortion {
   std::vector<double> corner_mm_;  ///< their errors in the last run
   double best_mm_ = -1.0;
   int done_ = 0;
-  std::set<std::uint32_t> barred_;  ///< lines that stay after all
+  std::optional<BarredLines> barred_;
   std::optional<CutRuns> runs_;
-  std::optional<Travel> travel_;
   std::optional<RunErrors> runs_before_;
   std::optional<RunErrors> runs_after_;  ///< of the best round
   Predistorted out_;
