@@ -8,6 +8,7 @@
 #include <steadyrest/contour/offline/predistort/barred_lines.hpp>
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
+#include <steadyrest/contour/offline/predistort/phase_progress.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/refinement.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
@@ -38,6 +39,7 @@ constexpr double kLeastFeed = 0.25;  ///< of the programmed one, where feeds fal
 constexpr int kHoldRounds = 2;
 /// Tried at corners in addition to the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+constexpr int kCornerRuns = static_cast<int>(kBeyond.size()) + kLastRounds;
 constexpr double kWorthwhile = 0.25;      ///< of the limit: a run whose error is less stays
 constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
@@ -55,9 +57,12 @@ class Predistortion {
         model_(how.parts.empty() ? servo_models(machine.axes)
                                  : cautious(servo_models(machine.axes), how.gain_uncertainty)),
         others_(uncertain(model_, how.gain_uncertainty)),
-        inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)) {}
+        inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)),
+        progress_(how.progress, 1 + how.rounds + kCornerRuns + kRefinements +
+                                    (how.hold_mm > 0.0 ? kMostHolds * kHoldRounds : 0)) {}
 
   Result<Predistorted> run() {
+    progress_.phase("predicting the error", 1);
     if (auto read = this->read(); !read) {
       return std::unexpected(read.error());
     }
@@ -93,7 +98,8 @@ class Predistortion {
       if (auto done = attempt(revision); !done) {
         return std::unexpected(done.error());
       }
-      if (best_mm_ < 0.0 || !barred_->bar_worse(worse_lines(*runs_, *runs_before_, *runs_after_))) {
+      if (best_mm_ < 0.0 ||
+          !barred_->bar_worse(worse_lines(*runs_, *runs_before_, *runs_after_))) {
         break;
       }
       // What was found has blocks that must stay.
@@ -116,14 +122,17 @@ class Predistortion {
     caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
     holds_ = false;
     learnt_.unrefine(0);
+    progress_.phase("shaping the path", how_.rounds);
     if (auto done = rounds(how_.rounds); !done) {
       return done;
     }
+    progress_.phase("leading corners", kCornerRuns);
     if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
       if (auto done = try_corners(); !done) {
         return done;
       }
     }
+    progress_.phase("refining the path", kRefinements);
     if (auto done = refine(); !done) {
       return done;
     }
@@ -174,7 +183,7 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] Judging judging() const {
+  [[nodiscard]] Judging judging() {
     return {.machine = machine_,
             .original = path_,
             .model = model_,
@@ -182,7 +191,8 @@ class Predistortion {
             .learnt = learnt_,
             .runs = *runs_,
             .limit_mm = how_.limit_mm,
-            .hold_mm = how_.hold_mm};
+            .hold_mm = how_.hold_mm,
+            .progress = [this](double share) { progress_.run(share); }};
   }
 
   /// The pieces for a command at this speed.
@@ -201,7 +211,6 @@ class Predistortion {
   Result<void> rounds(int count) {
     auto use = this->use();
     for (int round = 0; round < count; ++round) {
-      how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
       while (barred_->bar_beyond(made)) {
         use = this->use();
@@ -233,6 +242,7 @@ class Predistortion {
     if (!run) {
       return std::unexpected(run.error());
     }
+    progress_.ran();
     const auto& figures = run->figures.nominal();
     const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
     const double most_time = learnt_.refinements() > 0 ? kRefinedTime : kMostTime;
@@ -285,6 +295,7 @@ class Predistortion {
     if (how_.hold_mm <= 0.0 || best_mm_ < 0.0) {
       return {};
     }
+    progress_.phase("holding the limit", kMostHolds * kHoldRounds);
     holds_ = true;
     over_ = best_over_;
     speed_ = best_speed_;
@@ -349,6 +360,7 @@ class Predistortion {
   ServoModels model_;
   std::vector<ServoModels> others_;
   ServoInverse inverse_;
+  PhaseProgress progress_;
   Learnt learnt_;
   nc::rewrite::CutBlocks blocks_;
   nc::plan::PlannedPath path_;
@@ -365,7 +377,6 @@ class Predistortion {
   std::vector<Corner> corners_;    ///< as led in the last pieces
   std::vector<double> corner_mm_;  ///< their errors in the last run
   double best_mm_ = -1.0;
-  int done_ = 0;
   std::optional<BarredLines> barred_;
   std::optional<CutRuns> runs_;
   std::optional<RunErrors> runs_before_;

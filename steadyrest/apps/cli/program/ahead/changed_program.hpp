@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/text/mark.hpp>
@@ -25,6 +26,7 @@ struct SourceProgram {
   nc::interpret::Config config;
   nc::plan::PlannedPath path;
   nc::rewrite::CutBlocks blocks;
+  std::vector<nc::plan::Warning> past_travel;  ///< moves that take an axis past its travel
 };
 
 /// Reads the machine, then plans the program. Refused: what the interpreter or the planner refuses,

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -170,6 +171,23 @@ TEST(Predistort, NamesTheShiftOfWhatItHasChanged) {
   ASSERT_TRUE(done.has_value());
   EXPECT_FALSE(done->too_far.empty());
   EXPECT_LT(done->largest_shift_mm, 0.049);
+}
+
+TEST(Predistort, TellsItsPhases) {
+  const Desk desk;
+  std::vector<std::string> phases;
+  double last = 0.0;
+  const auto done = desk.run(kCircle, {.progress = [&](double share, std::string_view what) {
+                               EXPECT_GE(share, last);
+                               last = share;
+                               if (phases.empty() || phases.back() != what) {
+                                 phases.emplace_back(what);
+                               }
+                             }});
+  ASSERT_TRUE(done.has_value());
+  EXPECT_EQ(phases, (std::vector<std::string>{"predicting the error", "shaping the path",
+                                              "leading corners", "refining the path"}));
+  EXPECT_LT(last, 1.0);
 }
 
 TEST(Predistort, RefusesWhatCutsNothing) {
