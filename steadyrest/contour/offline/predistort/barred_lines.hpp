@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <span>
 #include <vector>
 
+#include <steadyrest/contour/offline/predistort/run_errors.hpp>
 #include <steadyrest/contour/offline/predistort/shape/piece.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/kernel/machine/axis.hpp>
@@ -31,11 +34,19 @@ class BarredLines {
     add(past, past_travel);
     return !shift.too_far.empty() || !past.empty();
   }
-  /// Bars lines whose error would grow. True when one of them was not barred before.
-  bool bar_worse(const std::vector<std::uint32_t>& lines) {
-    const std::size_t before = lines_.size();
-    add(lines, worse);
-    return lines_.size() > before;
+  /// Bars runs whose error would grow. The lag carries what a run does into those behind it: where
+  /// one is barred already, the nearest before it, else the one behind. True when any was not.
+  bool bar_worse(const std::vector<std::size_t>& which, const CutRuns& runs) {
+    bool fresh = false;
+    for (const std::size_t run : which) {
+      bool found = false;
+      for (std::size_t i = run + 1; !found && i-- > 0;) {
+        found = bar_run(runs.lines(i));
+      }
+      found = found || (run + 1 < runs.size() && bar_run(runs.lines(run + 1)));
+      fresh = fresh || found;
+    }
+    return fresh;
   }
   /// Bars lines that are not worth it.
   void bar(const std::vector<std::uint32_t>& lines) { lines_.insert(lines.begin(), lines.end()); }
@@ -49,6 +60,13 @@ class BarredLines {
   std::vector<std::uint32_t> worse;
 
  private:
+  bool bar_run(const std::vector<std::uint32_t>& lines) {
+    if (std::ranges::all_of(lines, [&](std::uint32_t line) { return lines_.contains(line); })) {
+      return false;
+    }
+    add(lines, worse);
+    return true;
+  }
   void add(const std::vector<std::uint32_t>& lines, std::vector<std::uint32_t>& why) {
     why.insert(why.end(), lines.begin(), lines.end());
     bar(lines);

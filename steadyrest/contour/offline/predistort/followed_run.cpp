@@ -43,14 +43,14 @@ kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& ch
     }
     run.speed.add(sample.progress_mm, sample.command_mm_s);
     corner_errors.add(sample);
-    run.errors.push_back({.valid = sample.cuts,
+    run.errors.push_back({.valid = sample.cuts && !sample.arriving,
                           .time_s = sample.time_s,
                           .foot_mm = sample.foot_mm,
                           .off_mm = sample.off_mm});
     if (sample.cuts) {
       const std::uint32_t line = sample.line < origin.size() ? origin[sample.line] : sample.line;
       run.figures.add(sample, line);
-      run.runs.add(sample, line);
+      run.runs.add(sample, line, by.original.segments);
       if (by.hold_mm > 0.0 && std::abs(sample.error_mm) > by.hold_mm) {
         run.over.push_back({.foot_mm = sample.foot_mm,
                             .progress_mm = sample.progress_mm,

@@ -99,7 +99,8 @@ class Predistortion {
         return std::unexpected(done.error());
       }
       if (best_mm_ < 0.0 ||
-          !barred_->bar_worse(worse_lines(*runs_, *runs_before_, *runs_after_))) {
+          !barred_->bar_worse(worse_runs(*runs_, *runs_before_, *runs_after_, barred_->lines()),
+                              *runs_)) {
         break;
       }
       // What was found has blocks that must stay.
@@ -244,12 +245,16 @@ class Predistortion {
     }
     progress_.ran();
     const auto& figures = run->figures.nominal();
-    const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
+    // Any round that leaves the largest error alone is better than one that does not.
+    const auto& before = out_.before.nominal();
+    const bool larger = figures.max_mm > kLargestGrows * before.max_mm;
+    const double score_mm =
+        figures.rms_mm() + kShareOfLargest * figures.max_mm + (larger ? before.rms_mm() : 0.0);
     const double most_time = learnt_.refinements() > 0 ? kRefinedTime : kMostTime;
     const bool in_time = holds_ || run->seconds <= most_time * out_.seconds_before;
     const bool better =
         holds_ ? run->over.size() < best_over_.size() : best_mm_ < 0.0 || score_mm < best_mm_;
-    if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
+    if (in_time && better && figures.rms_mm() <= before.rms_mm()) {
       best_mm_ = score_mm;
       best_over_ = run->over;
       runs_after_ = std::move(run->runs);
