@@ -5,6 +5,7 @@
 
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/signal/arriving.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
@@ -41,17 +42,18 @@ const PathSegment* segment_of(PathView path, const ContourError::Output& error) 
   return on_path ? &path[error.foot_index] : nullptr;
 }
 
-/// The motion that a sample counts for: it is a cut only if the control cuts and the tool is there,
-/// on each path that is asked. Just after a rapid the tool still lags on the rapid's path and
-/// leaves no surface.
+/// The motion that a sample counts for: it is a cut only if the control cuts, or waits while the
+/// tool arrives, and the tool is there, on each path that is asked. Just after a rapid the tool
+/// still lags on the rapid's path and leaves no surface.
 Motion motion_of(Motion commanded, const PathSegment* segment) {
   return commanded == Motion::feed && segment != nullptr ? segment->motion : commanded;
 }
 
-Sample sample_of(const Frame& frame, const sim::Truth& truth, const TrueError::Output& errors,
-                 const Original* original, kernel::outcome::Reason reason) {
+Sample sample_of(const Frame& frame, Motion tool, const sim::Truth& truth,
+                 const TrueError::Output& errors, const Original* original,
+                 kernel::outcome::Reason reason) {
   const PathSegment* const segment = segment_of(frame.path, errors.own);
-  Motion motion = motion_of(frame.motion, segment);
+  Motion motion = motion_of(tool, segment);
   if (original != nullptr && errors.original) {
     motion = motion_of(motion, segment_of(original->path->segments, *errors.original));
   }
@@ -69,6 +71,11 @@ Sample sample_of(const Frame& frame, const sim::Truth& truth, const TrueError::O
           .line = segment != nullptr ? segment->line : frame.program_line,
           .motion = motion,
           .reason = reason};
+}
+
+/// It lags most.
+double slowest_gain_1_s(const kernel::machine::Machine& machine) {
+  return std::ranges::min(machine.axes, {}, &kernel::machine::Axis::servo_gain_1_s).servo_gain_1_s;
 }
 
 /// Ten simulated minutes without path, dwell or end: the part will never be finished.
@@ -189,8 +196,10 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     return std::unexpected(error.error());
   }
   Standstill standstill;
+  kernel::signal::Arriving arriving(slowest_gain_1_s(job.machine));
   const double length_mm = std::max(length_of(*job.path), 1e-9);
-  while (!machine.finished()) {
+  while (!machine.finished() || arriving.cuts_on()) {
+    const bool after_end = machine.finished();
     auto frame = machine.read();
     if (!frame) {
       return std::unexpected(frame.error());
@@ -207,15 +216,18 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
       }
     }
     // After the layer has seen the frame: its estimates are scored.
-    if (motion != nullptr) {
+    if (motion != nullptr && !after_end) {
       motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
     }
-    if (vibration != nullptr && machine.cutting() != nullptr) {
+    if (vibration != nullptr && machine.cutting() != nullptr && !after_end) {
       vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
     }
     // The truth is that at the end of this cycle; the command acts in the next.
-    on_sample(sample_of(*frame, machine.truth(), error->update(*frame, machine.truth()),
-                        job.against.get(), reason));
+    Sample sample =
+        sample_of(*frame, arriving.update(frame->motion, frame->time_s), machine.truth(),
+                  error->update(*frame, machine.truth()), job.against.get(), reason);
+    sample.after_end = after_end;
+    on_sample(sample);
     if (standstill.too_long(*frame)) {
       return refuse("", frame->program_line, "no motion for ten simulated minutes in this line",
                     "look for a 0 % override or a very long dwell");

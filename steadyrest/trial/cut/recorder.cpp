@@ -34,13 +34,15 @@ void Recorder::add(const Sample& sample) {
 
 // Time and override changes count in all motion, errors only in cuts: a rapid leaves no surface.
 void Recorder::add_to_figures(const Sample& sample) {
-  figures_.cycle_time_s = std::max(figures_.cycle_time_s, sample.time_s);
-  // Nothing precedes the first sample, so it is no change.
-  if (last_ratio_ >= 0.0 && sample.feed_ratio != last_ratio_) {
-    ++figures_.override_changes;
+  if (!sample.after_end) {
+    figures_.cycle_time_s = std::max(figures_.cycle_time_s, sample.time_s);
+    // Nothing precedes the first sample, so it is no change.
+    if (last_ratio_ >= 0.0 && sample.feed_ratio != last_ratio_) {
+      ++figures_.override_changes;
+    }
+    last_ratio_ = sample.feed_ratio;
+    time_by_reason_[sample.reason] += config_.cycle_s;
   }
-  last_ratio_ = sample.feed_ratio;
-  time_by_reason_[sample.reason] += config_.cycle_s;
   if (sample.motion != Motion::feed) {
     return;
   }

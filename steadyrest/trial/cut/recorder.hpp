@@ -31,6 +31,7 @@ struct Sample {
   std::uint32_t line = 0;          ///< the tool's line, which lags the control's
   kernel::signal::Motion motion = kernel::signal::Motion::idle;
   kernel::outcome::Reason reason = kernel::outcome::Reason::none;
+  bool after_end = false;  ///< the program has ended, the tool is still on its way
 };
 
 /// The layer heard chatter and requested another spindle speed.

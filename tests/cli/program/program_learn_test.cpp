@@ -71,6 +71,40 @@ TEST(ProgramLearns, LeavesOutWhatWasOverridden) {
   EXPECT_THAT(said.err, testing::HasSubstr("another feed than planned"));
 }
 
+// Two names in the head of the record, exchanged.
+TEST(ProgramLearns, RefusesColumnsThatAreSwapped) {
+  const Scratch scratch;
+  answer_of("cut " + kLearnPart + kOnVmc + " --record " + scratch.at("part.csv"));
+  const std::string record = text_of_file(scratch.at("part.csv"));
+  const std::string line = "program predistort " + kLearnPart + kOnVmc + " -o " +
+                           scratch.at("changed.mpf") + " --from-record " +
+                           scratch.at("swapped.csv");
+  const auto refused_with = [&](const std::string& head, const std::string& why) {
+    std::ofstream(scratch.at("swapped.csv")) << head << record.substr(record.find('\n'));
+    expect_refused(line, why);
+  };
+  refused_with("t_s,x_act_mm,y_act_mm,z_act_mm,x_cmd_mm,y_cmd_mm,z_cmd_mm",
+               "x_cmd_mm with x_act_mm");
+  refused_with("t_s,x_cmd_mm,y_cmd_mm,z_cmd_mm,y_act_mm,x_act_mm,z_act_mm",
+               "x_act_mm and y_act_mm");
+  refused_with("t_s,y_cmd_mm,x_cmd_mm,z_cmd_mm,x_act_mm,y_act_mm,z_act_mm",
+               "x_cmd_mm and y_cmd_mm");
+}
+
+// A line of equal axes has nothing to learn, and nothing is promised for it.
+TEST(ProgramLearns, PromisesNothingForAProgramThatStays) {
+  const Scratch scratch;
+  std::ofstream(scratch.at("line.mpf")) << "G17 G71 G90 G94 G64\nG0 X0 Y0\nG1 X80 Y60 F1000\n"
+                                           "G0 Z5\nM30\n";
+  answer_of("cut " + scratch.at("line.mpf") + kOnVmc + " --record " + scratch.at("line.csv"));
+  const Finished said =
+      run_line("program predistort " + scratch.at("line.mpf") + kOnVmc + " --from-record " +
+               scratch.at("line.csv") + " -o " + scratch.at("changed.mpf"));
+  EXPECT_THAT(said.out, testing::HasSubstr("learnt from"));
+  EXPECT_THAT(said.out, testing::Not(testing::HasSubstr("the next part")));
+  EXPECT_EQ(text_of_file(scratch.at("changed.mpf")), text_of_file(scratch.at("line.mpf")));
+}
+
 TEST(ProgramLearns, RefusesRecordsThatDoNotFit) {
   const Scratch scratch;
   const std::string line = "program predistort " + kLearnPart + kOnVmc + " -o " +

@@ -55,6 +55,29 @@ TEST(ProgramPredistort, SaysWhatItLeaves) {
               answer["predicted_error_max_mm"].get<double>(), 1e-6);
 }
 
+// The program ends 1 mm behind a sharp corner, and the tool is 2.5 mm behind: it passes the corner
+// when the command has ended.
+TEST(ProgramPredistort, MakesNoCornerWorseAtTheEnd) {
+  const Scratch scratch;
+  const std::string on_linuxcnc = " --machine examples/machines/linuxcnc-mill.toml";
+  const std::string part = scratch.at("part.ngc");
+  for (const std::string mode : {"G61", "G64"}) {
+    std::ofstream(part) << "G21 G90 G17\n"
+                        << mode << "\nF3000\nG1 X10 Y1\nG3 X10 Y21 J10 I0\n"
+                        << "G1 X0\nG2 Y1 J-10 I0\nG1 X0 Y0\nM2\n";
+    const std::string changed = scratch.at("changed.ngc");
+    const auto answer = answer_of("program predistort " + part + on_linuxcnc + " -o " + changed);
+    const auto cut = answer_of("cut " + changed + " --against " + part + on_linuxcnc);
+    const double was_mm = cut["original"]["contour_error_max_mm"].get<double>();
+    const double is_mm = cut["without"]["contour_error_max_mm"].get<double>();
+    EXPECT_LE(is_mm, 1.01 * was_mm) << mode;
+    EXPECT_NEAR(answer["predicted_error_max_before_mm"].get<double>(), was_mm, 0.01 * was_mm);
+    EXPECT_NEAR(answer["predicted_error_max_mm"].get<double>(), is_mm, 0.01 * is_mm);
+    EXPECT_LT(cut["without"]["contour_error_rms_mm"].get<double>(),
+              0.8 * cut["original"]["contour_error_rms_mm"].get<double>());
+  }
+}
+
 TEST(ProgramPredistort, RefusesWhatItCannotDo) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.mpf");

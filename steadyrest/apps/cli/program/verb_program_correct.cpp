@@ -15,6 +15,7 @@
 #include <steadyrest/apps/cli/program/ahead/inserted.hpp>
 #include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
+#include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/apps/cli/program/ahead/speeds_ahead.hpp>
 #include <steadyrest/apps/cli/program/verb_program_correct.hpp>
 #include <steadyrest/apps/cli/shared/rewrite_options.hpp>
@@ -112,7 +113,7 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   }
   Answer part;
   answer.text += put_path(part, *path, options.path);
-  answer.text += put_kept(part, program.blocks);
+  answer.text += put_kept(part, program.blocks, Rewrites::path);
   answer.json["path"] = std::move(part.json);
   return nc::rewrite::composed(lines, *stage, path->lines);
 }
@@ -187,9 +188,15 @@ std::expected<std::string, Refusals> inserted(const Options& options, Answer& an
 /// Blocks replaced in a program, which may have corrections inserted.
 std::expected<nc::rewrite::Replaced, Refusals> changed(const Options& options, Answer& answer,
                                                        Progress& progress) {
+  progress.update(0.0, "reading the program");
   const auto program = read_source_program(options.rewrite.program, options.rewrite.machine);
   if (!program) {
     return std::unexpected(program.error());
+  }
+  if (options.asks_path()) {
+    if (auto fits = within_bounds(*program, options.rewrite.program.file, kLongestPath_s); !fits) {
+      return refused(fits.error());
+    }
   }
   std::vector<Told> more;
   if (options.asks_speeds()) {

@@ -5,6 +5,7 @@
 
 #include <steadyrest/apps/cli/program/ahead/feeds_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
+#include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_feeds.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -61,14 +62,18 @@ Answer answer_of(const FeedsAhead& done, const SourceProgram& program, const Fee
         {{"line", one.line}, {"predicted_error_mm", one.error_mm}, {"reason", one.why}});
   }
   answer.text = text_of(done, reserve, max_error_mm);
-  answer.text += put_kept(answer, program.blocks);
+  answer.text += put_kept(answer, program.blocks, Rewrites::feeds);
   return answer;
 }
 
 Outcome run(const Options& options, Progress& progress) {
+  progress.update(0.0, "reading the program");
   const auto program = read_source_program(options.program, options.machine);
   if (!program) {
     return std::unexpected(program.error());
+  }
+  if (const auto fits = within_bounds(*program, options.program.file, kLongestFeeds_s); !fits) {
+    return refused(fits.error());
   }
   const FeedReserve reserve = feed_reserve(program->machine, options.max_error_mm);
   if (!(reserve.limit_mm > 0.0)) {

@@ -3,6 +3,7 @@
 
 #include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
+#include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_predistort.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
@@ -22,9 +23,13 @@ struct Options {
 };
 
 Outcome run(const Options& options, Progress& progress) {
+  progress.update(0.0, "reading the program");
   const auto program = read_source_program(options.program, options.machine);
   if (!program) {
     return std::unexpected(program.error());
+  }
+  if (const auto fits = within_bounds(*program, options.program.file, kLongestPath_s); !fits) {
+    return refused(fits.error());
   }
   auto told =
       told_of_change(changes_of(options.path), *options.verb, *program, told_of(options.path));
@@ -42,7 +47,7 @@ Outcome run(const Options& options, Progress& progress) {
   Answer answer;
   answer.text = put_path(answer, *done, options.path);
   put_replaced(answer, done->replaced);
-  answer.text += put_kept(answer, program->blocks);
+  answer.text += put_kept(answer, program->blocks, Rewrites::path);
   return answer;
 }
 

@@ -47,13 +47,23 @@ struct FeedPlan::Parts {
                {.limit_mm = task.limit_mm, .floor_ratio = task.floor_ratio}),
         few{.most_loss_s = 0.0,
             .shortest_s = kShortestPeriods * task.machine.control.interpolator_period_s},
-        loss_share(task.loss_share) {}
+        loss_share(task.loss_share),
+        progress(task.progress) {}
+
+  /// One run.
+  Result<double> measure() {
+    constexpr double kMostRuns = kCellRuns + kGroupRuns;
+    progress(std::min(1.0, runs++ / kMostRuns));
+    return search.measure();
+  }
 
   FeedCells cells;
   kernel::machine::Machine machine;
   FeedSearch search;
   FewFeeds few;
   double loss_share;
+  std::function<void(double share)> progress;
+  int runs = 0;
 };
 
 FeedPlan::FeedPlan() = default;
@@ -79,7 +89,7 @@ Result<FeedPlan> FeedPlan::make(const FeedTask& task) {
     }
     search.set_ratios(std::move(ratio));
   }
-  auto seconds = search.measure();
+  auto seconds = plan.of_->measure();
   if (!seconds) {
     return std::unexpected(seconds.error());
   }
@@ -90,7 +100,7 @@ Result<FeedPlan> FeedPlan::make(const FeedTask& task) {
   }
   for (int i = 1; i < (task.start.empty() ? kCellRuns : kNearRuns); ++i) {
     search.adjust(i > 1);
-    seconds = search.measure();
+    seconds = plan.of_->measure();
     if (!seconds) {
       return std::unexpected(seconds.error());
     }
@@ -111,7 +121,7 @@ Result<FeedPlan> FeedPlan::make(const FeedTask& task) {
 Result<void> FeedPlan::search(int rounds) {
   FeedSearch& search = of_->search;
   for (int i = 0; i < rounds; ++i) {
-    const auto seconds = search.measure();
+    const auto seconds = of_->measure();
     if (!seconds) {
       return std::unexpected(seconds.error());
     }
@@ -130,6 +140,7 @@ Result<void> FeedPlan::tighten(const std::vector<std::pair<std::size_t, double>>
     of_->search.set_limit(segment, limit);
   }
   unchanged_ = false;
+  of_->progress = [](double) {};  // of make() alone
   return search(kNearRuns);
 }
 

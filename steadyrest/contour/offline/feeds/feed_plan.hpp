@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ struct FeedTask {
   bool rough = false;         ///< it will be searched again on another path
   double floor_ratio = 0.1;   ///< lowest feed, of the programmed one; above 0, at most 1
   double loss_share = 0.004;  ///< of the cycle time that fewer feeds may cost
+  std::function<void(double share)> progress = [](double) {};  ///< of make()
 };
 
 /// A stretch of one segment with one feed.

@@ -65,7 +65,7 @@ kernel::outcome::Result<double> FeedSearch::measure() {
   double before_s = 0.0;
   const auto add = [&](const ModelSample& sample) {
     CellRun& cell = run_[sample.segment];
-    const auto passed_s = static_cast<float>(sample.time_s - before_s);
+    const auto passed_s = sample.ended ? 0.0F : static_cast<float>(sample.time_s - before_s);
     cell.seconds += passed_s;
     cell.waiting_s += sample.command_mm_s > 0.0 ? 0.0F : passed_s;
     before_s = sample.time_s;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include <steadyrest/contour/offline/learn/planned_motion.hpp>
 #include <steadyrest/contour/offline/learn/sharp_corners.hpp>
 #include <steadyrest/contour/offline/learn/stretches.hpp>
+#include <steadyrest/contour/offline/learn/swapped_columns.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
@@ -38,6 +40,13 @@ class Learner {
       : lesson_(lesson), config_(config), pairing_(std::move(pairing)) {}
 
   Result<LearningFigures> run(double cut_off_hz, Learnt& learnt) {
+    if (const std::string swapped =
+            swapped_columns(lesson_.record, lesson_.cut.segments, lesson_.model);
+        !swapped.empty()) {
+      return refuse(lesson_.record.file, swapped,
+                    "give the commanded positions as *_cmd_mm and those of the encoders as "
+                    "*_act_mm, each axis under its own letter");
+    }
     if (auto done = run_plan(); !done) {
       return std::unexpected(done.error());
     }

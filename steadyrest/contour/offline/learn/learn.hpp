@@ -67,8 +67,8 @@ struct LearningFigures {
 /// corners and where the record is not in force (judge); there the weight falls to 0.
 ///
 /// Refused: a cut-off that does not converge for the stated uncertainty, a record with fewer than
-/// 2·k samples a second, a program that was not cut for this part, a record with no second in
-/// force.
+/// 2·k samples a second, a program that was not cut for this part, columns that look swapped, a
+/// record with no second in force.
 [[nodiscard]] kernel::outcome::Result<LearningFigures> learn(const Lesson& lesson,
                                                              const LearnConfig& config,
                                                              Learnt& learnt);

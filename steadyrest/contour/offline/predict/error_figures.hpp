@@ -21,10 +21,10 @@ class ErrorFigures {
   /// `line`: of the original.
   void add(const ModelSample& sample, std::uint32_t line) {
     const double error = std::abs(sample.error_mm);
-    put(nominal_, error, line);
+    put(nominal_, error, sample.more_mm, line);
     over_ += error > limit_mm_ ? 1U : 0U;
     for (std::size_t i = 0; i < others_.size(); ++i) {
-      put(others_[i], sample.other_error_mm[i], line);
+      put(others_[i], sample.other_error_mm[i], sample.more_mm, line);
     }
   }
 
@@ -49,14 +49,14 @@ class ErrorFigures {
   }
 
  private:
-  static void put(Of& of, double error_mm, std::uint32_t line) {
-    of.max_mm = std::max(of.max_mm, error_mm);
+  static void put(Of& of, double error_mm, double more_mm, std::uint32_t line) {
+    of.max_mm = std::max(of.max_mm, error_mm + more_mm);
     of.sum_mm2 += error_mm * error_mm;
     ++of.samples;
     if (line >= of.by_line_mm.size()) {
       of.by_line_mm.resize(line + 1U, 0.0F);
     }
-    of.by_line_mm[line] = std::max(of.by_line_mm[line], static_cast<float>(error_mm));
+    of.by_line_mm[line] = std::max(of.by_line_mm[line], static_cast<float>(error_mm + more_mm));
   }
 
   double limit_mm_;

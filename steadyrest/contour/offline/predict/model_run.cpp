@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <steadyrest/contour/offline/predict/model_run.hpp>
 #include <steadyrest/contour/online/axis_step.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
+#include <steadyrest/kernel/signal/arriving.hpp>
+#include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
 
@@ -18,6 +21,8 @@ using kernel::signal::Point;
 using nc::plan::Setpoint;
 using online::AxisStep;
 
+constexpr double kJump = 1.5;  ///< of the tool's way, that its foot goes at a corner …
+constexpr double kLeastJump_mm = 0.01;
 constexpr double kSampleOfLag = 0.1;  ///< between two samples, in 1/k
 
 /// Three axes that follow their commands.
@@ -67,6 +72,7 @@ class Runner {
         every_(static_cast<std::size_t>(
             std::max(1.0, std::floor(kSampleOfLag / softest_gain_1_s(run.model) / period_s_)))),
         step_s_(period_s_ * static_cast<double>(every_)),
+        arriving_(softest_gain_1_s(run.model)),
         contour_(contour),
         axes_(run.model, step_s_, run.backlash_mm),
         other_error_mm_(run.others.size()) {
@@ -81,6 +87,8 @@ class Runner {
       before_ = command;
     }
     ++count_;
+    const Motion motion = arriving_.update(s.motion, time_s());
+    line_ = arriving_.cuts_on() ? line_ : s.line;
     if (count_ % every_ != 0) {
       return;
     }
@@ -94,12 +102,18 @@ class Runner {
     }
     before_ = command;
     mean_ = mean;
-    sample(s, command, on_sample);
+    sample(s, motion, command, on_sample);
+  }
+  /// The command has ended: from where it stands until the tool is there.
+  void arrive(const Setpoint& end, const std::function<void(const ModelSample&)>& on_sample) {
+    do {
+      setpoint(end, on_sample);
+    } while (arriving_.cuts_on());
   }
   [[nodiscard]] double time_s() const noexcept { return static_cast<double>(count_) * period_s_; }
 
  private:
-  void sample(const Setpoint& s, const Point& command,
+  void sample(const Setpoint& s, Motion motion, const Point& command,
               const std::function<void(const ModelSample&)>& on_sample) {
     const PathSegment& segment = run_.path.segments[s.path_index];
     const double share =
@@ -126,6 +140,7 @@ class Runner {
                                         .path_index = index_,
                                         .path_position_mm = progress_mm_,
                                         .path_speed_mm_s = s.path_speed_mm_s});
+    const double more = error.valid ? peak_mm(error) - std::abs(error.error_mm) : 0.0;
     const Point unknown = run_.unknown ? run_.unknown(error.foot_position_mm) : Point{};
     for (std::size_t i = 0; i < others_.size(); ++i) {
       const Point off =
@@ -144,18 +159,43 @@ class Runner {
            .foot_mm = error.foot_position_mm,
            .error_mm =
                run_.unknown ? std::copysign(geometry::norm(off), error.error_mm) : error.error_mm,
+           .more_mm = more,
            .off_mm = off,
-           .line = s.line,
+           .line = line_,
            .segment = s.path_index,
-           .cuts = s.motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
+           .cuts = motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
+           .arriving = arriving_.cuts_on(),
+           .ended = s.finished,
            .other_error_mm = other_error_mm_});
     }
+  }
+
+  /// The largest error since the sample before. At a corner it rises until the foot jumps to the
+  /// other side, and falls from there: between two samples the peak would be missed.
+  double peak_mm(const online::ContourError::Output& error) noexcept {
+    const Point& tool = axes_.tool_mm();
+    const double moved_mm = geometry::distance(tool, last_tool_mm_);
+    double peak = std::abs(error.error_mm);
+    if (last_foot_mm_ >= 0.0 &&
+        std::abs(error.foot_position_mm - last_foot_mm_) > kJump * moved_mm + kLeastJump_mm) {
+      const auto [low, high] = std::minmax(last_foot_mm_, error.foot_position_mm);
+      for (std::size_t i = 1; i < every_; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(every_);
+        const Point at =
+            geometry::add_scaled(last_tool_mm_, geometry::subtract(tool, last_tool_mm_), share);
+        peak = std::max(peak, geometry::distance_to(run_.original.segments, at, low, high));
+      }
+    }
+    last_foot_mm_ = error.foot_position_mm;
+    last_tool_mm_ = tool;
+    return peak;
   }
 
   const ModelRun& run_;
   double period_s_;
   std::size_t every_;  ///< periods between two samples
   double step_s_;
+  kernel::signal::Arriving arriving_;
   online::ContourError contour_;
   Axes axes_;
   std::vector<Axes> others_;
@@ -163,6 +203,9 @@ class Runner {
   std::size_t count_ = 0;
   std::size_t index_ = 0;  ///< segment of the original
   double progress_mm_ = 0.0;
+  double last_foot_mm_ = -1.0;  ///< of the sample before; none yet
+  Point last_tool_mm_{};
+  std::uint32_t line_ = 0;
   Point before_{};
   Point mean_{};
 };
@@ -239,7 +282,9 @@ kernel::outcome::Result<double> run_model(
   for (;;) {
     const Setpoint s = interpolator->update({.spindle_actual_rev_s = spindle_rev_s});
     if (s.finished) {
-      return runner.time_s();
+      const double seconds = runner.time_s();
+      runner.arrive(s, on_sample);
+      return seconds;
     }
     spindle_rev_s += std::clamp(s.spindle_rev_s - spindle_rev_s, -reach, reach);
     runner.setpoint(s, on_sample);

@@ -53,15 +53,19 @@ struct ModelRun {
 /// One sample of the run; `other_error_mm` and the sample are valid during the call only.
 struct ModelSample {
   double time_s = 0.0;
-  double position_mm = 0.0;        ///< of the command on the path that is run
-  double command_mm_s = 0.0;       ///< along that path
-  double progress_mm = 0.0;        ///< of the command, as original path length
-  double foot_mm = 0.0;            ///< original path length that the tool is at
-  double error_mm = 0.0;           ///< contour error, signed as in online::ContourError
+  double position_mm = 0.0;   ///< of the command on the path that is run
+  double command_mm_s = 0.0;  ///< along that path
+  double progress_mm = 0.0;   ///< of the command, as original path length
+  double foot_mm = 0.0;       ///< original path length that the tool is at
+  double error_mm = 0.0;      ///< contour error, signed as in online::ContourError
+  /// How much larger the error was since the sample before, where the tool passes a corner.
+  double more_mm = 0.0;
   kernel::signal::Point off_mm{};  ///< from the tool to its foot
   std::uint32_t line = 0;          ///< of the path that is run
   std::size_t segment = 0;
   bool cuts = false;                       ///< the command is in a feed move, and so is the tool
+  bool arriving = false;                   ///< the command waits, the tool still cuts …
+  bool ended = false;                      ///< … behind the program's end: no part of its time
   std::span<const double> other_error_mm;  ///< magnitudes, for each of `others`
 };
 
@@ -73,8 +77,9 @@ struct ModelSample {
 /// The errors of `others` are taken square to the path at the foot of `model`: good to (k − k′)²v²
 /// /(2Rk⁴), the square of a difference of lags. Samples are 0.1/k of the softest axis apart, at
 /// least one interpolator period. The tool follows the motors within the
-/// backlash. Not in it: friction, cutting forces. Returns the cycle
-/// time in s; the spindle takes its ramps. Refused: what the planner refuses.
+/// backlash, and after a stop until it has arrived (Arriving), at the program's end too. Not in it:
+/// friction, cutting forces. Returns the cycle time in s; the spindle takes its ramps. Refused:
+/// what the planner refuses.
 [[nodiscard]] kernel::outcome::Result<double> run_model(
     const ModelRun& run, const std::function<void(const ModelSample&)>& on_sample);
 

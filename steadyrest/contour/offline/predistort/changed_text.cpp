@@ -2,12 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
+#include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
+#include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 #include <steadyrest/nc/rewrite/text/source_lines.hpp>
@@ -26,6 +30,31 @@ using nc::rewrite::Stays;
 
 /// Rounding could leave a smaller arc without a centre.
 constexpr double kLeastArc_mm = 0.005;
+
+/// New blocks that differ from the old by less cut the same part.
+constexpr double kSameBlock_mm = 1e-4;
+constexpr double kSameBlockFeed = 1e-4;  ///< of the feed
+
+bool same_place(const Point& a, const Point& b) noexcept {
+  return math::geometry::distance(a, b) <= kSameBlock_mm;
+}
+
+/// The moves run along the block's own line or arc (a segment of the path) at its own feed.
+bool changes_nothing(const std::vector<NewMove>& moves, const CutBlock& block,
+                     const PathSegment& segment) {
+  const bool line = block.motion == nc::interpret::g::kLinear;
+  const PathSegment of = line ? line_segment(block.start_mm, block.end_mm) : segment;
+  const bool clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0;
+  const auto same = [&](const NewMove& move) {
+    const bool arc = move.geometry == Geometry::arc;
+    return move.geometry == of.geometry && std::abs(move.feed_ratio - 1.0) <= kSameBlockFeed &&
+           math::geometry::foot_point(of, move.end_mm).distance_mm <= kSameBlock_mm &&
+           (!arc || (move.clockwise == clockwise && same_place(move.centre_mm, of.centre_mm)));
+  };
+  return !moves.empty() && std::ranges::all_of(moves, same) &&
+         same_place(moves.back().end_mm, block.end_mm) && same_place(of.start_mm, block.start_mm) &&
+         same_place(of.end_mm, block.end_mm);
+}
 
 /// The pieces of each line, and which of them each new line writes.
 class Writer {
@@ -46,13 +75,19 @@ class Writer {
         continue;
       }
       if (next_ < pieces_.size() && pieces_[next_].segment.line == block->line) {
-        out[block->line] = texts_of(*block, source->line(), segment);
+        if (auto texts = texts_of(*block, source->line(), segment)) {
+          out[block->line] = std::move(*texts);
+        }
       } else if (block->stays == Stays::free && moves_nothing(*block) && led_) {
+        if (modes_kept_ && same_place(at_mm_, block->start_mm)) {
+          continue;
+        }
         // The same point again: the command is elsewhere now.
         out[block->line] = block->feed_inherited
                                ? std::vector{nc::rewrite::BlockText::feed_word(*block, 1.0)}
                                : std::vector<std::string>{};
         written_.emplace_back();
+        modes_kept_ = false;
       } else {
         led_ = false;
       }
@@ -62,35 +97,52 @@ class Writer {
 
   /// For each replaced line in order, the piece that each of its new lines writes.
   [[nodiscard]] const std::vector<std::vector<std::size_t>>& written() const { return written_; }
+  /// The first piece of each line that stays because its pieces would change nothing.
+  [[nodiscard]] const std::map<std::uint32_t, std::size_t>& as_they_are() const {
+    return as_they_are_;
+  }
 
  private:
   static bool moves_nothing(const CutBlock& block) noexcept {
     return math::geometry::distance(block.start_mm, block.end_mm) < 1e-9;
   }
 
-  std::vector<std::string> texts_of(const CutBlock& block, std::string_view line,
-                                    std::size_t& segment) {
+  /// Nothing where they would change nothing.
+  std::optional<std::vector<std::string>> texts_of(const CutBlock& block, std::string_view line,
+                                                   std::size_t& segment) {
     const auto& segments = program_.path.segments;
     while (segment + 1 < segments.size() && segments[segment].line != block.line) {
       ++segment;
     }
-    const double feed = segments[segment].feed_mm_s;
     const bool begins = !led_ || pieces_[next_].begins_run;
     if (begins) {
       at_mm_ = block.start_mm;
+      modes_kept_ = true;
     }
+    const std::size_t first = next_;
+    const Moves moves = moves_of(block, segments[segment].feed_mm_s, begins);
+    led_ = true;
+    if (modes_kept_ && same_place(at_mm_, block.start_mm) &&
+        changes_nothing(moves.moves, block, segments[segment])) {
+      as_they_are_.emplace(block.line, first);
+      at_mm_ =
+          block.incremental
+              ? math::geometry::add(at_mm_, math::geometry::subtract(block.end_mm, block.start_mm))
+              : block.end_mm;
+      return std::nullopt;
+    }
+    return write(block, line, moves);
+  }
+
+  struct Moves {
     std::vector<NewMove> moves;
-    const nc::rewrite::BlockText writer(
-        program_.config.dialect, nc::rewrite::decimals_of(program_.config.dialect, block.unit_mm));
-    std::vector<std::string> texts;
-    written_.emplace_back();
+    std::vector<std::size_t> piece;  ///< of each
+  };
+  Moves moves_of(const CutBlock& block, double feed_mm_s, bool begins) {
+    Moves out;
     const auto put = [&](const NewMove& move) {
-      const auto text = writer.write(block, texts.empty() ? line : "", {&move, 1}, at_mm_);
-      if (!text.empty()) {
-        texts.push_back(text.front());
-        written_.back().push_back(next_);
-        moves.push_back(move);
-      }
+      out.moves.push_back(move);
+      out.piece.push_back(next_);
     };
     // The control rounds the corner before the run, so the run begins behind it; the block before,
     // which stays, ends at the corner.
@@ -106,14 +158,31 @@ class Writer {
            .end_mm = of.end_mm,
            .centre_mm = of.centre_mm,
            .clockwise = of.axis[nc::interpret::axes_of(block.plane).normal] < 0.0,
-           .feed_ratio = feed > 0.0 ? of.feed_mm_s / feed : 1.0});
+           .feed_ratio = feed_mm_s > 0.0 ? of.feed_mm_s / feed_mm_s : 1.0});
     }
-    led_ = true;
-    // Where the next block is not replaced it may take motion and feed over.
-    if (next_ == pieces_.size() || pieces_[next_].begins_run) {
-      if (auto restore = writer.restore(block, moves); !restore.empty()) {
-        texts.push_back(std::move(restore));
+    return out;
+  }
+
+  std::vector<std::string> write(const CutBlock& block, std::string_view line, const Moves& from) {
+    const nc::rewrite::BlockText writer(
+        program_.config.dialect, nc::rewrite::decimals_of(program_.config.dialect, block.unit_mm));
+    std::vector<NewMove> moves;
+    std::vector<std::string> texts;
+    written_.emplace_back();
+    for (std::size_t i = 0; i < from.moves.size(); ++i) {
+      const NewMove& move = from.moves[i];
+      const auto text = writer.write(block, texts.empty() ? line : "", {&move, 1}, at_mm_);
+      if (!text.empty()) {
+        texts.push_back(text.front());
+        written_.back().push_back(from.piece[i]);
+        moves.push_back(move);
       }
+    }
+    // Where the next block is not replaced it may take motion and feed over.
+    std::string restore = writer.restore(block, moves);
+    modes_kept_ = !moves.empty() && restore.empty();
+    if (!restore.empty() && (next_ == pieces_.size() || pieces_[next_].begins_run)) {
+      texts.push_back(std::move(restore));
     }
     return texts;
   }
@@ -121,16 +190,19 @@ class Writer {
   const Program& program_;
   const std::vector<Piece>& pieces_;
   std::size_t next_ = 0;
-  bool led_ = false;  ///< the blocks so far are replaced, back to a block that is not
+  bool led_ = false;  ///< the blocks so far have pieces, back to a block that has none
+  /// A block that is written as it was has the motion word and the feed that it had.
+  bool modes_kept_ = true;
   Point at_mm_{};
   std::vector<std::vector<std::size_t>> written_;
+  std::map<std::uint32_t, std::size_t> as_they_are_;
 };
 
 /// Original path lengths at the ends of each segment of the changed path.
 class Mapping {
  public:
   Mapping(const Program& program, const std::vector<Piece>& pieces, const NewLines& lines,
-          const std::vector<std::vector<std::size_t>>& written, Changed& changed)
+          const Writer& writer, Changed& changed)
       : original_(program.path.segments), pieces_(pieces), changed_(changed) {
     // The piece of each line of the changed program; the comment that keeps the original first.
     piece_of_.assign(changed.replaced.origin.size(), kNone);
@@ -139,10 +211,13 @@ class Mapping {
     for (std::size_t number = 1; number < changed.replaced.origin.size(); ++number) {
       const std::uint32_t origin = changed.replaced.origin[number];
       if (origin != before && lines.contains(origin)) {
-        const auto& of = written[group++];
+        const auto& of = writer.written()[group++];
         for (std::size_t i = 0; i < of.size(); ++i) {
           piece_of_[number + 1 + i] = of[i];
         }
+      } else if (const auto same = writer.as_they_are().find(origin);
+                 same != writer.as_they_are().end()) {
+        piece_of_[number] = same->second;
       }
       before = origin;
     }
@@ -271,7 +346,7 @@ Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& p
                   .path = std::move(*path),
                   .start_mm = {},
                   .end_mm = {}};
-  Mapping(program, pieces, *lines, writer.written(), changed).run();
+  Mapping(program, pieces, *lines, writer, changed).run();
   changed.lines = std::move(*lines);
   return changed;
 }

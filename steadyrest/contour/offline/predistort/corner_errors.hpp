@@ -24,7 +24,7 @@ class CornerErrors {
     }
     if (sample.cuts && next_ < corners_.size() &&
         sample.foot_mm > corners_[next_].at_mm - reach_mm(next_)) {
-      error_mm_[next_] = std::max(error_mm_[next_], std::abs(sample.error_mm));
+      error_mm_[next_] = std::max(error_mm_[next_], std::abs(sample.error_mm) + sample.more_mm);
     }
   }
   std::vector<double> take() { return std::move(error_mm_); }

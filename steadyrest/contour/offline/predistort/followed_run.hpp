@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <steadyrest/contour/offline/learn/learnt.hpp>
@@ -36,6 +37,7 @@ struct Judging {
   const CutRuns& runs;
   double limit_mm = 0.01;
   double hold_mm = 0.0;  ///< 0: no place is over it
+  std::function<void(double share)> progress = [](double) {};
 };
 
 [[nodiscard]] kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& changed,

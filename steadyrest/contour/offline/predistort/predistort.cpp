@@ -3,11 +3,12 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include <steadyrest/contour/offline/predistort/barred_lines.hpp>
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
+#include <steadyrest/contour/offline/predistort/phase_progress.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/refinement.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
@@ -15,7 +16,6 @@
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
 #include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
-#include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/plan/path/limits.hpp>
@@ -39,6 +39,7 @@ constexpr double kLeastFeed = 0.25;  ///< of the programmed one, where feeds fal
 constexpr int kHoldRounds = 2;
 /// Tried at corners in addition to the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+constexpr int kCornerRuns = static_cast<int>(kBeyond.size()) + kLastRounds;
 constexpr double kWorthwhile = 0.25;      ///< of the limit: a run whose error is less stays
 constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
 constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
@@ -56,17 +57,20 @@ class Predistortion {
         model_(how.parts.empty() ? servo_models(machine.axes)
                                  : cautious(servo_models(machine.axes), how.gain_uncertainty)),
         others_(uncertain(model_, how.gain_uncertainty)),
-        inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)) {}
+        inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)),
+        progress_(how.progress, 1 + how.rounds + kCornerRuns + kRefinements +
+                                    (how.hold_mm > 0.0 ? kMostHolds * kHoldRounds : 0)) {}
 
   Result<Predistorted> run() {
+    progress_.phase("predicting the error", 1);
     if (auto read = this->read(); !read) {
       return std::unexpected(read.error());
     }
     if (auto done = learn_from_parts(); !done) {
       return std::unexpected(done.error());
     }
+    barred_.emplace(path_, machine_.axes, how_.max_shift_mm);
     runs_.emplace(path_, use());
-    travel_.emplace(path_, machine_.axes);
     // The control's own plan of the program as it is, on the path that the shape is made from.
     auto planned = write({});
     if (!planned) {
@@ -86,7 +90,7 @@ class Predistortion {
     runs_before_ = std::move(before->runs);
     for (std::size_t i = 0; i < runs_->size(); ++i) {
       if (runs_before_->worst(i).max_mm <= kWorthwhile * how_.limit_mm) {
-        barred_.insert(runs_->lines(i).begin(), runs_->lines(i).end());
+        barred_->bar(runs_->lines(i));
       }
     }
     keep_original(std::move(planned->replaced));
@@ -94,7 +98,9 @@ class Predistortion {
       if (auto done = attempt(revision); !done) {
         return std::unexpected(done.error());
       }
-      if (best_mm_ < 0.0 || !bar_worse()) {
+      if (best_mm_ < 0.0 ||
+          !barred_->bar_worse(worse_runs(*runs_, *runs_before_, *runs_after_, barred_->lines()),
+                              *runs_)) {
         break;
       }
       // What was found has blocks that must stay.
@@ -103,6 +109,9 @@ class Predistortion {
     }
     out_.lines = std::move(best_.lines);
     out_.replaced = std::move(best_.replaced);
+    out_.too_far = std::move(barred_->too_far);
+    out_.past_travel = std::move(barred_->past_travel);
+    out_.worse = std::move(barred_->worse);
     add_report(out_, how_.limit_mm);
     return std::move(out_);
   }
@@ -114,14 +123,17 @@ class Predistortion {
     caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
     holds_ = false;
     learnt_.unrefine(0);
+    progress_.phase("shaping the path", how_.rounds);
     if (auto done = rounds(how_.rounds); !done) {
       return done;
     }
+    progress_.phase("leading corners", kCornerRuns);
     if (revision == 0 && !corners_.empty() && out_.seconds_before < kLongestTried_s) {
       if (auto done = try_corners(); !done) {
         return done;
       }
     }
+    progress_.phase("refining the path", kRefinements);
     if (auto done = refine(); !done) {
       return done;
     }
@@ -154,7 +166,9 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] std::vector<SegmentUse> use() const { return segment_use(path_, blocks_, barred_); }
+  [[nodiscard]] std::vector<SegmentUse> use() const {
+    return segment_use(path_, blocks_, barred_->lines());
+  }
 
   Result<void> learn_from_parts() {
     auto learnt = learn_from(how_.parts, {.machine = machine_,
@@ -170,7 +184,7 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] Judging judging() const {
+  [[nodiscard]] Judging judging() {
     return {.machine = machine_,
             .original = path_,
             .model = model_,
@@ -178,7 +192,8 @@ class Predistortion {
             .learnt = learnt_,
             .runs = *runs_,
             .limit_mm = how_.limit_mm,
-            .hold_mm = how_.hold_mm};
+            .hold_mm = how_.hold_mm,
+            .progress = [this](double share) { progress_.run(share); }};
   }
 
   /// The pieces for a command at this speed.
@@ -197,19 +212,12 @@ class Predistortion {
   Result<void> rounds(int count) {
     auto use = this->use();
     for (int round = 0; round < count; ++round) {
-      how_.progress(static_cast<double>(done_++) / ((kMostRevisions + 1) * how_.rounds), "shaping");
       std::vector<Piece> made = pieces(use, speed_);
-      const Shift shift = shift_of(path_, made, how_.max_shift_mm);
-      const auto past = travel_->left_by(made);
-      if (!shift.too_far.empty() || !past.empty()) {
-        out_.too_far.insert(out_.too_far.end(), shift.too_far.begin(), shift.too_far.end());
-        out_.past_travel.insert(out_.past_travel.end(), past.begin(), past.end());
-        barred_.insert(shift.too_far.begin(), shift.too_far.end());
-        barred_.insert(past.begin(), past.end());
+      while (barred_->bar_beyond(made)) {
         use = this->use();
         made = pieces(use, speed_);
       }
-      if (auto done = try_pieces(made, shift.largest_mm); !done) {
+      if (auto done = try_pieces(made); !done) {
         return done;
       }
     }
@@ -226,7 +234,7 @@ class Predistortion {
                         made);
   }
 
-  Result<void> try_pieces(const std::vector<Piece>& made, double shift_mm) {
+  Result<void> try_pieces(const std::vector<Piece>& made) {
     auto changed = write(made);
     if (!changed) {
       return std::unexpected(changed.error());
@@ -235,13 +243,18 @@ class Predistortion {
     if (!run) {
       return std::unexpected(run.error());
     }
+    progress_.ran();
     const auto& figures = run->figures.nominal();
-    const double score_mm = figures.rms_mm() + kShareOfLargest * figures.max_mm;
+    // Any round that leaves the largest error alone is better than one that does not.
+    const auto& before = out_.before.nominal();
+    const bool larger = figures.max_mm > kLargestGrows * before.max_mm;
+    const double score_mm =
+        figures.rms_mm() + kShareOfLargest * figures.max_mm + (larger ? before.rms_mm() : 0.0);
     const double most_time = learnt_.refinements() > 0 ? kRefinedTime : kMostTime;
     const bool in_time = holds_ || run->seconds <= most_time * out_.seconds_before;
     const bool better =
         holds_ ? run->over.size() < best_over_.size() : best_mm_ < 0.0 || score_mm < best_mm_;
-    if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
+    if (in_time && better && figures.rms_mm() <= before.rms_mm()) {
       best_mm_ = score_mm;
       best_over_ = run->over;
       runs_after_ = std::move(run->runs);
@@ -250,7 +263,7 @@ class Predistortion {
       best_ = std::move(*changed);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
-      out_.largest_shift_mm = std::min(shift_mm, how_.max_shift_mm);
+      out_.largest_shift_mm = best_.lines.empty() ? 0.0 : barred_->largest_shift_mm();
     }
     over_ = std::move(run->over);
     speed_ = std::move(run->speed);
@@ -287,6 +300,7 @@ class Predistortion {
     if (how_.hold_mm <= 0.0 || best_mm_ < 0.0) {
       return {};
     }
+    progress_.phase("holding the limit", kMostHolds * kHoldRounds);
     holds_ = true;
     over_ = best_over_;
     speed_ = best_speed_;
@@ -344,16 +358,6 @@ class Predistortion {
     return {};
   }
 
-  /// Runs whose error grows, over all models, stay. True when there are new ones.
-  bool bar_worse() {
-    bool fresh = false;
-    for (const std::uint32_t line : worse_lines(*runs_, *runs_before_, *runs_after_)) {
-      fresh = barred_.insert(line).second || fresh;
-      out_.worse.push_back(line);
-    }
-    return fresh;
-  }
-
   const std::string& file_;
   const nc::interpret::Config& config_;
   const Machine& machine_;
@@ -361,6 +365,7 @@ class Predistortion {
   ServoModels model_;
   std::vector<ServoModels> others_;
   ServoInverse inverse_;
+  PhaseProgress progress_;
   Learnt learnt_;
   nc::rewrite::CutBlocks blocks_;
   nc::plan::PlannedPath path_;
@@ -377,10 +382,8 @@ class Predistortion {
   std::vector<Corner> corners_;    ///< as led in the last pieces
   std::vector<double> corner_mm_;  ///< their errors in the last run
   double best_mm_ = -1.0;
-  int done_ = 0;
-  std::set<std::uint32_t> barred_;  ///< lines that stay after all
+  std::optional<BarredLines> barred_;
   std::optional<CutRuns> runs_;
-  std::optional<Travel> travel_;
   std::optional<RunErrors> runs_before_;
   std::optional<RunErrors> runs_after_;  ///< of the best round
   Predistorted out_;

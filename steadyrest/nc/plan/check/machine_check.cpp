@@ -206,7 +206,7 @@ void MachineCheck::on_event(const Event& event) {
 void MachineCheck::warn(std::uint32_t line, What what, std::size_t axis, std::string text) {
   if (seen_.size() < kMostSeen && seen_.emplace(line, what, axis).second &&
       warnings_.size() < kMost) {
-    warnings_.push_back({line, std::move(text)});
+    warnings_.push_back({line, std::move(text), what == What::travel});
   }
 }
 
@@ -219,7 +219,8 @@ std::vector<Warning> MachineCheck::warnings() const {
                      fmt::format("the program covers {:.3f} mm of {}, from {:.3f} to {:.3f} mm; "
                                  "its travel is only {:g} mm, whatever the work offset",
                                  extent.high_mm - extent.low_mm, axis_[axis]->name, extent.low_mm,
-                                 extent.high_mm, axis_[axis]->max_au - axis_[axis]->min_au)});
+                                 extent.high_mm, axis_[axis]->max_au - axis_[axis]->min_au),
+                     true});
     }
   }
   std::ranges::stable_sort(out, {}, &Warning::line);

@@ -20,6 +20,7 @@ namespace steadyrest::nc::plan {
 struct Warning {
   std::uint32_t line = 0;
   std::string text;
+  bool travel = false;  ///< an axis would leave its travel
 };
 
 /// What is known of the control's data when the program starts.

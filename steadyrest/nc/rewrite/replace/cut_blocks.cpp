@@ -109,6 +109,46 @@ class BySwitch {
   bool modes_ = false;  ///< for good: what they were is not known again
 };
 
+/// G40 without a move leaves the tool beside the contour, and the control accepts no arc until a
+/// straight move has taken it there.
+class AfterCompensation {
+ public:
+  /// Of each block once it has been executed.
+  void block(const read::Block& block, const std::vector<Move>& moves, bool was_on, bool is_on) {
+    if (was_on && !is_on) {
+      beside_ = !moves_straight(block);
+    } else if (is_on || goes(moves)) {
+      beside_ = false;
+    }
+  }
+  /// Of the block at hand, before block(): it has to be straight.
+  [[nodiscard]] bool needs_line() const noexcept { return beside_; }
+
+ private:
+  static bool goes(const std::vector<Move>& moves) {
+    return std::ranges::any_of(moves,
+                               [](const Move& move) { return move.kind != MoveKind::dwell; });
+  }
+  /// The moves of the block with G40 are those that compensation had kept back: its words decide.
+  static bool moves_straight(const read::Block& block) {
+    constexpr std::string_view kAxes = "XYZABCUVW";
+    bool axis = false;
+    for (const read::Word& word : block.words()) {
+      axis = axis || (word.letter != 0 && kAxes.find(word.letter) != std::string_view::npos);
+      if (word.letter == 'G') {
+        const int code = interpret::g::code_of(word.value);
+        if (code != interpret::g::kCutterOff && code != interpret::g::kRapid &&
+            code != interpret::g::kLinear) {
+          return false;
+        }
+      }
+    }
+    return axis;
+  }
+
+  bool beside_ = false;
+};
+
 /// Runs a program and notes what cuts.
 class CutSurvey {
  public:
@@ -137,7 +177,9 @@ class CutSurvey {
     if (cuts && main && !again && !is_inserted(text)) {
       add(number, said, text);
     }
+    const bool was_on = before_.cutter_side != 0;
     before_ = modes_of(run_.state());
+    after_compensation_.block(run_.block(), kept_.moves, was_on, before_.cutter_side != 0);
     kept_.clear();
   }
 
@@ -233,7 +275,10 @@ class CutSurvey {
     if (too_long_to_keep(dialect_, text)) {
       return Stays::too_long;
     }
-    return by_switch_now_ ? Stays::after_switch : Stays::free;
+    if (by_switch_now_) {
+      return Stays::after_switch;
+    }
+    return after_compensation_.needs_line() ? Stays::line_needed : Stays::free;
   }
 
   interpret::ProgramRun& run_;
@@ -243,7 +288,8 @@ class CutSurvey {
   Modes before_;
   BySwitch by_switch_;
   bool by_switch_now_ = false;  ///< of the block at hand
-  Survey marks_;                ///< the lines executed twice
+  AfterCompensation after_compensation_;
+  Survey marks_;  ///< the lines executed twice
   std::vector<bool> seen_;
   bool motion_open_ = false;  ///< no motion word since the last block found
   bool feed_open_ = false;
@@ -328,6 +374,8 @@ std::string_view sentence(Stays stays) noexcept {
       return "the line is too long to be kept as a comment";
     case Stays::motion_needed:
       return "the next block takes its motion word from it";
+    case Stays::line_needed:
+      return "it is the first move after G40, which must be straight";
   }
   return {};
 }

@@ -15,7 +15,7 @@
 
 namespace steadyrest::nc::rewrite {
 
-/// Why a block that cuts must stay as it is written.
+/// Why a block that cuts must stay as it is written. The feed of the last two may change.
 enum class Stays : std::uint8_t {
   free,           ///< it may be replaced
   repeated,       ///< it is in a subprogram, a condition or a loop, or is executed twice
@@ -31,9 +31,14 @@ enum class Stays : std::uint8_t {
   locked,         ///< no override acts: tapping, threading, M49
   too_long,       ///< the comment that keeps the line would not fit into a block
   motion_needed,  ///< the next block takes its motion word from it
+  line_needed,    ///< the first move after G40: it must be straight
 };
 /// The reason in words: "it is executed more than once".
 [[nodiscard]] std::string_view sentence(Stays stays) noexcept;
+/// Its feed may change, whether its path may or not.
+[[nodiscard]] constexpr bool takes_feed(Stays stays) noexcept {
+  return stays == Stays::free || stays == Stays::motion_needed || stays == Stays::line_needed;
+}
 /// The value is not a number as it is written: X#1, X[1+2], X=R1.
 [[nodiscard]] bool is_calculated(const read::Word& word);
 /// The first word of a block beyond a line or an arc in plain numbers with its feed; empty when

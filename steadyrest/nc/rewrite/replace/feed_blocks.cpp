@@ -30,7 +30,7 @@ constexpr double kMostTurn_rad = 1.9 * std::numbers::pi;
 
 /// Its feed may change: where it hands on its motion word, the new blocks have the same.
 bool takes_feed(const CutBlock* block) noexcept {
-  return block != nullptr && (block->stays == Stays::free || block->stays == Stays::motion_needed);
+  return block != nullptr && takes_feed(block->stays);
 }
 
 bool cuts(const PathSegment& segment) noexcept {

@@ -210,9 +210,7 @@ class TubeProver {
 
   [[nodiscard]] bool may_be_replaced(std::uint32_t number) const {
     const CutBlock* block = blocks_.find(number);
-    return block != nullptr &&
-           (block->stays == Stays::free || block->stays == Stays::motion_needed ||
-            block->stays == Stays::after_switch);
+    return block != nullptr && (takes_feed(block->stays) || block->stays == Stays::after_switch);
   }
 
   void note_feed(const Move& block, const Move& move) {

@@ -35,6 +35,19 @@ TEST(Recorder, FiguresAreTakenOverCuttingMotionAlone) {
   EXPECT_EQ(figures.samples_over_limit, 0U);
 }
 
+// The tool still cuts, but the program's time is over.
+TEST(Recorder, ErrorsBehindTheEndCountWithoutItsTime) {
+  Recorder recorder({.limit_mm = 0.010, .cycle_s = 0.5});
+  recorder.add(cutting(0.5, 0.003));
+  Sample late = cutting(1.0, 0.020);
+  late.after_end = true;
+  recorder.add(late);
+  const Figures figures = recorder.figures();
+  EXPECT_DOUBLE_EQ(figures.cycle_time_s, 0.5);
+  EXPECT_DOUBLE_EQ(figures.contour_error_max_mm, 0.020);
+  EXPECT_NEAR(recorder.time_by_reason().at(Reason::none), 0.5, 1e-12);
+}
+
 TEST(Recorder, TimeOverTheLimitCountsBothSigns) {
   Recorder recorder({.limit_mm = 0.010, .cycle_s = 0.002});
   for (const double error_mm : {0.011, -0.012, 0.010, 0.0}) {

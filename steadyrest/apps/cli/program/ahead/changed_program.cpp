@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -10,6 +11,7 @@
 
 #include <steadyrest/apps/cli/program/ahead/changed_program.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
 
@@ -71,7 +73,11 @@ std::expected<SourceProgram, Refusals> read_source_program(const ProgramOptions&
     return refused(bad_input(options.file, "blocks of this program have been replaced already",
                              "take that out first: steadyrest program strip"));
   }
-  auto path = nc::plan::plan_file(options.file, program.config, program.machine);
+  nc::plan::MachineCheck check(program.machine, known_of(options));
+  auto path = nc::plan::plan_moves(program.machine, options.file, [&](nc::interpret::Sink& sink) {
+    nc::plan::Both both(sink, check);
+    return nc::interpret::run_file(options.file, program.config, both);
+  });
   if (!path) {
     Answer said;
     said.refusals.push_back(path.error());
@@ -79,6 +85,8 @@ std::expected<SourceProgram, Refusals> read_source_program(const ProgramOptions&
     return std::unexpected(std::move(said.refusals));
   }
   program.path = std::move(*path);
+  std::ranges::copy_if(check.warnings(), std::back_inserter(program.past_travel),
+                       &nc::plan::Warning::travel);
   const bool cuts = std::ranges::any_of(program.path.segments, [](const auto& segment) {
     return segment.motion == kernel::signal::Motion::feed;
   });
@@ -147,10 +155,13 @@ std::expected<std::vector<Told>, Refusals> told_of_change(const std::string& cha
   return told;
 }
 
-std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks) {
+std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks, Rewrites rewrites) {
   std::map<Stays, std::vector<std::uint32_t>> lines;
   for (const CutBlock& block : blocks.blocks) {
-    if (block.stays != Stays::free && block.stays != Stays::motion_needed) {
+    const bool changes = rewrites == Rewrites::feeds
+                             ? nc::rewrite::takes_feed(block.stays)
+                             : block.stays == Stays::free || block.stays == Stays::motion_needed;
+    if (!changes) {
       lines[block.stays].push_back(block.line);
     }
   }

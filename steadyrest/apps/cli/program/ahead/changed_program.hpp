@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <expected>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/text/mark.hpp>
@@ -24,6 +26,7 @@ struct SourceProgram {
   nc::interpret::Config config;
   nc::plan::PlannedPath path;
   nc::rewrite::CutBlocks blocks;
+  std::vector<nc::plan::Warning> past_travel;  ///< moves that take an axis past its travel
 };
 
 /// Reads the machine, then plans the program. Refused: what the interpreter or the planner refuses,
@@ -42,9 +45,13 @@ struct SourceProgram {
     const std::string& changes, const CLI::App& verb, const SourceProgram& program,
     std::vector<nc::rewrite::Told> more);
 
+/// What a verb writes into a block.
+enum class Rewrites : std::uint8_t { path, feeds };
+
 /// The key `kept[]`: `reason` and `lines[]` of the blocks that cut and had to stay. The text for
 /// people, empty for none.
-[[nodiscard]] std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks);
+[[nodiscard]] std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks,
+                                   Rewrites rewrites);
 
 /// Positions of the changed program within this of the original's are the same, mm.
 [[nodiscard]] double tolerance_mm(const SourceProgram& program);

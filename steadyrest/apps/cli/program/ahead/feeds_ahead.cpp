@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -32,8 +34,13 @@ constexpr int kPlans = 2;
 constexpr double kHopeless = 1.2;
 /// … with so much less.
 constexpr double kRepairShare = 0.97;
+/// Shares of the progress: the prediction, and one plan.
+constexpr double kPredicted = 0.1;
+constexpr double kSearching = 0.2;
 /// A ratio this near to the lowest is the lowest.
 constexpr double kLowest = 1.001;
+
+constexpr std::size_t kBetweenProgress = 4096;  ///< samples of the servo model
 
 /// The errors of a text on the servo model.
 struct Predicted {
@@ -44,13 +51,19 @@ struct Predicted {
 
 /// `origin`: line of the original by line of the path.
 Result<Predicted> predict(const SourceProgram& program, const PlannedPath& path, double limit_mm,
-                          const std::vector<std::uint32_t>& origin) {
+                          const std::vector<std::uint32_t>& origin,
+                          const std::function<void(double share)>& progress) {
   Predicted out;
   out.figures = ErrorFigures(limit_mm);
   const auto map = contour::offline::same_path(path);
   const auto models = contour::offline::servo_models(program.machine.axes);
   contour::offline::RapidLag rapid(contour::offline::softest_gain_1_s(models));
+  const double whole_mm = std::max(1e-9, map.end_mm.empty() ? 0.0 : map.end_mm.back());
+  std::size_t samples = 0;
   const auto add = [&](const ModelSample& sample) {
+    if (samples++ % kBetweenProgress == 0) {
+      progress(sample.position_mm / whole_mm);
+    }
     const bool feed = path.segments[sample.segment].motion == kernel::signal::Motion::feed;
     const double of_feed = rapid.of_feed_mm(sample, feed);
     if (!sample.cuts) {
@@ -111,7 +124,7 @@ class Writer {
     if (!path) {
       return std::unexpected(path.error());
     }
-    auto predicted = predict(program_, *path, limit_mm_, changed->origin);
+    auto predicted = predict(program_, *path, limit_mm_, changed->origin, [](double) {});
     if (!predicted) {
       return std::unexpected(predicted.error());
     }
@@ -174,8 +187,7 @@ class Writer {
         continue;
       }
       const auto* block = program_.blocks.find(line);
-      const bool stays = block == nullptr || (block->stays != nc::rewrite::Stays::free &&
-                                              block->stays != nc::rewrite::Stays::motion_needed);
+      const bool stays = block == nullptr || !nc::rewrite::takes_feed(block->stays);
       std::string why = "the lowest feed permitted";
       if (!of_feed_mm_.contains(line)) {
         why = "the rapid before it";
@@ -207,7 +219,8 @@ class Search {
         limit_mm_(limit_mm) {}
 
   /// `ratio`: by line; empty: as programmed.
-  Result<void> plan(const std::vector<double>& ratio, const std::string& file) {
+  Result<void> plan(const std::vector<double>& ratio, const std::string& file,
+                    const std::function<void(double share)>& progress) {
     found.reset();
     if (!ratio.empty()) {
       auto planned = plan_at_feeds(program_, file, ratio);
@@ -238,7 +251,8 @@ class Search {
          .limit_mm = kSearched * limit_mm_,
          .start = std::move(start),
          .rough = rounds_corners && !at_feeds_,
-         .floor_ratio = lowest});
+         .floor_ratio = lowest,
+         .progress = progress});
     if (!made) {
       return std::unexpected(made.error());
     }
@@ -280,8 +294,9 @@ Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& 
                                double limit_mm, const std::vector<nc::rewrite::Told>& told,
                                Progress& progress) {
   FeedsAhead out;
-  progress.update(0.1, "predicting the error");
-  auto before = predict(program, program.path, limit_mm, {});
+  auto before = predict(program, program.path, limit_mm, {}, [&](double share) {
+    progress.update(kPredicted * std::min(1.0, share), "predicting the error");
+  });
   if (!before) {
     return std::unexpected(before.error());
   }
@@ -291,9 +306,11 @@ Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& 
   Writer writer(program, file, limit_mm, told);
   // Slower corners are rounded less: the feeds of a path that is planned at them fit better.
   for (int i = 0; i <= kPlans; ++i) {
-    progress.update(0.2 + 0.2 * i, "searching feeds");
-    if (const auto planned = search.plan(i == 0 ? std::vector<double>{} : writer.ratios(), file);
-        !planned) {
+    const auto planned = search.plan(
+        i == 0 ? std::vector<double>{} : writer.ratios(), file, [&progress, i](double share) {
+          progress.update(kPredicted + kSearching * (i + share), "searching feeds");
+        });
+    if (!planned) {
       return std::unexpected(planned.error());
     }
     if (const auto written = writer.write(*search.found, search.path(), out); !written) {

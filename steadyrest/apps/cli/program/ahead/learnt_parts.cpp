@@ -69,7 +69,7 @@ Result<std::vector<CutPart>> read_parts(const LearningOptions& options,
 }
 
 std::string put_learnt(Answer& answer, const LearningOptions& options,
-                       const std::vector<LearningFigures>& learnt) {
+                       const std::vector<LearningFigures>& learnt, bool changed) {
   std::string text;
   answer.json["learnt"] = Json::array();
   for (std::size_t i = 0; i < learnt.size(); ++i) {
@@ -79,9 +79,11 @@ std::string put_learnt(Answer& answer, const LearningOptions& options,
     answer.json["learnt"].push_back(std::move(one));
     text += fmt::format(
         "learnt from {}: {:.1f} s of the {:.1f} s that it cuts; {} RMS measured, {} RMS of it "
-        "unknown to the model; the next part has at most {:.2f} of that\n",
+        "unknown to the model{}\n",
         options.records[i], figures.learns_s, figures.cut_s, in_um(figures.measured_rms_mm),
-        in_um(figures.unknown_rms_mm), figures.convergence);
+        in_um(figures.unknown_rms_mm),
+        changed ? fmt::format("; the next part has at most {:.2f} of that", figures.convergence)
+                : "");
     text += first_of(figures.left_out.size(), [&](std::size_t at) {
       const LeftOut& left = figures.left_out[at];
       return fmt::format("  left out: {:.2f} to {:.2f} s, lines {} to {}: {}\n", left.from_s,

@@ -24,8 +24,10 @@ void add_learning_options(Verb& verb, LearningOptions& options);
 [[nodiscard]] kernel::outcome::Result<std::vector<contour::offline::CutPart>> read_parts(
     const LearningOptions& options, const std::string& program);
 
-/// The key `learnt[]`, and its text for people; empty without records.
+/// The key `learnt[]`, and its text for people; empty without records. What the next part has
+/// is said of a program that has `changed` alone.
 [[nodiscard]] std::string put_learnt(Answer& answer, const LearningOptions& options,
-                                     const std::vector<contour::offline::LearningFigures>& learnt);
+                                     const std::vector<contour::offline::LearningFigures>& learnt,
+                                     bool changed);
 
 }  // namespace steadyrest::apps::cli

@@ -130,7 +130,8 @@ Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram&
 
 std::string put_path(Answer& answer, const Predistorted& done, const PathOptions& options) {
   put_figures(answer, done, options);
-  return put_learnt(answer, options.learning, done.learnt) + text_of(done, options);
+  return put_learnt(answer, options.learning, done.learnt, done.replaced.replaced > 0) +
+         text_of(done, options);
 }
 
 }  // namespace steadyrest::apps::cli

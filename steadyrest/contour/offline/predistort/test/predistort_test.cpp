@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -138,6 +139,55 @@ TEST(Predistort, LeavesWhatTheControlDoesByItself) {
   ASSERT_TRUE(done.has_value());
   EXPECT_FALSE(done->lines.contains(3));
   EXPECT_LT(done->after.nominal().line_mm(13), 0.2 * done->before.nominal().line_mm(13));
+}
+
+// The control accepts no arc there, and that is no reason to refuse the whole program.
+TEST(Predistort, LeavesTheFirstMoveAfterCompensationStraight) {
+  Desk desk;
+  desk.machine = test::ideal_mill(20.0);
+  const auto done = desk.run(
+      "G21 G90 G94 G17 G61\nF2000\nG0 X-9 Y-5\nG41.1 D0.01 G1 X-8 Y0\nG1 X0\nG40\n"
+      "G1 X10 Y1\nG3 X10 Y21 R12\nG1 X0\nG0 Z5\nM2\n");
+  ASSERT_TRUE(done.has_value()) << kernel::outcome::text(done.error());
+  EXPECT_FALSE(done->lines.contains(7));
+  EXPECT_TRUE(done->lines.contains(8));
+  EXPECT_LT(done->after.nominal().rms_mm(), 0.85 * done->before.nominal().rms_mm());
+}
+
+// A line of equal axes needs nothing, whatever its F looks like.
+TEST(Predistort, LeavesBlocksThatItWouldNotChange) {
+  const Desk desk;
+  const std::string lines = "G21 G90 G94 G17 G61\nG0 X0 Y0\nG1 X80 Y60 F1000\nX160 Y120\n";
+  const auto alone = desk.run(lines + "G0 Z5\nM2\n", {.limit_mm = 1e-9});
+  ASSERT_TRUE(alone.has_value());
+  EXPECT_EQ(alone->replaced.replaced, 0U);
+  EXPECT_EQ(alone->largest_shift_mm, 0.0);
+  EXPECT_EQ(alone->replaced.text, lines + "G0 Z5\nM2\n");
+}
+
+TEST(Predistort, NamesTheShiftOfWhatItHasChanged) {
+  const Desk desk;
+  const auto done = desk.run(kCircle, {.max_shift_mm = 0.05});
+  ASSERT_TRUE(done.has_value());
+  EXPECT_FALSE(done->too_far.empty());
+  EXPECT_LT(done->largest_shift_mm, 0.049);
+}
+
+TEST(Predistort, TellsItsPhases) {
+  const Desk desk;
+  std::vector<std::string> phases;
+  double last = 0.0;
+  const auto done = desk.run(kCircle, {.progress = [&](double share, std::string_view what) {
+                               EXPECT_GE(share, last);
+                               last = share;
+                               if (phases.empty() || phases.back() != what) {
+                                 phases.emplace_back(what);
+                               }
+                             }});
+  ASSERT_TRUE(done.has_value());
+  EXPECT_EQ(phases, (std::vector<std::string>{"predicting the error", "shaping the path",
+                                              "leading corners", "refining the path"}));
+  EXPECT_LT(last, 1.0);
 }
 
 TEST(Predistort, RefusesWhatCutsNothing) {

@@ -2,6 +2,7 @@
 // Runs of blocks that are kept or given up together, and the error of each over all models.
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,14 +19,24 @@ struct RunBlock {
   bool stops = false;
 };
 
-CutRuns runs_of(const std::vector<RunBlock>& blocks) {
+/// Each block is 1 mm long.
+nc::plan::PlannedPath path_of(const std::vector<RunBlock>& blocks) {
   nc::plan::PlannedPath path;
+  for (const RunBlock& block : blocks) {
+    auto& segment = path.segments.emplace_back();
+    segment.line = block.line;
+    segment.position_mm = static_cast<double>(path.segments.size() - 1);
+    segment.length_mm = 1.0;
+  }
+  return path;
+}
+
+CutRuns runs_of(const std::vector<RunBlock>& blocks) {
   std::vector<SegmentUse> use;
   for (const RunBlock& block : blocks) {
-    path.segments.emplace_back().line = block.line;
     use.push_back({.free = block.free, .stops = block.stops});
   }
-  return {path, use};
+  return {path_of(blocks), use};
 }
 
 using RunLines = std::vector<std::uint32_t>;
@@ -66,20 +77,71 @@ ModelSample run_sample(double error_mm, const std::array<double, 2>& others_mm) 
 // The model has 3 and 4 µm (RMS √12.5), the first other 1 and 1, the second 0 and 4.5 (RMS
 // √10.125).
 TEST(RunErrors, AreThoseOfTheWorstModel) {
-  const CutRuns runs = runs_of({{.line = 1}, {.line = 2, .free = false}, {.line = 3}});
+  const std::vector<RunBlock> blocks = {{.line = 1}, {.line = 2, .free = false}, {.line = 3}};
+  const auto path = path_of(blocks);
+  const CutRuns runs = runs_of(blocks);
   RunErrors errors(runs, 2);
   constexpr std::array kFirst = {0.001, 0.0};
   constexpr std::array kSecond = {0.001, 0.0045};
-  errors.add(run_sample(-0.003, kFirst), 1);
-  errors.add(run_sample(0.900, kSecond), 2);  // belongs to no run
-  errors.add(run_sample(0.004, kSecond), 1);
+  errors.add(run_sample(-0.003, kFirst), 1, path.segments);
+  ModelSample of_none = run_sample(0.900, kSecond);
+  of_none.foot_mm = 1.5;
+  errors.add(of_none, 2, path.segments);
+  errors.add(run_sample(0.004, kSecond), 1, path.segments);
   EXPECT_NEAR(errors.worst(0).rms_mm, 0.001 * std::sqrt(12.5), 1e-12);
   EXPECT_DOUBLE_EQ(errors.worst(0).max_mm, 0.0045);
   EXPECT_EQ(errors.worst(1).rms_mm, 0.0) << "no sample yet";
-  errors.add(run_sample(0.002, kSecond), 3);
+  errors.add(run_sample(0.002, kSecond), 3, path.segments);
   EXPECT_DOUBLE_EQ(errors.worst(1).max_mm, 0.0045);
   EXPECT_DOUBLE_EQ(errors.worst(1).rms_mm, 0.0045);
   EXPECT_DOUBLE_EQ(errors.worst(0).max_mm, 0.0045);
+}
+
+// The command is in the block that stays, the tool still in the run before.
+TEST(RunErrors, AreTheRunsThatTheToolIsIn) {
+  const std::vector<RunBlock> blocks = {{.line = 1}, {.line = 2, .free = false}, {.line = 3}};
+  const auto path = path_of(blocks);
+  const CutRuns runs = runs_of(blocks);
+  RunErrors errors(runs, 2);
+  constexpr std::array kOthers = {0.0, 0.0};
+  ModelSample sample = run_sample(0.007, kOthers);
+  sample.foot_mm = 0.8;
+  errors.add(sample, 2, path.segments);
+  EXPECT_DOUBLE_EQ(errors.worst(0).max_mm, 0.007);
+}
+
+// 4 % more of a small error are nothing; of the program's largest they are.
+TEST(WorseRuns, AreThoseBeyondTheLargestOfTheProgram) {
+  const std::vector<RunBlock> blocks = {{.line = 1}, {.line = 2, .free = false}, {.line = 3}};
+  const auto path = path_of(blocks);
+  const CutRuns runs = runs_of(blocks);
+  constexpr std::array kOthers = {0.0, 0.0};
+  RunErrors before(runs, 2);
+  RunErrors after(runs, 2);
+  for (const double more : {1.0, 0.1}) {
+    // The RMS falls.
+    before.add(run_sample(0.3 * more, kOthers), more == 1.0 ? 1 : 3, path.segments);
+    before.add(run_sample(0.3 * more, kOthers), more == 1.0 ? 1 : 3, path.segments);
+    after.add(run_sample(1.04 * 0.3 * more, kOthers), more == 1.0 ? 1 : 3, path.segments);
+    after.add(run_sample(0.0, kOthers), more == 1.0 ? 1 : 3, path.segments);
+  }
+  EXPECT_EQ(worse_runs(runs, before, after, {}), (std::vector<std::size_t>{0}));
+}
+
+// The run that stays has what its neighbour's lag brings.
+TEST(WorseRuns, AreThoseThatAreChanged) {
+  const std::vector<RunBlock> blocks = {{.line = 1}, {.line = 2, .free = false}, {.line = 3}};
+  const auto path = path_of(blocks);
+  const CutRuns runs = runs_of(blocks);
+  constexpr std::array kOthers = {0.0, 0.0};
+  RunErrors before(runs, 2);
+  RunErrors after(runs, 2);
+  before.add(run_sample(0.3, kOthers), 1, path.segments);
+  before.add(run_sample(0.1, kOthers), 3, path.segments);
+  after.add(run_sample(0.2, kOthers), 1, path.segments);
+  after.add(run_sample(0.15, kOthers), 3, path.segments);
+  EXPECT_EQ(worse_runs(runs, before, after, {}), (std::vector<std::size_t>{1}));
+  EXPECT_TRUE(worse_runs(runs, before, after, {3}).empty());
 }
 
 }  // namespace

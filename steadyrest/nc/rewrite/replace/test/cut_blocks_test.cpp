@@ -41,6 +41,17 @@ TEST(CutBlocks, StayWhereTheControlDoesMoreThanTheyShow) {
             Stays::free);
 }
 
+// G40 alone leaves the tool beside the contour; no control accepts an arc from there.
+TEST(CutBlocks, TheFirstMoveAfterCompensationStaysStraight) {
+  const std::string on = "G21 G90 G94 G17 F100\nG0 X0 Y0 Z1\nG41.1 D2 G1 X5\nG1 X9\n";
+  EXPECT_EQ(why_it_stays(on + "G40\nG1 X12\nG1 X20\nM2\n", 6), Stays::line_needed);
+  EXPECT_EQ(why_it_stays(on + "G40\nG1 X12\nG1 X20\nM2\n", 7), Stays::free);
+  EXPECT_EQ(why_it_stays(on + "G40 M8\nG4 P1\nG1 X12\nM2\n", 7), Stays::line_needed);
+  EXPECT_EQ(why_it_stays(on + "G40\nG0 X12\nG1 X20\nM2\n", 7), Stays::free);
+  EXPECT_EQ(why_it_stays(on + "G40 G1 X12\nG1 X20\nM2\n", 6), Stays::free);
+  EXPECT_EQ(why_it_stays("G21 G90 G40 G94 G17 F100\nG0 X0 Y0\nG1 X5\nM2\n", 3), Stays::free);
+}
+
 // In inches F is inches a minute; G10 L2 R turns the work about Z, and shifts it.
 TEST(CutBlocks, TellInWhichModesTheyWereWritten) {
   const Workshop shop;

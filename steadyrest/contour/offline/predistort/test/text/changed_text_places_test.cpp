@@ -41,6 +41,7 @@ TEST(ChangedTextPlaces, OfPiecesAreAsTheySay) {
   pieces[0] = part_of(pieces[0], 0.0, 0.25);
   pieces[0].progress_end_mm = pieces[1].progress_start_mm = 22.0;
   pieces[1].begins_run = false;
+  pieces[1].segment.feed_mm_s *= 0.9;
   const auto changed = program.with(pieces);
   ASSERT_TRUE(changed.has_value());
   expect_in_order(*changed, program.length_mm());
