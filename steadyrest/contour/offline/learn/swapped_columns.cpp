@@ -19,8 +19,9 @@ namespace geometry = math::geometry;
 using kernel::signal::Point;
 
 constexpr std::size_t kFewestRows = 100;
-constexpr double kOrderNearer = 0.1;      ///< of the mean square distance
-constexpr double kOrderLeast_mm = 0.05;   ///< mean distance below which no order is told from another
+constexpr double kOrderNearer = 0.1;  ///< of the mean square distance
+constexpr double kOrderLeast_mm =
+    0.05;                            ///< mean distance below which no order is told from another
 constexpr double kOffPath = 0.1;     ///< share of the commands that makes other orders worth a look
 constexpr double kOnPath = 0.8;      ///< share that shows that an order is the right one
 constexpr double kAheadShare = 0.5;  ///< of the lag that is expected
