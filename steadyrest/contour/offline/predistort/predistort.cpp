@@ -12,6 +12,7 @@
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/contour/offline/predistort/refinement.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
+#include <steadyrest/contour/offline/predistort/round_score.hpp>
 #include <steadyrest/contour/offline/predistort/shape/command_shape.hpp>
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
@@ -32,17 +33,14 @@ constexpr int kLastRounds = 2;         ///< with the best share at each corner
 constexpr int kRefinements = 8;        ///< of a part of two minutes; longer parts get fewer …
 constexpr int kFewestRefinements = 2;  ///< … but not fewer than this
 constexpr double kRefinedTime_s = 120.0;
-constexpr double kLeastShare = 0.125;   ///< of what is left, in one refinement
-constexpr double kRefinedTime = 1.005;  ///< of the program's own, once refined
+constexpr double kLeastShare = 0.125;  ///< of what is left, in one refinement
 constexpr int kMostHolds = 16;
 constexpr double kLeastFeed = 0.25;  ///< of the programmed one, where feeds fall
 constexpr int kHoldRounds = 2;
 /// Tried at corners in addition to the default; parts that take longer are left with the default.
 constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
 constexpr int kCornerRuns = static_cast<int>(kBeyond.size()) + kLastRounds;
-constexpr double kWorthwhile = 0.25;      ///< of the limit: a run whose error is less stays
-constexpr double kMostTime = 1.02;        ///< of the program's own; a slower round does not count
-constexpr double kShareOfLargest = 0.05;  ///< of the largest error, in the choice of a round
+constexpr double kWorthwhile = 0.25;  ///< of the limit: a run whose error is less stays
 constexpr double kLongestTried_s = 1200.0;
 
 class Predistortion {
@@ -86,6 +84,7 @@ class Predistortion {
       return kernel::outcome::refuse(file_, "the program cuts nothing",
                                      "give a program with feed moves");
     }
+    score_.emplace(how_.most_time, out_.seconds_before, out_.before.nominal());
     first_speed_ = std::move(before->speed);
     runs_before_ = std::move(before->runs);
     for (std::size_t i = 0; i < runs_->size(); ++i) {
@@ -112,6 +111,7 @@ class Predistortion {
     out_.too_far = std::move(barred_->too_far);
     out_.past_travel = std::move(barred_->past_travel);
     out_.worse = std::move(barred_->worse);
+    out_.slower = score_->slower(out_.after.nominal());
     add_report(out_, how_.limit_mm);
     return std::move(out_);
   }
@@ -245,16 +245,14 @@ class Predistortion {
     }
     progress_.ran();
     const auto& figures = run->figures.nominal();
-    // Any round that leaves the largest error alone is better than one that does not.
-    const auto& before = out_.before.nominal();
-    const bool larger = figures.max_mm > kLargestGrows * before.max_mm;
-    const double score_mm =
-        figures.rms_mm() + kShareOfLargest * figures.max_mm + (larger ? before.rms_mm() : 0.0);
-    const double most_time = learnt_.refinements() > 0 ? kRefinedTime : kMostTime;
-    const bool in_time = holds_ || run->seconds <= most_time * out_.seconds_before;
+    const double score_mm = score_->of_mm(figures);
+    const bool in_time = holds_ || score_->in_time(run->seconds, learnt_.refinements() > 0);
+    if (!in_time) {
+      score_->note_slower(run->seconds, figures);
+    }
     const bool better =
         holds_ ? run->over.size() < best_over_.size() : best_mm_ < 0.0 || score_mm < best_mm_;
-    if (in_time && better && figures.rms_mm() <= before.rms_mm()) {
+    if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
       best_mm_ = score_mm;
       best_over_ = run->over;
       runs_after_ = std::move(run->runs);
@@ -381,6 +379,7 @@ class Predistortion {
   bool holds_ = false;             ///< feeds may fall
   std::vector<Corner> corners_;    ///< as led in the last pieces
   std::vector<double> corner_mm_;  ///< their errors in the last run
+  std::optional<RoundScore> score_;
   double best_mm_ = -1.0;
   std::optional<BarredLines> barred_;
   std::optional<CutRuns> runs_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <steadyrest/contour/offline/learn/learn_from.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/round_score.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -33,6 +35,8 @@ struct PredistortConfig {
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
   int rounds = 4;
+  /// Of the program's own time; a slower round does not count, but is named if it wins much.
+  double most_time = RoundScore::kUsualTime;
   /// Feeds fall where the predicted error stays above this (FeedCaps), and the program takes
   /// longer; 0: all feeds stay.
   double hold_mm = 0.0;
@@ -62,6 +66,7 @@ struct Predistorted : PredictedChange {
   double worst_rms_before_mm = 0.0;
   double worst_rms_after_mm = 0.0;
   double largest_shift_mm = 0.0;
+  std::optional<Slower> slower;
   std::vector<Remaining> remaining;  ///< the worst first
   std::vector<std::uint32_t>
       past_travel;                     ///< lines that stay, since an axis would leave its travel

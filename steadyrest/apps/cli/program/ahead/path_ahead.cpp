@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <expected>
 #include <utility>
 
@@ -35,6 +36,22 @@ void put_figures(Answer& answer, const Predistorted& done, const PathOptions& op
   json["too_far"] = done.too_far;
   json["past_travel"] = done.past_travel;
   json["not_better"] = done.worse;
+  json["slower"] = done.slower ? Json({{"seconds", done.slower->seconds},
+                                       {"predicted_error_max_mm", done.slower->max_mm},
+                                       {"predicted_error_rms_mm", done.slower->rms_mm}})
+                               : Json(nullptr);
+}
+
+/// What time would buy; empty where it would not buy much.
+std::string slower_text(const Predistorted& done) {
+  if (!done.slower) {
+    return {};
+  }
+  const double percent = kPercent * (done.slower->seconds / done.seconds_before - 1.0);
+  return fmt::format(
+      "about {} RMS, {} at most, could be had in {:.2f} s ({:.1f} % more): --max-time-percent {}\n",
+      in_um(done.slower->rms_mm), in_um(done.slower->max_mm), done.slower->seconds, percent,
+      std::ceil(percent));
 }
 
 std::string text_of(const Predistorted& done, const PathOptions& options) {
@@ -46,10 +63,12 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
                 in_um(done.worst_rms_before_mm), in_um(done.worst_rms_after_mm)})
           .text();
   text += done.replaced.replaced == 0
-              ? "nothing can be won on this machine; the program is unchanged\n"
+              ? fmt::format("nothing can be won in {:g} % more time; the program is unchanged\n",
+                            options.max_time_percent)
               : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
                             done.replaced.replaced, done.replaced.new_lines,
                             in_um(done.largest_shift_mm));
+  text += slower_text(done);
   text += first_of(done.remaining.size(), [&](std::size_t i) {
     const auto& one = done.remaining[i];
     return fmt::format("line {}: {} remain of {}\n", one.line, in_um(one.after_mm),
@@ -93,6 +112,10 @@ void add_path_options(Verb& verb, PathOptions& options) {
           "How far each servo gain may be off the machine file; blocks are changed only where the "
           "worst such machine does not get worse")
       ->check(within(0.0, 30.0));
+  verb.add_option("--max-time-percent", options.max_time_percent,
+                  "How much longer the program may take; sharp corners need more than the default "
+                  "2 %, and what that would win is said")
+      ->check(within(0.0, 100.0));
   verb.add_flag(
       "--hold-limit", options.hold,
       "Lower the feed where the path alone does not keep --max-error-mm; the program takes "
@@ -122,6 +145,7 @@ Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram&
       {.limit_mm = options.max_error_mm,
        .max_shift_mm = options.max_shift_mm,
        .gain_uncertainty = options.gain_uncertainty_percent / kPercent,
+       .most_time = 1.0 + options.max_time_percent / kPercent,
        .hold_mm = hold_mm(options, program.machine),
        .parts = std::move(*parts),
        .told = std::move(told),

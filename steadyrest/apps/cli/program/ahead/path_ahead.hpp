@@ -16,11 +16,13 @@ struct PathOptions {
   double max_error_mm = 0.01;
   double max_shift_mm = 0.5;
   double gain_uncertainty_percent = 5.0;
+  double max_time_percent = 2.0;
   bool hold = false;
   LearningOptions learning;
 };
 
-/// Adds --max-error-mm, --max-shift-mm, --gain-uncertainty-percent, --hold-limit, --from-record and
+/// Adds --max-error-mm, --max-shift-mm, --gain-uncertainty-percent, --max-time-percent,
+/// --hold-limit, --from-record and
 /// --cut-program.
 void add_path_options(Verb& verb, PathOptions& options);
 
@@ -34,7 +36,7 @@ void add_path_options(Verb& verb, PathOptions& options);
     std::vector<nc::rewrite::Told> told, Progress& progress);
 
 /// The keys of the prediction, `uncertain`, `largest_shift_mm`, `remaining[]`, `too_far[]`,
-/// `past_travel[]`, `not_better[]` and `learnt[]`, and the same for people.
+/// `past_travel[]`, `not_better[]`, `slower` and `learnt[]`, and the same for people.
 [[nodiscard]] std::string put_path(Answer& answer, const contour::offline::Predistorted& done,
                                    const PathOptions& options);
 
