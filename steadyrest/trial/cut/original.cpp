@@ -38,6 +38,7 @@ kernel::outcome::Result<Original> Original::make(
   const std::uint32_t original_line = original->segments[farthest.original_segment].line;
   return Original{.path = std::move(original),
                   .pairing = std::move(*pairing),
+                  .tube_mm = tube_mm,
                   .farthest_mm = farthest.distance_mm,
                   .changed_line = changed.segments[farthest.changed_segment].line,
                   .original_line = original_line};

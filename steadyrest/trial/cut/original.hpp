@@ -18,6 +18,7 @@ struct Original {
 
   std::shared_ptr<const nc::plan::PlannedPath> path;
   math::geometry::PathPairing pairing;
+  double tube_mm = 0.0;
   double farthest_mm = 0.0;  ///< of the changed path from the original, while both cut
   std::uint32_t changed_line = 0;
   std::uint32_t original_line = 0;  ///< there

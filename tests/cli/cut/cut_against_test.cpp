@@ -52,6 +52,17 @@ TEST(CutAgainst, JudgesAChangedProgramByItsOriginal) {
   EXPECT_GT(figures(answer["with"])["contour_error_rms_mm"], 0.07);
 }
 
+TEST(CutAgainst, TakesTheTubeThatTheChangedProgramNames) {
+  const Scratch scratch;
+  const std::string changed = scratch.at("changed.mpf");
+  const std::string circle = "examples/programs/circle-r10.mpf";
+  const std::string mill = " --machine examples/machines/vmc-840d.toml";
+  answer_of("program predistort " + circle + mill + " --max-shift-mm 2 -o " + changed);
+  const std::string line = "cut " + changed + " --against " + circle + mill;
+  EXPECT_EQ(answer_of(line)["against"]["tube_mm"], 2.5);
+  EXPECT_EQ(answer_of(line + " --tube-mm 0.3")["against"]["tube_mm"], 0.3);
+}
+
 TEST(CutAgainst, OfAProgramAgainstItselfHasTheFiguresOfTheProgram) {
   const json alone = answer_of("cut " + kOriginal + kMachine);
   const json answer = answer_of("cut " + kOriginal + " --against " + kOriginal + kMachine);

@@ -1,18 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/cut/cut_against.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/nc/rewrite/text/mark.hpp>
+#include <steadyrest/nc/rewrite/tube/permitted.hpp>
 
 namespace steadyrest::apps::cli::cut {
 namespace {
 
 constexpr double kTube_mm = 1.0;
 
-double tube_of(const AgainstOptions& options) {
-  return options.tube_mm.value_or(kTube_mm);
+/// What is asked for; else 1 mm, or more where the changed program's mark says that it may be
+/// farther away. The control rounds the corners of both.
+double tube_of(const AgainstOptions& options, const std::string& changed) {
+  if (options.tube_mm) {
+    return *options.tube_mm;
+  }
+  constexpr double kRounding = 1.25;
+  const auto mark = nc::rewrite::read_replaced_mark(changed);
+  const kernel::outcome::Result<nc::rewrite::Permitted> permitted =
+      mark && !mark->empty() ? nc::rewrite::permitted_of(changed, *mark, std::nullopt, nullptr)
+                             : nc::rewrite::Permitted{};
+  return permitted ? std::clamp(kRounding * permitted->tube_mm, kTube_mm,
+                                trial::cut::Original::kWidestTube_mm)
+                   : kTube_mm;
 }
 
 }  // namespace
@@ -23,8 +39,10 @@ void add_against_options(Verb& verb, AgainstOptions& options) {
       "The original of a changed FILE. Errors are the tool's distance from the original's path as "
       "the control plans it, while both programs cut (G1 to G3); rapids and rotary axes do not "
       "count. The layer sees FILE alone");
-  verb.add_option("--tube-mm", options.tube_mm,
-                  "Refuse programs farther apart than this where they cut, 0.01 … 5; default: 1")
+  verb.add_option(
+          "--tube-mm", options.tube_mm,
+          "Refuse programs farther apart than this where they cut, 0.01 … 5; default: 1, or "
+          "as FILE says of itself")
       ->needs(against);
 }
 
@@ -40,7 +58,8 @@ std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original
   if (!planned) {
     return std::unexpected(std::move(planned.error()));
   }
-  auto original = trial::cut::Original::make(*path, planned->path, tube_of(options));
+  const double tube_mm = tube_of(options, changed.file);
+  auto original = trial::cut::Original::make(*path, planned->path, tube_mm);
   if (!original) {
     Refusal refusal = std::move(original.error());
     refusal.file = refusal.line > 0 ? changed.file : "--tube-mm";
@@ -55,7 +74,7 @@ std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original
 std::string put_against(Answer& answer, const AgainstOptions& options,
                         const trial::cut::Original& original) {
   answer.json["against"] = {{"program", options.file},
-                            {"tube_mm", tube_of(options)},
+                            {"tube_mm", original.tube_mm},
                             {"farthest_mm", original.farthest_mm},
                             {"line", original.changed_line},
                             {"original_line", original.original_line}};

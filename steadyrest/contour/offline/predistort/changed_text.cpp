@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
@@ -223,8 +225,9 @@ class Mapping {
     }
   }
 
-  /// The first segment of each piece and of each block that stays has its place. What the control
-  /// put between them, or divided, or merged lies in proportion to length.
+  /// The first segment of each piece and of each block that stays has its place, and what rounds
+  /// the corner behind a block that stays: it begins before the corner, and the next block behind
+  /// it. What the control put between pieces, or divided, or merged lies in proportion to length.
   void run() {
     const auto& segments = changed_.path.segments;
     changed_.start_mm.assign(segments.size() + 1, 0.0);
@@ -247,6 +250,7 @@ class Mapping {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  static constexpr double kHalfTurn_rad = std::numbers::pi;
   static constexpr double kNear_mm = 10.0;  ///< more than a correction moves anything
 
   [[nodiscard]] double whole_mm() const {
@@ -274,15 +278,35 @@ class Mapping {
   double place_of(std::size_t i, double at_mm) {
     const auto& segments = changed_.path.segments;
     const std::uint32_t line = segments[i].line;
-    if (i > 0 && segments[i - 1].line == line) {
-      return kernel::units::kNan;
+    const bool same_block = i > 0 && segments[i - 1].line == line;
+    const std::size_t index = line < piece_of_.size() ? piece_of_[line] : kNone;
+    if (index != kNone) {
+      return same_block ? kernel::units::kNan : pieces_[index].progress_start_mm;
     }
-    const std::size_t piece = line < piece_of_.size() ? piece_of_[line] : kNone;
-    return piece != kNone ? pieces_[piece].progress_start_mm : kept(line, at_mm);
+    // What rounds the end of a block is the last of its line.
+    const bool rounds = same_block && i + 1 < segments.size() && segments[i + 1].line != line &&
+                        segments[i].geometry == Geometry::arc;
+    const std::size_t of = same_block ? (rounds ? taken_ : kNone) : kept(line, at_mm);
+    return of == kNone || original_[of].line != origin_of(line)
+               ? kernel::units::kNan
+               : original_[of].position_mm +
+                     original_[of].length_mm * passed(original_[of], segments[i].start_mm, rounds);
+  }
+
+  /// How much of a segment is behind a point near its start (near its end where `at_end`), as a
+  /// share of its length. Elsewhere an arc of a turn and more comes near the point again.
+  static double passed(const PathSegment& segment, const Point& point, bool at_end = false) {
+    if (!(segment.length_mm > 0.0)) {
+      return 0.0;
+    }
+    const double part = std::min(0.5, kHalfTurn_rad / std::max(segment.sweep_rad, 1e-9));
+    const auto foot = at_end ? math::geometry::foot_point(segment, point, 1.0 - part, 1.0, 1.0)
+                             : math::geometry::foot_point(segment, point, 0.0, part, 0.0);
+    return math::geometry::distance_at(segment, foot.u) / segment.length_mm;
   }
 
   /// A block that stays: the next segment of the original with its line.
-  double kept(std::uint32_t changed_line, double at_mm) {
+  std::size_t kept(std::uint32_t changed_line, double at_mm) {
     const std::uint32_t line = origin_of(changed_line);
     const auto is_it = [&](const PathSegment& of) {
       return of.line == line && of.position_mm >= at_mm - kNear_mm;
@@ -295,10 +319,10 @@ class Mapping {
          i < original_.size() && original_[i].position_mm < at_mm + kNear_mm; ++i) {
       if (is_it(original_[i]) && (taken_ == kNone || i > taken_)) {
         taken_ = i;
-        return original_[i].position_mm;
+        return i;
       }
     }
-    return kernel::units::kNan;
+    return kNone;
   }
 
   [[nodiscard]] std::uint32_t origin_of(std::uint32_t line) const noexcept {

@@ -23,8 +23,9 @@ struct Permitted {
   bool feeds = false;   ///< lower feeds
   bool speeds = false;  ///< spindle speeds, and feeds in the same proportion
   double tube_mm = kUsualTube_mm;
-  double least_rev_s = 0.0;                 ///< range of the spindle
-  double most_rev_s = 1e9;                  // no machine is given
+  double least_rev_s = 0.0;  ///< range of the spindle
+  double most_rev_s = 1e9;   // no machine is given
+  // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<kernel::machine::Axis> axes{};  ///< their travel; none without a machine
 };
 

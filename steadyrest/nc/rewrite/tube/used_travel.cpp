@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -40,8 +41,9 @@ std::optional<TravelFault> travel_fault(std::span<const kernel::machine::Axis> a
                                         const UsedTravel& original, const UsedTravel& changed) {
   constexpr std::string_view kLetters = "XYZ";
   for (const kernel::machine::Axis& axis : axes) {
-    const std::size_t i = axis.name.size() == 1 ? kLetters.find(axis.name[0]) : kLetters.npos;
-    if (i == kLetters.npos || axis.rotary) {
+    const std::size_t i =
+        axis.name.size() == 1 ? kLetters.find(axis.name[0]) : std::string_view::npos;
+    if (i == std::string_view::npos || axis.rotary) {
       continue;
     }
     const auto& high = changed.high(i);

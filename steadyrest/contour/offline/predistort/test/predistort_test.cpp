@@ -77,6 +77,18 @@ TEST(Predistort, LeavesStraightLinesOfEqualAxesAlone) {
   EXPECT_LT(done->largest_shift_mm, 1e-6);
 }
 
+// The rounding of a corner of 2° within 0.05 mm is 5.7 mm long: half of it is before the corner.
+TEST(Predistort, ALongRoundingKeepsItsPlace) {
+  Desk desk;
+  desk.machine.axes[1].servo_gain_1_s = 55.0;
+  const auto done = desk.run(
+      "G21 G90 G94 G17 G64 P0.05\nG0 X0 Y0\nG4 P1\nG1 X40 Y40 F3000\nG1 X78.61 Y81.40\n"
+      "G0 Z5\nM2\n",
+      {.rounds = 0});
+  ASSERT_TRUE(done.has_value());
+  EXPECT_NEAR(done->before.nominal().max_mm, 25.0 * (1.0 / 50.0 - 1.0 / 55.0) + 0.05, 0.02);
+}
+
 TEST(Predistort, CorrectsUnequalAxesAsFarAsTheirGainsAreSure) {
   Desk desk;
   desk.machine.axes[1].servo_gain_1_s = 55.0;
