@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "live/live_layer.hpp"
 #include "program.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,6 +58,7 @@ TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
 
 // The examples of --help are run as they are written: a reader copies them.
 TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
+  const LiveLayer layer;  // for the verbs that ask a running one
   for (const Words& verb : verbs()) {
     const Words commands = examples(help_of(verb));
     EXPECT_FALSE(commands.empty()) << verb.back();

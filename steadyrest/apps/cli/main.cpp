@@ -13,6 +13,9 @@
 #include <steadyrest/apps/cli/chatter/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/cli/cut/verb_contour_limit.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
+#include <steadyrest/apps/cli/live/verb_mode.hpp>
+#include <steadyrest/apps/cli/live/verb_run.hpp>
+#include <steadyrest/apps/cli/live/verb_status.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_bench.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_calibrate.hpp>
@@ -61,6 +64,13 @@ constexpr Entry kVerbs[] = {
      "control cycle",
      add_verb_doctor,
      {"--machine examples/machines/vmc-840d.toml"}},
+    {"run",
+     "Run the layer, live, on the port of the machine file",
+     add_verb_run,
+     {"--machine examples/machines/vmc-840d.toml --program examples/programs/circle-r10.mpf --mode "
+      "act --for-s 1 --socket steadyrest.sock"}},
+    {"status", "Ask a running layer what it sees and does", add_verb_status, {"--json"}},
+    {"mode", "Ask a running layer to observe, advise or act", add_verb_mode, {"advise"}},
     {"chatter", "Chatter: stability of a cut"},
     {"chatter simulate",
      "Simulate a cut in time; the tool may leave the material",

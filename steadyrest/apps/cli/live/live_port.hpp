@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <functional>
+#include <memory>
+
+#include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/port/port.hpp>
+
+namespace steadyrest::apps::cli::live {
+
+/// A machine that the layer can run on.
+struct LivePort {
+  std::unique_ptr<kernel::port::Port> port;
+  double period_s = 0.001;
+  std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never
+};
+
+/// The port of the machine file. Refused: a port that this program does not have; for `sim` a
+/// missing program, and what its control refuses.
+[[nodiscard]] std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
+                                                          const ProgramOptions& program);
+
+}  // namespace steadyrest::apps::cli::live

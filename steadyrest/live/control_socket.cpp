@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdlib>
+#include <thread>
+#include <utility>
+
+#include <boost/asio.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/live/control_socket.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+namespace asio = boost::asio;
+using asio::local::stream_protocol;
+using boost::system::error_code;
+using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr std::string_view kTooLong =
+    R"({"version":1,"error":{"what":"the line is too long; allowed: 4096 bytes","to_do":"send one request in a line"}})";
+
+Refusal unavailable(std::string what, std::string to_do) {
+  Refusal out = kernel::outcome::bad_input(std::move(what), std::move(to_do));
+  out.kind = kernel::outcome::Kind::unavailable;
+  return out;
+}
+
+/// One client: a line, its answer, the next line.
+class Client : public std::enable_shared_from_this<Client> {
+ public:
+  Client(stream_protocol::socket socket, const ControlSocket::Answer& answer, std::size_t& count)
+      : socket_(std::move(socket)), answer_(answer), count_(count), buffer_(kMostLine) {
+    ++count_;
+  }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+  ~Client() { --count_; }
+
+  void next() {
+    asio::async_read_until(socket_, buffer_, '\n',
+                           [self = shared_from_this()](error_code fault, std::size_t size) {
+                             self->got(fault, size);
+                           });
+  }
+
+ private:
+  void got(error_code fault, std::size_t size) {
+    if (fault == asio::error::not_found) {  // the buffer is full, and no line in it
+      say(std::string(kTooLong), true);
+      return;
+    }
+    if (fault) {
+      return;
+    }
+    const auto* const data = static_cast<const char*>(buffer_.data().data());
+    const std::string line(data, size - 1);
+    buffer_.consume(size);
+    say(answer_(line), false);
+  }
+
+  void say(std::string text, bool last) {
+    out_ = std::move(text);
+    out_ += '\n';
+    asio::async_write(socket_, asio::buffer(out_),
+                      [self = shared_from_this(), last](error_code fault, std::size_t /*size*/) {
+                        if (!fault && !last) {
+                          self->next();
+                        }
+                      });
+  }
+
+  stream_protocol::socket socket_;
+  const ControlSocket::Answer& answer_;
+  std::size_t& count_;
+  asio::streambuf buffer_;
+  std::string out_;
+};
+
+class Server final : public ControlSocket {
+ public:
+  Server(std::string path, Answer answer)
+      : path_(std::move(path)), answer_(std::move(answer)), acceptor_(io_) {}
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+  ~Server() override {
+    io_.stop();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+    if (bound_) {
+      ::unlink(path_.c_str());
+    }
+  }
+
+  Result<void> start() {
+    error_code fault;
+    acceptor_.open(stream_protocol(), fault);
+    const mode_t before = ::umask(S_IXUSR | S_IRWXG | S_IRWXO);
+    if (!fault) {
+      acceptor_.bind(stream_protocol::endpoint(path_), fault);
+    }
+    ::umask(before);
+    bound_ = !fault;
+    if (!fault) {
+      acceptor_.listen(asio::socket_base::max_listen_connections, fault);
+    }
+    if (fault) {
+      return refuse(path_, fmt::format("the socket cannot be made: {}", fault.message()),
+                    "give --socket with a folder that you may write to");
+    }
+    accept();
+    thread_ = std::thread([this] { io_.run(); });
+    return {};
+  }
+
+ private:
+  void accept() {
+    acceptor_.async_accept([this](error_code fault, stream_protocol::socket socket) {
+      if (!fault && clients_ < kMostClients) {
+        std::make_shared<Client>(std::move(socket), answer_, clients_)->next();
+      }
+      if (acceptor_.is_open()) {
+        accept();
+      }
+    });
+  }
+
+  std::string path_;
+  Answer answer_;
+  std::size_t clients_ = 0;
+  asio::io_context io_{1};
+  stream_protocol::acceptor acceptor_;
+  std::thread thread_;
+  bool bound_ = false;
+};
+
+bool fits(const std::string& path) noexcept {
+  return !path.empty() && path.size() < sizeof(sockaddr_un::sun_path);
+}
+
+}  // namespace
+
+std::string usual_socket() {
+  const char* const folder = std::getenv("XDG_RUNTIME_DIR");
+  return fmt::format("{}/steadyrest.sock", folder != nullptr && *folder != '\0' ? folder : "/run");
+}
+
+Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
+  if (!fits(path)) {
+    return refuse(path,
+                  fmt::format("the socket's path has {} bytes; allowed: 1 … {}", path.size(),
+                              sizeof(sockaddr_un::sun_path) - 1),
+                  "give a shorter --socket");
+  }
+  struct stat file{};
+  if (::lstat(path.c_str(), &file) == 0) {
+    if (!S_ISSOCK(file.st_mode)) {
+      return refuse(path, "is a file and no socket", "give another --socket");
+    }
+    asio::io_context io;
+    stream_protocol::socket other(io);
+    error_code fault;
+    other.connect(stream_protocol::endpoint(path), fault);
+    if (!fault) {
+      return refuse(path, "another layer answers on this socket",
+                    "stop it first, or give another --socket");
+    }
+    ::unlink(path.c_str());
+  }
+  auto server = std::make_unique<Server>(path, std::move(answer));
+  if (auto started = server->start(); !started) {
+    return std::unexpected(std::move(started.error()));
+  }
+  return server;
+}
+
+Result<std::string> ask(const std::string& path, const std::string& line, double timeout_s) {
+  const auto none = [&](const std::string& why) {
+    return std::unexpected(unavailable(fmt::format("no layer answers on {}: {}", path, why),
+                                       "start one with `steadyrest run`, or give its --socket"));
+  };
+  if (!fits(path)) {
+    return refuse(path, "is no path of a socket", "give the --socket of the layer");
+  }
+  asio::io_context io;
+  stream_protocol::socket socket(io);
+  error_code fault;
+  socket.connect(stream_protocol::endpoint(path), fault);
+  if (fault) {
+    return none(fault.message());
+  }
+  // The system's own timeout: this is a blocking call.
+  const auto whole = static_cast<time_t>(timeout_s);
+  const timeval most{
+      .tv_sec = whole,
+      .tv_usec = static_cast<suseconds_t>(1e6 * (timeout_s - static_cast<double>(whole)))};
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
+  const std::string out = line + '\n';
+  std::string in;
+  if (::send(socket.native_handle(), out.data(), out.size(), MSG_NOSIGNAL) !=
+      static_cast<ssize_t>(out.size())) {
+    return none("it does not take the request");
+  }
+  std::array<char, 1024> part{};
+  while (in.find('\n') == std::string::npos) {
+    const ssize_t got = ::recv(socket.native_handle(), part.data(), part.size(), 0);
+    if (got <= 0) {
+      return none("it does not answer in time");
+    }
+    in.append(part.data(), static_cast<std::size_t>(got));
+  }
+  in.resize(in.find('\n'));
+  return in;
+}
+
+}  // namespace steadyrest::live

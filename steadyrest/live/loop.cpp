@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/live/loop.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::machine::Mode;
+using kernel::outcome::Reason;
+using kernel::outcome::Result;
+
+constexpr double kShortestPeriod_s = 1.0 / 4000.0;
+constexpr double kLongestPeriod_s = 1.0 / 100.0;
+constexpr double kRounding = 1e-9;
+
+std::size_t place_of(Reason reason) noexcept {
+  const auto all = kernel::outcome::reasons();
+  const auto at = std::ranges::lower_bound(all, reason, {}, &kernel::outcome::ReasonEntry::reason);
+  return static_cast<std::size_t>(at - all.begin());
+}
+
+}  // namespace
+
+Result<void> Loop::check(const Config& config) {
+  if (!(config.period_s >= kShortestPeriod_s - kRounding &&
+        config.period_s <= kLongestPeriod_s + kRounding)) {
+    return kernel::outcome::refuse(
+        fmt::format("the cycle of {:g} Hz is out of range; allowed: 100 … 4000 Hz",
+                    1.0 / config.period_s),
+        "give --cycle-hz");
+  }
+  return {};
+}
+
+Loop::Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, Config config)
+    : port_(port), layer_(layer), pace_(pace), config_(std::move(config)), wanted_(config_.mode) {
+  figures_.by_reason.assign(kernel::outcome::reasons().size(), 0);
+  now_.contour_limit_mm = config_.contour_limit_mm;
+}
+
+const LoopFigures& Loop::run() noexcept {
+  double stopped_s = -1.0;
+  for (;;) {
+    const Pace::Wake wake = pace_.wait();
+    const double begin_s = pace_.now_s();
+    figures_.overruns += wake.missed;
+    figures_.lateness.add(wake.lateness_s);
+    const bool stops = stop_.load() ||
+                       (config_.most_cycles > 0 && figures_.cycles >= config_.most_cycles) ||
+                       (config_.finished && config_.finished());
+    if (stops && stopped_s < 0.0) {
+      stopped_s = begin_s;
+    }
+    layer_.set_mode(stops ? Mode::observe : wanted_.load());
+    if (stops && layer_.mode_in_force() != Mode::act) {
+      break;
+    }
+    if (stops && begin_s - stopped_s > config_.handback_s) {
+      figures_.handed_back = false;
+      break;
+    }
+    cycle();
+    figures_.work.add(pace_.now_s() - begin_s);
+  }
+  return figures_;
+}
+
+void Loop::cycle() noexcept {
+  const auto command = layer_.cycle(port_, {});
+  ++figures_.cycles;
+  now_.port_fault = !command;
+  if (command) {
+    count(*command);
+    publish(*command);
+  } else {
+    ++figures_.port_faults;
+    note_fault(command.error());
+    publish({});
+  }
+}
+
+void Loop::count(const kernel::signal::Command& command) noexcept {
+  now_.reasons = {command.feed_reason, command.spindle_reason, command.offset_reason,
+                  command.path_offset_reason};
+  for (std::size_t i = 0; i < now_.reasons.size(); ++i) {
+    // One cycle counts once for each reason.
+    const auto end = now_.reasons.cbegin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(now_.reasons.cbegin(), end, now_.reasons[i]) == end) {
+      const std::size_t place = place_of(now_.reasons[i]);
+      figures_.by_reason[std::min(place, figures_.by_reason.size() - 1)] += 1;
+    }
+  }
+}
+
+void Loop::publish(const kernel::signal::Command& command) noexcept {
+  const kernel::signal::Frame& frame = layer_.frame();
+  const auto in_force = layer_.in_force();
+  const auto& contour = layer_.estimates().contour;
+  now_.cycles = figures_.cycles;
+  now_.overruns = figures_.overruns;
+  now_.time_s = frame.time_s;
+  now_.mode_wanted = wanted_.load();
+  now_.mode_in_force = layer_.mode_in_force();
+  now_.motion = frame.motion;
+  now_.program_line = frame.program_line;
+  now_.error_known = contour && contour->error_valid;
+  now_.contour_error_mm = now_.error_known ? contour->error_mm : 0.0;
+  if (now_.error_known && kernel::signal::in_cut(frame.motion) &&
+      std::abs(now_.contour_error_mm) > config_.contour_limit_mm) {
+    figures_.over_limit_s += config_.period_s;
+  }
+  now_.feed_ratio = in_force.feed.ratio;
+  now_.feed_panel_ratio = frame.feed.panel_ratio;
+  now_.feed_effective_ratio = frame.feed.effective_ratio;
+  now_.spindle_ratio = in_force.spindle.ratio;
+  now_.spindle_effective_ratio = frame.spindle.effective_ratio;
+  now_.offset_mm = command.offset_mm;
+  now_.path_offset_mm = command.path_offset_mm;
+  status_.store(now_);
+}
+
+void Loop::note_fault(const kernel::outcome::Refusal& refusal) noexcept {
+  const std::size_t length = std::min(refusal.what.size(), now_.port_words.size() - 1);
+  std::copy_n(refusal.what.begin(), length, now_.port_words.begin());
+  now_.port_words[length] = '\0';
+}
+
+}  // namespace steadyrest::live

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/port/port.hpp>
+#include <steadyrest/kernel/rt/snapshot.hpp>
+#include <steadyrest/live/live_status.hpp>
+#include <steadyrest/live/pace.hpp>
+#include <steadyrest/live/time_figures.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
+
+namespace steadyrest::live {
+
+/// What a run has shown so far.
+struct LoopFigures {
+  std::uint64_t cycles = 0;
+  std::uint64_t overruns = 0;  ///< deadlines that passed while a cycle was at work
+  std::uint64_t port_faults = 0;
+  TimeFigures work;
+  TimeFigures lateness;
+  double over_limit_s = 0.0;
+  bool handed_back = true;  ///< nothing of the layer was left on the machine at the end
+  /// Cycles by the reason of the feed, spindle, offsets: one cycle may count in several.
+  std::vector<std::uint64_t> by_reason;  ///< in the order of kernel::outcome::reasons()
+};
+
+/// The layer's only loop: one cycle a period until it is told to stop. README.md has the law.
+///
+/// run() belongs to one thread. ask_mode() and ask_stop() may be called by any thread and by a
+/// signal's handler; status() by one other thread.
+class Loop {
+ public:
+  struct Config {
+    double period_s = 0.001;        ///< 100 Hz … 4 kHz
+    double contour_limit_mm = 0.0;  ///< of the machine file
+    double handback_s = 5.0;        ///< the longest way to neutral at the end
+    kernel::machine::Mode mode = kernel::machine::Mode::observe;
+    std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
+    /// The machine has nothing more to do; empty: never.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::function<bool()> finished = {};
+  };
+
+  /// Refused: a period out of range.
+  [[nodiscard]] static kernel::outcome::Result<void> check(const Config& config);
+
+  Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, Config config);
+
+  /// Until a stop is asked for, `most_cycles` have passed or the machine has finished; hands back
+  /// in any case.
+  const LoopFigures& run() noexcept;
+
+  void ask_mode(kernel::machine::Mode mode) noexcept { wanted_.store(mode); }
+  [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
+  void ask_stop() noexcept { stop_.store(true); }
+  /// The newest; of a loop that has not begun, an empty one.
+  [[nodiscard]] const LiveStatus& status() noexcept { return status_.load(); }
+  [[nodiscard]] const LoopFigures& figures() const noexcept { return figures_; }
+
+ private:
+  void cycle() noexcept;
+  void count(const kernel::signal::Command& command) noexcept;
+  void publish(const kernel::signal::Command& command) noexcept;
+  void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
+
+  kernel::port::Port& port_;
+  supervisor::Supervisor& layer_;
+  Pace& pace_;
+  Config config_;
+  std::atomic<kernel::machine::Mode> wanted_;
+  std::atomic<bool> stop_{false};
+  kernel::rt::Snapshot<LiveStatus> status_;
+  LiveStatus now_;
+  LoopFigures figures_;
+};
+
+}  // namespace steadyrest::live

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <steadyrest/live/protocol.hpp>
+#include <steadyrest/live/status_json.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+constexpr int kMostShown = 40;
+
+std::string error(const std::string& what, const std::string& to_do) {
+  return Json({{"version", kProtocol}, {"error", {{"what", what}, {"to_do", to_do}}}})
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Of a client's words, as much as a message needs.
+std::string shown(const Json& value) {
+  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "…";
+}
+
+}  // namespace
+
+std::string answer(Loop& loop, std::string_view port, std::string_view line) {
+  const Json request = Json::parse(line, nullptr, false);
+  if (!request.is_object()) {
+    return error("the line is no JSON object", R"(send {"version":1,"ask":"status"})");
+  }
+  if (request.value("version", Json()) != Json(kProtocol)) {
+    return error(fmt::format("version {} is not spoken here; allowed: {}",
+                             shown(request.value("version", Json())), kProtocol),
+                 "ask in that version");
+  }
+  const Json ask = request.value("ask", Json());
+  if (ask == "status") {
+    Json status = status_json(loop.status());
+    status["mode_wanted"] = word(loop.mode_wanted());  // asked for since the last cycle
+    status["port"] = port;
+    return Json({{"version", kProtocol}, {"status", std::move(status)}}).dump();
+  }
+  if (ask == "mode") {
+    const Json name = request.value("mode", Json());
+    const auto mode = name.is_string() ? mode_of(name.get<std::string>()) : std::nullopt;
+    if (!mode) {
+      return error(
+          fmt::format("the mode {} is not known; allowed: observe, advise, act", shown(name)),
+          "give one of these");
+    }
+    loop.ask_mode(*mode);
+    return Json({{"version", kProtocol}, {"mode_wanted", word(*mode)}}).dump();
+  }
+  return error(fmt::format("{} cannot be asked; allowed: status, mode", shown(ask)),
+               "give one of these as `ask`");
+}
+
+}  // namespace steadyrest::live

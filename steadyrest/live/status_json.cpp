@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/live/status_json.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::machine::Mode;
+using kernel::signal::AxisValues;
+using kernel::units::um_from_mm;
+
+constexpr std::array<std::string_view, 3> kModes = {"observe", "advise", "act"};
+constexpr double kPercent = 100.0;
+constexpr double kUs_s = 1e6;
+constexpr std::array<const char*, 4> kOf = {"feed", "spindle", "offset", "path_offset"};
+
+Json offsets(const AxisValues& mm) {
+  Json out = Json::array();
+  for (const double value : mm) {
+    out.push_back(um_from_mm(value));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view word(Mode mode) noexcept {
+  return kModes[static_cast<std::size_t>(mode)];
+}
+
+std::optional<Mode> mode_of(std::string_view word) noexcept {
+  const auto* const at = std::ranges::find(kModes, word);
+  return at == kModes.end() ? std::nullopt : std::optional(static_cast<Mode>(at - kModes.begin()));
+}
+
+Json status_json(const LiveStatus& status) {
+  Json out;
+  out["mode"] = word(status.mode_in_force);
+  out["mode_wanted"] = word(status.mode_wanted);
+  out["cycles"] = status.cycles;
+  out["overruns"] = status.overruns;
+  out["time_s"] = status.time_s;
+  out["cutting"] = kernel::signal::in_cut(status.motion);
+  out["program_line"] = status.program_line;
+  out["contour_error_um"] =
+      status.error_known ? Json(um_from_mm(status.contour_error_mm)) : Json(nullptr);
+  out["contour_limit_um"] = um_from_mm(status.contour_limit_mm);
+  out["feed_percent"] = kPercent * status.feed_ratio;
+  out["feed_panel_percent"] = kPercent * status.feed_panel_ratio;
+  out["feed_effective_percent"] = kPercent * status.feed_effective_ratio;
+  out["spindle_percent"] = kPercent * status.spindle_ratio;
+  out["spindle_effective_percent"] = kPercent * status.spindle_effective_ratio;
+  out["offset_um"] = offsets(status.offset_mm);
+  out["path_offset_um"] = offsets(status.path_offset_mm);
+  out["reasons"] = Json::array();
+  for (std::size_t i = 0; i < kOf.size(); ++i) {
+    out["reasons"].push_back({{"of", kOf[i]},
+                              {"reason", kernel::outcome::name(status.reasons[i])},
+                              {"sentence", kernel::outcome::sentence(status.reasons[i])}});
+  }
+  out["port_fault"] =
+      status.port_fault ? Json(std::string(status.port_words.data())) : Json(nullptr);
+  return out;
+}
+
+Json figures_json(const LoopFigures& figures) {
+  Json out;
+  out["cycles"] = figures.cycles;
+  out["overruns"] = figures.overruns;
+  out["work_p50_us"] = kUs_s * figures.work.quantile_s(0.5);
+  out["work_p999_us"] = kUs_s * figures.work.quantile_s(0.999);
+  out["lateness_p999_us"] = kUs_s * figures.lateness.quantile_s(0.999);
+  out["over_limit_s"] = figures.over_limit_s;
+  out["port_faults"] = figures.port_faults;
+  out["handed_back"] = figures.handed_back;
+  out["reasons"] = Json::object();
+  const auto all = kernel::outcome::reasons();
+  for (std::size_t i = 0; i < std::min(all.size(), figures.by_reason.size()); ++i) {
+    if (figures.by_reason[i] > 0) {
+      out["reasons"][std::string(all[i].name)] = figures.by_reason[i];
+    }
+  }
+  return out;
+}
+
+}  // namespace steadyrest::live

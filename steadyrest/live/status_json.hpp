@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/live/live_status.hpp>
+#include <steadyrest/live/loop.hpp>
+
+namespace steadyrest::live {
+
+using Json = nlohmann::ordered_json;
+
+[[nodiscard]] std::string_view word(kernel::machine::Mode mode) noexcept;
+/// None for a word that is no mode.
+[[nodiscard]] std::optional<kernel::machine::Mode> mode_of(std::string_view word) noexcept;
+
+/// The keys of `status` (docs/live-protocol.md); µm, percent.
+[[nodiscard]] Json status_json(const LiveStatus& status);
+/// `cycles`, `overruns`, `work_p50_us`, `work_p999_us`, `lateness_p999_us`, `over_limit_s`,
+/// `port_faults`, `handed_back`, `reasons{}` with the cycles of each.
+[[nodiscard]] Json figures_json(const LoopFigures& figures);
+
+}  // namespace steadyrest::live

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/live/control_socket.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string echo(std::string_view line) {
+  return "seen: " + std::string(line);
+}
+
+class OnSocket : public ::testing::Test {
+ protected:
+  kernel::file::testing::OwnFolder folder;
+  std::string path = folder.at("s");
+};
+
+TEST_F(OnSocket, AnswersLinesOfManyClients) {
+  const auto socket = ControlSocket::open(path, echo);
+  ASSERT_TRUE(socket.has_value()) << socket.error().what;
+  std::vector<std::thread> clients;
+  std::vector<int> good(8, 0);
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    clients.emplace_back([&, i] {
+      for (int n = 0; n < 50; ++n) {
+        const std::string line = std::to_string(i) + "/" + std::to_string(n);
+        const auto answer = ask(path, line, 20.0);
+        good[i] += answer && *answer == "seen: " + line ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& client : clients) {
+    client.join();
+  }
+  EXPECT_THAT(good, ::testing::Each(50));
+}
+
+TEST_F(OnSocket, IsItsOwnersAloneAndGoesWithTheLayer) {
+  {
+    const auto socket = ControlSocket::open(path, echo);
+    ASSERT_TRUE(socket.has_value());
+    struct stat file{};
+    ASSERT_EQ(::stat(path.c_str(), &file), 0);
+    EXPECT_EQ(file.st_mode & 0777U, 0600U);
+  }
+  EXPECT_NE(::access(path.c_str(), F_OK), 0);
+}
+
+TEST_F(OnSocket, ASecondLayerIsRefusedAndADeadOnesSocketReplaced) {
+  {
+    const auto first = ControlSocket::open(path, echo);
+    const auto second = ControlSocket::open(path, echo);
+    ASSERT_FALSE(second.has_value());
+    EXPECT_THAT(second.error().what, HasSubstr("another layer answers"));
+    EXPECT_TRUE(ask(path, "still there").has_value());
+  }
+  const int left = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  path.copy(name.sun_path, sizeof name.sun_path - 1);
+  ASSERT_EQ(::bind(left, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+  ::close(left);
+  EXPECT_TRUE(ControlSocket::open(path, echo).has_value());
+}
+
+TEST_F(OnSocket, AFileIsNotReplaced) {
+  std::ofstream(path) << "a file";
+  const auto socket = ControlSocket::open(path, echo);
+  ASSERT_FALSE(socket.has_value());
+  EXPECT_THAT(socket.error().what, HasSubstr("no socket"));
+  EXPECT_FALSE(ControlSocket::open(folder.at("none/s"), echo).has_value());
+  EXPECT_FALSE(ControlSocket::open(std::string(200, 'x'), echo).has_value());
+}
+
+TEST_F(OnSocket, ALineTooLongIsToldSo) {
+  const auto socket = ControlSocket::open(path, echo);
+  const auto answer = ask(path, std::string(3 * kMostLine, 'x'), 20.0);
+  ASSERT_TRUE(answer.has_value()) << answer.error().what;
+  EXPECT_THAT(*answer, HasSubstr("too long"));
+  EXPECT_TRUE(ask(path, std::string(kMostLine - 1, 'x'), 20.0).has_value());
+}
+
+TEST_F(OnSocket, NobodyThereIsUnavailable) {
+  const auto answer = ask(path, "hello");
+  ASSERT_FALSE(answer.has_value());
+  EXPECT_EQ(answer.error().kind, kernel::outcome::Kind::unavailable);
+  EXPECT_THAT(answer.error().to_do, HasSubstr("steadyrest run"));
+}
+
+}  // namespace
+}  // namespace steadyrest::live

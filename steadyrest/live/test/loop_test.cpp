@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/test/desk.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::machine::Mode;
+using kernel::outcome::Reason;
+using kernel::outcome::Result;
+using kernel::signal::Command;
+using kernel::signal::Frame;
+using test::Desk;
+
+/// Passes everything on, counts what is written, and fails when it is told to.
+class Spy final : public kernel::port::Port {
+ public:
+  explicit Spy(kernel::port::Port& inner) : inner_(inner) {}
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override {
+    return inner_.capability();
+  }
+  Result<Frame> read() noexcept override {
+    ++reads;
+    if (at_read) {
+      at_read(reads);
+    }
+    if (lost) {
+      return std::unexpected(kernel::outcome::Refusal{.kind = kernel::outcome::Kind::unavailable,
+                                                      .file = {},
+                                                      .what = "the link is lost",
+                                                      .to_do = "look at the cable"});
+    }
+    return inner_.read();
+  }
+  Result<void> write(const Command& command) noexcept override {
+    ++writes;
+    lowest = std::min(lowest, command.feed_ratio);
+    last = command;
+    return inner_.write(command);
+  }
+  bool lost = false;
+  int reads = 0;
+  int writes = 0;
+  double lowest = 10.0;
+  Command last;
+  std::function<void(int)> at_read;
+
+ private:
+  kernel::port::Port& inner_;
+};
+
+Loop::Config until_finished(const Desk& desk, Mode mode) {
+  return {.period_s = desk.machine.control.interpolator_period_s,
+          .contour_limit_mm = 0.01,
+          .mode = mode,
+          .finished = [&desk] { return desk.port->finished(); }};
+}
+
+TEST(Loop, ObservesWithoutWriting) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop loop(spy, *desk.layer, desk.pace, until_finished(desk, Mode::observe));
+  const LoopFigures figures = loop.run();
+  EXPECT_EQ(spy.writes, 0);
+  EXPECT_EQ(figures.cycles, static_cast<std::uint64_t>(spy.reads));
+  EXPECT_TRUE(figures.handed_back);
+  // (v/k)²/(2·R) = 88 µm on the whole circle: 2π·R/v, and v/a + a/j for its two ends.
+  EXPECT_NEAR(figures.over_limit_s, 0.942 + 0.083, 0.05);
+}
+
+TEST(Loop, ActsAndHandsBack) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop loop(spy, *desk.layer, desk.pace, until_finished(desk, Mode::act));
+  const LoopFigures figures = loop.run();
+  EXPECT_GT(spy.writes, 100);
+  EXPECT_LT(spy.lowest, 0.5);
+  EXPECT_TRUE(figures.handed_back);
+  EXPECT_EQ(desk.layer->mode_in_force(), Mode::observe);
+  EXPECT_FALSE(spy.last.feed_masks_panel);
+  EXPECT_LT(figures.over_limit_s, 0.15);
+}
+
+TEST(Loop, AStopInTheCutGoesToNeutralThroughTheSlew) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop loop(spy, *desk.layer, desk.pace, until_finished(desk, Mode::act));
+  double at_stop = 0.0;
+  double largest_step = 0.0;
+  double before = 1.0;
+  spy.at_read = [&](int reads) {
+    if (reads == 300) {
+      at_stop = spy.last.feed_ratio;
+      loop.ask_stop();
+    }
+    if (reads > 301) {
+      largest_step = std::max(largest_step, spy.last.feed_ratio - before);
+    }
+    before = spy.last.feed_ratio;
+  };
+  const LoopFigures figures = loop.run();
+  EXPECT_LT(at_stop, 0.6);
+  EXPECT_TRUE(figures.handed_back);
+  EXPECT_GT(spy.reads, 303) << "it takes some cycles";
+  EXPECT_LT(largest_step, 0.11) << "a step of the panel's switch at most";
+  EXPECT_FALSE(desk.port->finished());
+}
+
+TEST(Loop, ALostLinkDoesNotEndIt) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.most_cycles = 400;
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  bool shown = false;
+  spy.at_read = [&](int reads) {
+    spy.lost = reads >= 200 && reads < 250;
+    if (reads == 240) {
+      const LiveStatus& status = loop.status();
+      shown = status.port_fault && std::strcmp(status.port_words.data(), "the link is lost") == 0;
+    }
+  };
+  const LoopFigures figures = loop.run();
+  EXPECT_EQ(figures.port_faults, 50U);
+  EXPECT_GE(figures.cycles, 400U);
+  EXPECT_TRUE(shown);
+  EXPECT_FALSE(loop.status().port_fault);
+}
+
+TEST(Loop, GivesUpHandingBackAfterItsTime) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.handback_s = 0.001;
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  spy.at_read = [&](int reads) {
+    if (reads == 300) {
+      loop.ask_stop();
+    }
+  };
+  EXPECT_FALSE(loop.run().handed_back);
+}
+
+TEST(Loop, CountsLatenessWorkOverrunsAndReasons) {
+  Desk desk;
+  desk.pace.wake = {.lateness_s = 2e-4, .missed = 1};
+  desk.pace.work_s = 3e-5;
+  Loop::Config config = until_finished(desk, Mode::observe);
+  config.most_cycles = 50;
+  Loop loop(*desk.port, *desk.layer, desk.pace, config);
+  const LoopFigures figures = loop.run();
+  EXPECT_EQ(figures.cycles, 50U);
+  EXPECT_EQ(figures.overruns, 51U) << "the stop was seen by a wait of its own";
+  EXPECT_NEAR(figures.work.quantile_s(0.5), 3e-5, 2e-6);
+  EXPECT_NEAR(figures.lateness.quantile_s(0.999), 2e-4, 1e-5);
+  std::uint64_t all = 0;
+  for (const std::uint64_t of : figures.by_reason) {
+    all += of;
+  }
+  EXPECT_GE(all, 50U);
+}
+
+TEST(Loop, AllocatesNothingInTheCycle) {
+  Desk desk;
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.most_cycles = 600;
+  Loop loop(*desk.port, *desk.layer, desk.pace, config);
+  const kernel::rt::testing::AllocationGuard guard;
+  loop.run();
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+TEST(Loop, TakesPeriodsFromFourKilohertzToAHundredHertz) {
+  EXPECT_TRUE(Loop::check({.period_s = 0.00025}));
+  EXPECT_TRUE(Loop::check({.period_s = 0.01}));
+  EXPECT_FALSE(Loop::check({.period_s = 0.0002}));
+  EXPECT_FALSE(Loop::check({.period_s = 0.011}));
+  EXPECT_FALSE(Loop::check({.period_s = 0.0}));
+}
+
+}  // namespace
+}  // namespace steadyrest::live

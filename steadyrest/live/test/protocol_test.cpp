@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <steadyrest/live/protocol.hpp>
+#include <steadyrest/live/status_json.hpp>
+#include <steadyrest/live/test/desk.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::machine::Mode;
+using ::testing::HasSubstr;
+
+/// A layer that has observed for 500 cycles: it is in the circle.
+class Protocol : public ::testing::Test {
+ protected:
+  Protocol() { loop.run(); }
+  [[nodiscard]] Json ask(const std::string& line) { return Json::parse(answer(loop, "sim", line)); }
+  test::Desk desk;
+  Loop loop{*desk.port,
+            *desk.layer,
+            desk.pace,
+            {.period_s = 0.004, .contour_limit_mm = 0.01, .most_cycles = 200}};
+};
+
+TEST_F(Protocol, TellsTheStatus) {
+  const Json status = ask(R"({"version":1,"ask":"status"})")["status"];
+  EXPECT_EQ(status["mode"], "observe");
+  EXPECT_EQ(status["port"], "sim");
+  EXPECT_EQ(status["cycles"], 200);
+  EXPECT_EQ(status["cutting"], true);
+  EXPECT_NEAR(status["contour_error_um"].get<double>(), 88.0, 3.0);
+  EXPECT_DOUBLE_EQ(status["contour_limit_um"].get<double>(), 10.0);
+  EXPECT_DOUBLE_EQ(status["feed_percent"].get<double>(), 100.0);
+  EXPECT_EQ(status["reasons"].size(), 4U);
+  EXPECT_TRUE(status["port_fault"].is_null());
+}
+
+TEST_F(Protocol, TakesAMode) {
+  EXPECT_EQ(ask(R"({"version":1,"ask":"mode","mode":"act"})")["mode_wanted"], "act");
+}
+
+TEST_F(Protocol, RefusesWhatItDoesNotSpeak) {
+  const auto what = [&](const std::string& line) {
+    return ask(line)["error"]["what"].get<std::string>();
+  };
+  EXPECT_THAT(what("nonsense"), HasSubstr("no JSON object"));
+  EXPECT_THAT(what("[1]"), HasSubstr("no JSON object"));
+  EXPECT_THAT(what(R"({"ask":"status"})"),
+              HasSubstr("version null is not spoken here; allowed: 1"));
+  EXPECT_THAT(what(R"({"version":2,"ask":"status"})"), HasSubstr("version 2"));
+  EXPECT_THAT(what(R"({"version":1,"ask":"stop"})"), HasSubstr("allowed: status, mode"));
+  EXPECT_THAT(what(R"({"version":1,"ask":"mode","mode":"fast"})"),
+              HasSubstr("allowed: observe, advise, act"));
+  EXPECT_THAT(what(R"({"version":1,"ask":"mode","mode":["act"]})"), HasSubstr("not known"));
+}
+
+TEST_F(Protocol, AnswersAnyBytesWithOneObject) {
+  for (const std::string& line :
+       {std::string("\xff\xfe{\"version\":1}"), std::string(4000, '['),
+        std::string("{\"version\":"),
+        std::string(R"({"version":1,"ask":")") + std::string(3000, 'x') + "\"}",
+        std::string("{\"version\":1,\"ask\":\"\\ud800\"}")}) {
+    const std::string text = answer(loop, "sim", line);
+    EXPECT_TRUE(Json::parse(text).contains("error")) << line.substr(0, 30);
+    EXPECT_LT(text.size(), 400U);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+}
+
+TEST(StatusJson, KnowsItsModes) {
+  for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
+    EXPECT_EQ(mode_of(word(mode)), mode);
+  }
+  EXPECT_FALSE(mode_of("Act"));
+}
+
+}  // namespace
+}  // namespace steadyrest::live
