@@ -14,7 +14,7 @@ packages="
 "
 if [ "${1:-}" = --test ]; then
   packages="$packages
-    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 chromium linuxcnc-uspace
+    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 chromium linuxcnc-uspace linuxcnc-uspace-dev
   "
 fi
 

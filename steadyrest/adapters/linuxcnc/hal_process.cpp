@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <hal.h>
+#include <rtapi.h>
+#include <time.h>
+
+#include <steadyrest/adapters/linuxcnc/hal_process.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr int kSamplerKey = 0x48534130;  ///< SAMPLER_SHMEM_KEY, channel 0
+constexpr std::size_t kLongestName = 30;
+constexpr double kPausesPerPeriod = 10.0;
+
+/// In the HAL's shared memory, where the HAL rewrites the pointers when pins are linked.
+struct SharedPins {
+  hal_float_t* feed;
+  hal_float_t* spindle;
+  std::array<hal_s32_t*, kernel::signal::kMaxAxes> offset;
+  hal_bit_t* heartbeat;
+  hal_bit_t* armed;
+};
+
+std::string types_of(std::size_t channel, std::size_t axes) {
+  return channel == 0 ? std::string(kStateTypes)
+                      : std::string(1 + kAxisColumns * axes_in(channel, axes), 'f');
+}
+
+std::unexpected<Refusal> unavailable(std::string what, std::string to_do) {
+  return std::unexpected(Refusal{
+      .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
+}
+
+}  // namespace
+
+struct HalProcess::Hal {
+  Hal() = default;
+  Hal(const Hal&) = delete;
+  Hal& operator=(const Hal&) = delete;
+  ~Hal() {
+    for (std::size_t c = 0; c < attached; ++c) {
+      hal_stream_detach(&stream[c]);
+    }
+    if (component > 0) {
+      hal_exit(component);
+    }
+  }
+
+  Result<void> attach(std::size_t axes);
+  Result<void> make_pins(const Config& config);
+  Result<void> connect(const Config& config);
+  Result<void> link(const Config& config, const std::string& pin);
+
+  int component = -1;
+  std::size_t attached = 0;
+  std::array<hal_stream_t, kMaxChannels> stream{};
+  std::array<std::array<hal_type_t, kMaxColumns>, kMaxChannels> type{};
+  std::array<std::size_t, kMaxChannels> columns{};
+  SharedPins* pins = nullptr;
+  std::size_t offsets = 0;
+  long pause_ns = 100'000;
+};
+
+Result<void> HalProcess::Hal::attach(std::size_t axes) {
+  for (std::size_t c = 0; c < channels_of(axes); ++c) {
+    const std::string types = types_of(c, axes);
+    const int key = kSamplerKey + static_cast<int>(c);
+    const int code = hal_stream_attach(&stream[c], component, key, types.c_str());
+    if (code < 0) {
+      return unavailable(
+          fmt::format("sampler channel {} with the pins {} is not there ({})", c, types, code),
+          "start LinuxCNC with layer.hal as a HALFILE, for as many axes as the machine file has");
+    }
+    ++attached;
+    columns[c] = types.size();
+    for (std::size_t i = 0; i < types.size(); ++i) {
+      type[c][i] = hal_stream_element_type(&stream[c], static_cast<int>(i));
+    }
+    // What was sampled before this process came is old.
+    std::array<hal_stream_data, kMaxColumns + 1> row{};
+    unsigned number = 0;
+    for (int i = hal_stream_depth(&stream[c]); i > 0; --i) {
+      hal_stream_read(&stream[c], row.data(), &number);
+    }
+  }
+  return {};
+}
+
+Result<void> HalProcess::Hal::make_pins(const Config& config) {
+  pins = static_cast<SharedPins*>(hal_malloc(static_cast<long>(sizeof(SharedPins))));
+  if (pins == nullptr) {
+    return unavailable("the HAL's shared memory is full", "restart LinuxCNC");
+  }
+  offsets = config.offsets_connected ? config.axes : 0;
+  const char* name = config.name.c_str();
+  int code = hal_pin_float_newf(HAL_OUT, &pins->feed, component, "%s.feed", name);
+  code |= hal_pin_float_newf(HAL_OUT, &pins->spindle, component, "%s.spindle", name);
+  code |= hal_pin_bit_newf(HAL_OUT, &pins->heartbeat, component, "%s.heartbeat", name);
+  code |= hal_pin_bit_newf(HAL_OUT, &pins->armed, component, "%s.armed", name);
+  for (std::size_t a = 0; a < offsets; ++a) {
+    code |= hal_pin_s32_newf(HAL_OUT, &pins->offset[a], component, "%s.offset-%d", name,
+                             static_cast<int>(a));
+  }
+  if (code != 0) {
+    return unavailable(fmt::format("the pins of {} cannot be made ({})", name, code),
+                       "give another name of the component");
+  }
+  *pins->feed = 1.0;
+  *pins->spindle = 1.0;
+  *pins->armed = false;
+  return {};
+}
+
+Result<void> HalProcess::Hal::link(const Config& config, const std::string& pin) {
+  if (!config.replaces.empty()) {
+    hal_unlink((config.replaces + "." + pin).c_str());
+  }
+  const std::string signal = "layer-" + pin;
+  if (const int code = hal_link((config.name + "." + pin).c_str(), signal.c_str()); code != 0) {
+    return unavailable(
+        fmt::format("the signal {} is missing or another component drives it ({})", signal, code),
+        "load layer.hal; if an earlier layer was killed, name its component as the one replaced");
+  }
+  return {};
+}
+
+Result<void> HalProcess::Hal::connect(const Config& config) {
+  for (const char* pin : {"feed", "spindle", "heartbeat", "armed"}) {
+    if (auto linked = link(config, pin); !linked) {
+      return linked;
+    }
+  }
+  for (std::size_t a = 0; a < offsets; ++a) {
+    if (auto linked = link(config, fmt::format("offset-{}", a)); !linked) {
+      return linked;
+    }
+  }
+  return {};
+}
+
+HalProcess::HalProcess(std::unique_ptr<Hal> hal) noexcept : hal_(std::move(hal)) {}
+
+HalProcess::~HalProcess() {
+  if (hal_->pins != nullptr) {
+    write_pins(Pins{});
+  }
+}
+
+Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
+  if (config.name.empty() || config.name.size() > kLongestName) {
+    return refuse(fmt::format("component name of {} characters (allowed: 1 to {})",
+                              config.name.size(), kLongestName),
+                  "give a shorter name");
+  }
+  auto hal = std::make_unique<Hal>();
+  hal->component = hal_init(config.name.c_str());
+  if (hal->component < 0) {
+    return unavailable(
+        fmt::format("the HAL does not take the component {} ({})", config.name, hal->component),
+        "run as the user of LinuxCNC; a component that was killed keeps its name until LinuxCNC "
+        "restarts: give another name and name the old one as replaced");
+  }
+  hal->pause_ns = std::lround(config.servo_period_s * 1e9 / kPausesPerPeriod);
+  auto done = hal->attach(config.axes);
+  if (done && config.writes) {
+    done = hal->make_pins(config);
+  }
+  if (done) {
+    hal_ready(hal->component);
+  }
+  if (done && config.writes) {
+    done = hal->connect(config);
+  }
+  if (!done) {
+    return std::unexpected(done.error());
+  }
+  return std::unique_ptr<HalProcess>(new HalProcess(std::move(hal)));
+}
+
+bool HalProcess::read_row(std::size_t channel, Row& row) noexcept {
+  hal_stream_t* stream = &hal_->stream[channel];
+  if (!hal_stream_readable(stream)) {
+    return false;
+  }
+  std::array<hal_stream_data, kMaxColumns + 1> data{};
+  unsigned number = 0;
+  if (hal_stream_read(stream, data.data(), &number) < 0) {
+    return false;
+  }
+  for (std::size_t i = 0; i < hal_->columns[channel]; ++i) {
+    switch (hal_->type[channel][i]) {
+      case HAL_BIT:
+        row[i] = data[i].b ? 1.0 : 0.0;
+        break;
+      case HAL_S32:
+        row[i] = data[i].s;
+        break;
+      case HAL_U32:
+        row[i] = data[i].u;
+        break;
+      default:
+        row[i] = data[i].f;
+        break;
+    }
+  }
+  return true;
+}
+
+std::size_t HalProcess::waiting(std::size_t channel) const noexcept {
+  return static_cast<std::size_t>(std::max(hal_stream_depth(&hal_->stream[channel]), 0));
+}
+
+void HalProcess::write_pins(const Pins& pins) noexcept {
+  if (hal_->pins == nullptr) {
+    return;
+  }
+  *hal_->pins->feed = pins.feed;
+  *hal_->pins->spindle = pins.spindle;
+  for (std::size_t a = 0; a < hal_->offsets; ++a) {
+    *hal_->pins->offset[a] = pins.offset_counts[a];
+  }
+  // After the values: who sees the beat finds them in place.
+  *hal_->pins->armed = pins.armed;
+  *hal_->pins->heartbeat = pins.heartbeat;
+}
+
+void HalProcess::pause() noexcept {
+  const timespec time{.tv_sec = 0, .tv_nsec = hal_->pause_ns};
+  nanosleep(&time, nullptr);
+}
+
+}  // namespace steadyrest::adapters::linuxcnc

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include <steadyrest/adapters/linuxcnc/hal_side.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+
+/// This process as a HAL component beside a LinuxCNC that has loaded layer.hal.
+///
+/// It makes the pins NAME.feed, .spindle, .offset-N, .heartbeat and .armed, connects them to the
+/// signals of layer.hal and attaches to the sampler's channels. Destroyed in good order it disarms
+/// the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
+class HalProcess final : public HalSide {
+ public:
+  struct Config {
+    std::string name = "steadyrest";  ///< of the component; up to 30 characters
+    /// A component that was killed: its pins hold the signals until they are taken from it. Never
+    /// the name of one that lives.
+    std::string replaces;
+    std::size_t axes = 3;
+    double servo_period_s = 0.001;
+    bool offsets_connected = false;  ///< layer.hal has the signals layer-offset-N
+    bool writes = true;              ///< false: no pins, reading only
+  };
+
+  static kernel::outcome::Result<std::unique_ptr<HalProcess>> make(const Config& config);
+  ~HalProcess() override;
+
+  bool read_row(std::size_t channel, Row& row) noexcept override;
+  [[nodiscard]] std::size_t waiting(std::size_t channel) const noexcept override;
+  void write_pins(const Pins& pins) noexcept override;
+  void pause() noexcept override;
+
+ private:
+  struct Hal;
+  explicit HalProcess(std::unique_ptr<Hal> hal) noexcept;
+
+  std::unique_ptr<Hal> hal_;
+};
+
+}  // namespace steadyrest::adapters::linuxcnc

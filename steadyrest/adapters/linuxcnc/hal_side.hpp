@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <steadyrest/adapters/linuxcnc/sample.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+
+/// What the port needs of LinuxCNC's HAL: HalProcess in earnest, a fake in tests.
+class HalSide {
+ public:
+  HalSide() = default;
+  HalSide(const HalSide&) = delete;
+  HalSide& operator=(const HalSide&) = delete;
+  virtual ~HalSide() = default;
+
+  /// Takes the oldest row that waits in a channel; false: none waits.
+  virtual bool read_row(std::size_t channel, Row& row) noexcept = 0;
+  /// Rows that wait in a channel.
+  [[nodiscard]] virtual std::size_t waiting(std::size_t channel) const noexcept = 0;
+  virtual void write_pins(const Pins& pins) noexcept = 0;
+  /// Lets a tenth of a servo period pass.
+  virtual void pause() noexcept = 0;
+};
+
+}  // namespace steadyrest::adapters::linuxcnc

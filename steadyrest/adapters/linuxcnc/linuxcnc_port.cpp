@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string>
+
+#include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using Got = SampleQueue::Got;
+
+constexpr double kPausesPerPeriod = 10.0;
+/// Beats until an armed watchdog must show in the samples, and until a released one has seen it.
+constexpr std::uint32_t kBeatsToShow = 30;
+
+std::unexpected<Refusal> lost(std::string what, std::string to_do) {
+  return std::unexpected(Refusal{
+      .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
+}
+
+std::unexpected<Refusal> why(Got got) {
+  switch (got) {
+    case Got::frozen:
+      return lost("LinuxCNC's cycle counter stands still",
+                  "add layer.tick to the servo thread before the samplers, as layer.hal does");
+    case Got::restarted:
+      return lost("LinuxCNC's cycle counter went back", "start the layer again");
+    case Got::not_a_tick:
+      return lost("LinuxCNC's cycle counter is not a whole number",
+                  "connect layer.tick to pin 0 of each sampler channel, as layer.hal does");
+    default:
+      return lost("no sample came from LinuxCNC's servo thread",
+                  "see whether LinuxCNC runs and sampler.N.enable is 1");
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, HalSide& hal) {
+  const Units& units = config.units;
+  if (!(units.servo_period_s > 0.0 && units.servo_period_s <= 0.1)) {
+    return refuse("servo period unknown (allowed: above 0, up to 0.1 s)",
+                  "give servo_period_ms; it is [EMCMOT] SERVO_PERIOD in the INI file");
+  }
+  if (units.axes < 1 || units.axes > kernel::signal::kMaxAxes) {
+    return refuse("number of axes (allowed: 1 to 8)", "give the joints of [KINS] JOINTS");
+  }
+  if (!(units.linear_unit_mm > 0.0 && std::isfinite(units.linear_unit_mm))) {
+    return refuse("linear unit (allowed: above 0 mm)",
+                  "give 1 for [TRAJ] LINEAR_UNITS = mm, 25.4 for inch");
+  }
+  if (!(units.offset_count_mm > 0.0 && std::isfinite(units.offset_count_mm))) {
+    return refuse("size of an offset count (allowed: above 0 mm)",
+                  "give the value of axis.L.eoffset-scale");
+  }
+  if (!(config.lost_after_s > units.servo_period_s && config.lost_after_s <= 10.0)) {
+    return refuse("time without a sample (allowed: above the servo period, up to 10 s)",
+                  "give about 0.1 s");
+  }
+  return std::unique_ptr<LinuxCncPort>(new LinuxCncPort(config, hal));
+}
+
+kernel::port::Capability LinuxCncPort::capability() const noexcept {
+  return {.feed_override = true,
+          .spindle_override = config_.spindle_connected,
+          .axis_offset = config_.offsets_connected,
+          .path_offset = false,
+          .latched_word = true};
+}
+
+Result<kernel::signal::Frame> LinuxCncPort::read() noexcept {
+  const auto pauses = static_cast<std::size_t>(
+      std::ceil(kPausesPerPeriod * config_.lost_after_s / config_.units.servo_period_s));
+  Got got = queue_.next(hal_, sample_);
+  for (std::size_t i = 0; i < pauses && got == Got::none; ++i) {
+    hal_.pause();
+    got = queue_.next(hal_, sample_);
+  }
+  if (got != Got::sample) {
+    return why(got);
+  }
+  std::size_t waiting = hal_.waiting(0);
+  if (waiting > config_.most_waiting) {
+    // Only what waits now: LinuxCNC goes on writing.
+    for (; waiting > 0 && queue_.next(hal_, sample_) == Got::sample; --waiting) {
+      ++skipped_;
+    }
+    waiting = hal_.waiting(0);
+  }
+  kernel::signal::Frame frame = frame_of(sample_, config_.units);
+  frame.age_s = static_cast<double>(waiting) * config_.units.servo_period_s;
+  return frame;
+}
+
+void LinuxCncPort::arm() noexcept {
+  ++beats_;
+  if (!pins_.armed) {
+    // Let the servo thread see the released state before the next rising edge.
+    if (beats_ > kBeatsToShow / 10) {
+      pins_.armed = true;
+      beats_ = 0;
+    }
+  } else if (!in_force() && beats_ > kBeatsToShow) {
+    pins_.armed = false;
+    beats_ = 0;
+    ++rearmed_;
+  }
+}
+
+Result<void> LinuxCncPort::write(const kernel::signal::Command& command) noexcept {
+  if (!command.write) {
+    return refuse("a command that must not be written", "write in the mode act only");
+  }
+  pins_ = pins_of(command, sample_, config_.units, pins_);
+  if (!config_.offsets_connected) {
+    pins_.offset_counts.fill(0);
+  }
+  pins_.heartbeat = !pins_.heartbeat;
+  arm();
+  hal_.write_pins(pins_);
+  return {};
+}
+
+}  // namespace steadyrest::adapters::linuxcnc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include <steadyrest/adapters/linuxcnc/hal_side.hpp>
+#include <steadyrest/adapters/linuxcnc/sample_queue.hpp>
+#include <steadyrest/adapters/linuxcnc/translate.hpp>
+#include <steadyrest/kernel/port/port.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+
+/// A running LinuxCNC as a machine.
+///
+/// read() hands out the servo cycles in order, each once, and waits for the next when there is
+/// none: it sets the pace of the loop. age_s is the number of cycles that wait behind the frame
+/// times the servo period. More than `most_waiting` are skipped to the newest. write() toggles the
+/// heartbeat. When the watchdog in layer.hal has cut the layer off (a pause of more than 20 ms),
+/// the port arms it again.
+class LinuxCncPort final : public kernel::port::Port {
+ public:
+  struct Config {
+    Units units;
+    bool spindle_connected = true;   ///< layer.hal's factor lies before the drive
+    bool offsets_connected = false;  ///< axis.L.eoffset is switched on ([AXIS_L] OFFSET_AV_RATIO)
+    double lost_after_s = 0.1;       ///< without a sample: the link is lost; > servo period
+    std::size_t most_waiting = 20;   ///< servo cycles
+  };
+
+  static kernel::outcome::Result<std::unique_ptr<LinuxCncPort>> make(const Config& config,
+                                                                     HalSide& hal);
+
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override;
+  kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
+  kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
+
+  /// Servo cycles that the sampler lost because its queue was full.
+  [[nodiscard]] std::uint64_t missed() const noexcept { return queue_.missed(); }
+  /// Servo cycles that were read too late to be handed out.
+  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
+  /// How often the watchdog had to be armed after the first time.
+  [[nodiscard]] std::uint64_t rearmed() const noexcept { return rearmed_; }
+  /// The layer's pins are in force: armed and found alive.
+  [[nodiscard]] bool in_force() const noexcept { return sample_[Column::layer_alive] != 0.0; }
+
+ private:
+  LinuxCncPort(const Config& config, HalSide& hal) noexcept
+      : config_(config), hal_(hal), queue_(config.units.axes) {}
+  void arm() noexcept;
+
+  Config config_;
+  HalSide& hal_;
+  SampleQueue queue_;
+  Sample sample_;
+  Pins pins_;
+  std::uint64_t skipped_ = 0;
+  std::uint64_t rearmed_ = 0;
+  std::uint32_t beats_ = 0;  ///< since the watchdog was armed or released
+};
+
+}  // namespace steadyrest::adapters::linuxcnc

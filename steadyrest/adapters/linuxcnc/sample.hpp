@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <steadyrest/kernel/signal/path.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+
+/// Columns of sampler channel 0, as layer.hal connects them.
+enum class Column : std::uint8_t {
+  tick,  ///< servo cycles since LinuxCNC started
+  motion_type,
+  program_line,
+  path_speed,
+  requested_speed,
+  feed_mm_s,  ///< F × all that scales it
+  spindle_out_rev_s,
+  spindle_in_rev_s,
+  enabled,
+  feed_panel,
+  spindle_panel,
+  rapid_panel,
+  layer_feed,     ///< motion.adaptive-feed in force
+  layer_spindle,  ///< behind the ramp
+  layer_alive,    ///< the watchdog's verdict
+};
+
+/// What the cfg string of the sampler must be for channel 0; u, s, b and f name a pin's type.
+inline constexpr const char* kStateTypes = "fssfffffbfffffb";
+inline constexpr std::size_t kStateColumns = 15;
+
+/// The other channels hold the tick and, for each axis, command, actual position and following
+/// error. A channel takes 20 pins.
+inline constexpr std::size_t kMaxColumns = 20;
+inline constexpr std::size_t kAxisColumns = 3;
+inline constexpr std::size_t kAxesPerChannel = 6;
+inline constexpr std::size_t kMaxChannels = 3;
+
+[[nodiscard]] constexpr std::size_t channels_of(std::size_t axes) noexcept {
+  return 1 + (axes + kAxesPerChannel - 1) / kAxesPerChannel;
+}
+
+/// Axes in a channel, which is 1 or higher.
+[[nodiscard]] constexpr std::size_t axes_in(std::size_t channel, std::size_t axes) noexcept {
+  const std::size_t first = (channel - 1) * kAxesPerChannel;
+  return axes - first < kAxesPerChannel ? axes - first : kAxesPerChannel;
+}
+
+/// One channel's values in one servo cycle; bits are 0 or 1.
+using Row = std::array<double, kMaxColumns>;
+
+/// One servo cycle: the rows of all channels with the same tick, in the control's units.
+struct Sample {
+  std::uint64_t tick = 0;
+  Row state{};
+  struct Axis {
+    double command = 0.0;
+    double actual = 0.0;
+    double following_error = 0.0;
+  };
+  std::array<Axis, kernel::signal::kMaxAxes> axis{};
+
+  [[nodiscard]] double operator[](Column column) const noexcept {
+    return state[static_cast<std::size_t>(column)];
+  }
+  double& operator[](Column column) noexcept { return state[static_cast<std::size_t>(column)]; }
+};
+
+/// What the adapter tells LinuxCNC.
+struct Pins {
+  double feed = 1.0;     ///< factor on the feed, 0 … 1, for motion.adaptive-feed
+  double spindle = 1.0;  ///< factor on the speed between spindle.0.speed-out and the drive
+  std::array<std::int32_t, kernel::signal::kMaxAxes> offset_counts{};
+  bool heartbeat = false;
+  bool armed = false;  ///< the watchdog watches; a rising edge clears an earlier verdict
+};
+
+}  // namespace steadyrest::adapters::linuxcnc

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
+#include <steadyrest/adapters/linuxcnc/test/fake_hal.hpp>
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+namespace {
+
+using kernel::outcome::Kind;
+using kernel::signal::Command;
+using test::cutting;
+using test::FakeHal;
+using testing::HasSubstr;
+
+const LinuxCncPort::Config kMillPort{.units = {.servo_period_s = 0.001}};
+const Command kHalf{.feed_ratio = 0.5, .feed_masks_panel = true, .write = true};
+
+std::unique_ptr<LinuxCncPort> port_on(FakeHal& hal) {
+  return std::move(LinuxCncPort::make(kMillPort, hal).value());
+}
+
+TEST(LinuxCncPort, RefusesAnUnknownServoPeriod) {
+  FakeHal hal;
+  const auto made = LinuxCncPort::make({}, hal);
+  ASSERT_FALSE(made.has_value());
+  EXPECT_EQ(made.error().kind, Kind::bad_input);
+  EXPECT_THAT(made.error().to_do, HasSubstr("SERVO_PERIOD"));
+}
+
+TEST(LinuxCncPort, RefusesFiguresOutOfRange) {
+  FakeHal hal;
+  for (const auto& spoil : {+[](LinuxCncPort::Config& c) { c.units.axes = 0; },
+                            +[](LinuxCncPort::Config& c) { c.units.axes = 9; },
+                            +[](LinuxCncPort::Config& c) { c.units.linear_unit_mm = 0.0; },
+                            +[](LinuxCncPort::Config& c) { c.units.offset_count_mm = -1.0; },
+                            +[](LinuxCncPort::Config& c) { c.lost_after_s = 0.001; }}) {
+    auto config = kMillPort;
+    spoil(config);
+    EXPECT_FALSE(LinuxCncPort::make(config, hal).has_value());
+  }
+}
+
+TEST(LinuxCncPort, HandsOutEachCycleOnceAndSaysHowOldItIs) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  for (std::uint64_t tick = 1; tick <= 5; ++tick) {
+    hal.push(cutting(tick));
+  }
+  for (std::uint64_t tick = 1; tick <= 5; ++tick) {
+    const auto frame = port->read();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->cycle, tick);
+    EXPECT_DOUBLE_EQ(frame->age_s, 0.001 * static_cast<double>(5 - tick));
+  }
+  EXPECT_EQ(hal.pauses, 0U);
+}
+
+TEST(LinuxCncPort, SkipsToTheNewestWhenItIsFarBehind) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  for (std::uint64_t tick = 1; tick <= 100; ++tick) {
+    hal.push(cutting(tick));
+  }
+  const auto frame = port->read();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_EQ(frame->cycle, 100U);
+  EXPECT_EQ(frame->age_s, 0.0);
+  EXPECT_EQ(port->skipped(), 99U);
+  EXPECT_EQ(port->missed(), 0U);
+}
+
+TEST(LinuxCncPort, LosesTheLinkWhenNoSampleComes) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  const auto frame = port->read();
+  ASSERT_FALSE(frame.has_value());
+  EXPECT_EQ(frame.error().kind, Kind::unavailable);
+  EXPECT_EQ(hal.pauses, 1000U);  // 0.1 s in tenths of a period
+}
+
+TEST(LinuxCncPort, SaysWhatIsWrongWithTheCounter) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  hal.push(cutting(7));
+  hal.push(cutting(7));
+  hal.push(cutting(2));
+  EXPECT_TRUE(port->read().has_value());
+  const auto frozen = port->read();
+  ASSERT_FALSE(frozen.has_value());
+  EXPECT_THAT(frozen.error().what, HasSubstr("stands still"));
+  const auto restarted = port->read();
+  ASSERT_FALSE(restarted.has_value());
+  EXPECT_THAT(restarted.error().what, HasSubstr("went back"));
+}
+
+TEST(LinuxCncPort, BeatsWithEveryWriteAndArmsTheWatchdogAfterTheFirstBeats) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  for (std::uint64_t tick = 1; tick <= 10; ++tick) {
+    hal.push(cutting(tick));
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(kHalf).has_value());
+  }
+  EXPECT_FALSE(hal.written.front().armed);
+  EXPECT_TRUE(hal.written.back().armed);
+  for (std::size_t i = 1; i < hal.written.size(); ++i) {
+    EXPECT_NE(hal.written[i].heartbeat, hal.written[i - 1].heartbeat);
+    EXPECT_EQ(hal.written[i].feed, 0.5);
+  }
+  EXPECT_EQ(port->rearmed(), 0U);
+}
+
+TEST(LinuxCncPort, ArmsAWatchdogThatHasCutItOffAgain) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  bool was_released = false;
+  for (std::uint64_t tick = 1; tick <= 100; ++tick) {
+    Sample sample = cutting(tick);
+    sample[Column::layer_alive] = tick < 40 || was_released ? 1.0 : 0.0;
+    hal.push(sample);
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(kHalf).has_value());
+    was_released = was_released || (tick > 40 && !hal.written.back().armed);
+  }
+  EXPECT_TRUE(was_released);
+  EXPECT_TRUE(hal.written.back().armed);
+  EXPECT_TRUE(port->in_force());
+  EXPECT_EQ(port->rearmed(), 1U);
+}
+
+TEST(LinuxCncPort, WritesNothingOutsideTheModeAct) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  EXPECT_FALSE(port->write({.feed_ratio = 0.5, .write = false}).has_value());
+  EXPECT_TRUE(hal.written.empty());
+}
+
+TEST(LinuxCncPort, WritesNoOffsetThatNobodyConnected) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  Command command = kHalf;
+  command.offset_mm[2] = 0.01;
+  hal.push(cutting(1));
+  ASSERT_TRUE(port->read().has_value());
+  ASSERT_TRUE(port->write(command).has_value());
+  EXPECT_FALSE(port->capability().axis_offset);
+  EXPECT_EQ(hal.written.back().offset_counts[2], 0);
+}
+
+TEST(LinuxCncPort, AllocatesNothingInACycle) {
+  FakeHal hal;
+  const auto port = port_on(hal);
+  for (std::uint64_t tick = 1; tick <= 100; ++tick) {
+    hal.push(cutting(tick));
+    const kernel::rt::testing::AllocationGuard guard;
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(kHalf).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::adapters::linuxcnc

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include <steadyrest/adapters/linuxcnc/translate.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+namespace {
+
+using kernel::signal::Frame;
+using kernel::signal::Motion;
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+constexpr double kMostSpindleFactor = 2.0;
+
+/// motion.motion-type. A tap and a thread show as feed: LinuxCNC itself ignores feed overrides
+/// there.
+Motion motion_of(const Sample& sample) noexcept {
+  const double type = sample[Column::motion_type];
+  if (sample[Column::enabled] == 0.0 || !(type >= 1.0 && type <= 6.0)) {
+    return Motion::idle;
+  }
+  switch (static_cast<int>(type)) {
+    case 1:
+      return Motion::rapid;
+    case 2:
+    case 3:
+      return Motion::feed;
+    case 4:
+      return Motion::tool_change;
+    case 5:
+      return Motion::probe;
+    case 6:
+      return Motion::rapid;  // a rotary axis is indexed
+    default:
+      return Motion::idle;
+  }
+}
+
+/// F × scale over F is what is in force, whether or not M52 lets the layer in; without an active
+/// block it is what would be.
+double effective(const Sample& sample, const Units& units, double panel) noexcept {
+  const double requested_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
+  return requested_mm_s > 0.0 ? sample[Column::feed_mm_s] / requested_mm_s
+                              : panel * sample[Column::layer_feed];
+}
+
+std::int32_t counts_of(double offset_mm, double count_mm, std::int32_t before) noexcept {
+  const double counts = std::round(offset_mm / count_mm);
+  if (!std::isfinite(counts)) {
+    return before;
+  }
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(counts, -kMost, kMost));
+}
+
+}  // namespace
+
+Frame frame_of(const Sample& sample, const Units& units) noexcept {
+  Frame frame;
+  frame.time_s = static_cast<double>(sample.tick) * units.servo_period_s;
+  frame.cycle = sample.tick;
+  frame.axis_count = static_cast<std::uint8_t>(units.axes);
+  for (std::size_t a = 0; a < units.axes; ++a) {
+    const double scale = units.rotary[a] ? kDegree_rad : units.linear_unit_mm;
+    frame.axis[a].command_mm = scale * sample.axis[a].command;
+    frame.axis[a].actual_mm = scale * sample.axis[a].actual;
+    frame.axis[a].following_error_mm = scale * sample.axis[a].following_error;
+  }
+  frame.motion = motion_of(sample);
+  const double line = sample[Column::program_line];
+  frame.program_line = line > 0.0 ? static_cast<std::uint32_t>(line) : 0;
+  frame.path_speed_mm_s = sample[Column::path_speed] * units.linear_unit_mm;
+  frame.programmed_feed_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
+
+  const double feed_panel = sample[Column::feed_panel];
+  const double rapid_panel = sample[Column::rapid_panel];
+  const bool rapid = frame.motion == Motion::rapid;
+  const double layer = sample[Column::layer_feed];
+  frame.feed.panel_ratio = feed_panel;
+  frame.feed.effective_ratio = rapid ? feed_panel * layer : effective(sample, units, feed_panel);
+  frame.rapid.panel_ratio = rapid_panel;
+  frame.rapid.effective_ratio = rapid ? effective(sample, units, rapid_panel) : rapid_panel * layer;
+
+  const double spindle_panel = sample[Column::spindle_panel];
+  const double out_rev_s = sample[Column::spindle_out_rev_s];
+  frame.spindle.panel_ratio = spindle_panel;
+  frame.spindle.effective_ratio = spindle_panel * sample[Column::layer_spindle];
+  frame.spindle_programmed_rev_s = spindle_panel > 0.0 ? out_rev_s / spindle_panel : 0.0;
+  frame.spindle_command_rev_s = out_rev_s * sample[Column::layer_spindle];
+  frame.spindle_actual_rev_s = sample[Column::spindle_in_rev_s];
+  return frame;
+}
+
+double feed_factor(double layer_ratio, double panel_ratio) noexcept {
+  if (!std::isfinite(layer_ratio) || !std::isfinite(panel_ratio)) {
+    return 1.0;
+  }
+  const double panel = panel_ratio > 0.0 ? panel_ratio : 1.0;
+  return std::clamp(layer_ratio / panel, 0.0, 1.0);
+}
+
+Pins pins_of(const kernel::signal::Command& command, const Sample& sample, const Units& units,
+             const Pins& before) noexcept {
+  Pins pins = before;
+  pins.feed =
+      command.feed_masks_panel ? feed_factor(command.feed_ratio, sample[Column::feed_panel]) : 1.0;
+  const double spindle = command.spindle_ratio / sample[Column::spindle_panel];
+  pins.spindle = command.spindle_masks_panel && std::isfinite(spindle)
+                     ? std::clamp(spindle, 0.0, kMostSpindleFactor)
+                     : 1.0;
+  for (std::size_t a = 0; a < units.axes; ++a) {
+    pins.offset_counts[a] =
+        counts_of(command.offset_mm[a], units.offset_count_mm, before.offset_counts[a]);
+  }
+  return pins;
+}
+
+}  // namespace steadyrest::adapters::linuxcnc
