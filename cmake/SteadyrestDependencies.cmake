@@ -8,6 +8,7 @@ find_package(Boost REQUIRED)  # headers only
 find_package(GTest REQUIRED)
 find_package(TBB REQUIRED CONFIG)
 find_package(ZLIB REQUIRED)
+find_package(SQLite3 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(libsodium REQUIRED IMPORTED_TARGET libsodium)

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/rt/ring.hpp>
+#include <steadyrest/record/chunk_store.hpp>
+#include <steadyrest/record/record_writer.hpp>
+#include <steadyrest/record/run_folder.hpp>
+
+namespace steadyrest::record {
+namespace {
+
+using kernel::outcome::Refusal;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using kernel::signal::Command;
+using kernel::signal::Frame;
+using kernel::signal::PathView;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kEventRing = 256;
+constexpr std::size_t kMostInChunk = 4096;
+constexpr auto kRotateEvery = std::chrono::minutes(1);
+
+struct RawEvent {
+  std::uint64_t before = 0;
+  double time_s = 0.0;
+  EventKind kind = EventKind::note;
+  std::uint8_t length = 0;
+  std::array<char, RecordWriter::kEventText> text{};
+};
+
+}  // namespace
+
+/// What the control cycle touches.
+struct RecordWriter::Cycle {
+  kernel::rt::Ring<Sample, kRing> samples;
+  kernel::rt::Ring<PathPiece, 1024> pieces;
+  kernel::rt::Ring<RawEvent, kEventRing> events;
+  std::atomic<std::uint64_t> dropped{0};
+  std::atomic<bool> failed{false};
+
+  Sample next;
+  std::uint64_t number = 0;
+  double time_s = 0.0;
+  PathView path;  ///< compared, never read after its frame
+  PathPiece piece;
+  std::uint64_t sent = 0;  ///< segments of the path
+
+  void drop() noexcept { dropped.fetch_add(1, std::memory_order_relaxed); }
+};
+
+/// The writer's thread: from the rings to the file.
+class RecordWriter::Thread {
+ public:
+  Thread(const Config& config, Cycle& cycle, std::unique_ptr<ChunkStore> store)
+      : config_(config), cycle_(cycle), store_(std::move(store)), thread_([this] { work(); }) {}
+  Thread(const Thread&) = delete;
+  Thread& operator=(const Thread&) = delete;
+  ~Thread() {
+    {
+      const std::scoped_lock lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+  }
+
+  void flush() {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t wanted = ++flushes_wanted_;
+    wake_.notify_all();
+    flushed_.wait(lock, [&] { return flushes_done_ >= wanted; });
+  }
+
+  [[nodiscard]] std::optional<Refusal> fault() const {
+    const std::scoped_lock lock(mutex_);
+    return fault_;
+  }
+
+ private:
+  void work() {
+    auto committed = Clock::now();
+    auto rotated = committed;
+    for (bool stop = false; !stop;) {
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, std::chrono::duration<double>(config_.drain_s),
+                     [&] { return stop_ || flushes_wanted_ > flushes_done_; });
+      const std::uint64_t flushes = flushes_wanted_;
+      const bool asked = stop_ || flushes > flushes_done_;
+      stop = stop_;
+      lock.unlock();
+      drain();
+      const auto now = Clock::now();
+      if (cycle_.failed) {
+        // Nothing more can be written; the rings are still emptied.
+      } else if (stop) {
+        keep(store_->close(cycle_.dropped.load()));
+      } else if (asked || now - committed >= std::chrono::duration<double>(config_.commit_s)) {
+        keep(store_->commit(cycle_.dropped.load()));
+        committed = now;
+      }
+      if (config_.max_bytes > 0 && now - rotated >= kRotateEvery) {
+        rotate(config_.file, config_.max_bytes);
+        rotated = now;
+      }
+      lock.lock();
+      flushes_done_ = flushes;
+      flushed_.notify_all();
+    }
+  }
+
+  // Bounded by what one pass may find: a producer as fast as this thread must not keep it here.
+  void drain() {
+    for (std::size_t i = 0; i < kRing; ++i) {
+      auto sample = cycle_.samples.try_pop();
+      if (!sample) {
+        break;
+      }
+      if (!cycle_.failed) {
+        store_->add(*sample);
+      }
+      if (!cycle_.failed && store_->waiting() >= kMostInChunk) {
+        keep(store_->commit(cycle_.dropped.load()));
+      }
+    }
+    for (std::size_t i = 0; i < cycle_.pieces.capacity(); ++i) {
+      auto piece = cycle_.pieces.try_pop();
+      if (!piece) {
+        break;
+      }
+      if (!cycle_.failed) {
+        store_->add(*piece);
+      }
+    }
+    for (std::size_t i = 0; i < kEventRing; ++i) {
+      auto raw = cycle_.events.try_pop();
+      if (!raw) {
+        break;
+      }
+      if (!cycle_.failed) {
+        store_->add({raw->before, raw->time_s, raw->kind, {raw->text.data(), raw->length}});
+      }
+    }
+  }
+
+  /// The first failure ends the record.
+  void keep(Result<void> written) {
+    if (!written && !cycle_.failed) {
+      const std::scoped_lock lock(mutex_);
+      fault_ = std::move(written.error());
+      cycle_.failed = true;
+    }
+  }
+
+  const Config config_;
+  Cycle& cycle_;
+  std::unique_ptr<ChunkStore> store_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::condition_variable flushed_;
+  std::optional<Refusal> fault_;
+  std::uint64_t flushes_wanted_ = 0;
+  std::uint64_t flushes_done_ = 0;
+  bool stop_ = false;
+  std::thread thread_;  ///< last: it uses all the others
+};
+
+Result<std::unique_ptr<RecordWriter>> RecordWriter::make(const Config& config) {
+  if (!(config.commit_s >= 0.1 && config.commit_s <= 3600.0) ||
+      !(config.drain_s >= 0.001 && config.drain_s <= 3600.0)) {
+    return refuse("commit_s or drain_s is out of range",
+                  "give commit_s from 0.1 to 3600 and drain_s from 0.001 to 3600");
+  }
+  Config whole = config;
+  whole.info.version = STEADYREST_VERSION;
+  if (whole.info.start_utc.empty()) {
+    whole.info.start_utc = utc_now();
+  }
+  auto store = ChunkStore::create(config.file, whole.info);
+  if (!store) {
+    return std::unexpected(std::move(store.error()));
+  }
+  if (config.max_bytes > 0) {
+    rotate(config.file, config.max_bytes);
+  }
+  std::unique_ptr<RecordWriter> writer(new RecordWriter);
+  writer->thread_ = std::make_unique<Thread>(whole, *writer->cycle_, std::move(*store));
+  return writer;
+}
+
+RecordWriter::RecordWriter() : cycle_(std::make_unique<Cycle>()) {}
+
+RecordWriter::~RecordWriter() = default;
+
+void RecordWriter::send_path(PathView path) noexcept {
+  Cycle& cycle = *cycle_;
+  if (path.data() != cycle.path.data() || path.size() != cycle.path.size()) {
+    cycle.path = path;
+    cycle.sent = 0;
+    cycle.piece.path += path.empty() ? 0 : 1;
+    cycle.piece.segments = path.size();
+  }
+  for (std::size_t i = 0; i < kSegmentsPerCycle && cycle.sent < path.size(); ++i) {
+    cycle.piece.index = cycle.sent;
+    cycle.piece.segment = path[cycle.sent];
+    if (!cycle.pieces.try_push(cycle.piece)) {
+      return;  // the next cycle goes on from here
+    }
+    ++cycle.sent;
+  }
+}
+
+void RecordWriter::add(const Frame& frame, const Command& command) noexcept {
+  Cycle& cycle = *cycle_;
+  send_path(frame.path);
+  Sample& next = cycle.next;
+  next.number = cycle.number++;
+  cycle.time_s = frame.time_s;
+  if (cycle.failed.load(std::memory_order_relaxed) || frame.vibration.size() > kMaxVibration) {
+    cycle.drop();
+    return;
+  }
+  next.frame = frame;
+  next.frame.path = {};
+  next.frame.vibration = {};
+  next.command = command;
+  next.path = frame.path.empty() ? 0 : cycle.piece.path;
+  next.vibrations = static_cast<std::uint32_t>(frame.vibration.size());
+  std::ranges::copy(frame.vibration, next.vibration.begin());
+  if (!cycle.samples.try_push(next)) {
+    cycle.drop();
+  }
+}
+
+void RecordWriter::event(EventKind kind, std::string_view text) noexcept {
+  RawEvent raw{.before = cycle_->number, .time_s = cycle_->time_s, .kind = kind};
+  raw.length = static_cast<std::uint8_t>(std::min(text.size(), kEventText));
+  std::copy_n(text.begin(), raw.length, raw.text.begin());
+  if (cycle_->failed.load(std::memory_order_relaxed) || !cycle_->events.try_push(raw)) {
+    cycle_->drop();
+  }
+}
+
+std::uint64_t RecordWriter::dropped() const noexcept {
+  return cycle_->dropped.load(std::memory_order_relaxed);
+}
+
+bool RecordWriter::failed() const noexcept {
+  return cycle_->failed.load(std::memory_order_relaxed);
+}
+
+void RecordWriter::flush() {
+  thread_->flush();
+}
+
+std::optional<Refusal> RecordWriter::fault() const {
+  return thread_->fault();
+}
+
+}  // namespace steadyrest::record

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/record/run_folder.hpp>
+
+namespace steadyrest::record {
+namespace {
+
+namespace fs = std::filesystem;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr const char* kBeside[] = {"-wal", "-shm", "-journal"};
+
+std::uint64_t size_of(const fs::path& file) {
+  std::error_code error;
+  const auto bytes = fs::file_size(file, error);
+  return error ? 0 : bytes;
+}
+
+/// `#` is a digit.
+bool is_run_name(std::string_view name) {
+  constexpr std::string_view kForm = "run-########T######Z.sqlite";
+  return std::ranges::equal(name, kForm, [](char c, char form) {
+    return form == '#' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
+  });
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  const std::size_t length = std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return {text, length};
+}
+
+std::string run_name(const std::string& utc) {
+  std::string name = "run-";
+  std::ranges::copy_if(utc, std::back_inserter(name), [](char c) { return c != '-' && c != ':'; });
+  return name + ".sqlite";
+}
+
+Result<std::vector<RunFile>> run_files(const std::string& folder) {
+  std::error_code error;
+  fs::directory_iterator entries(folder, error);
+  if (error) {
+    return refuse(folder, "is no folder that can be read: " + error.message(),
+                  "name the folder of the records");
+  }
+  std::vector<RunFile> files;
+  for (const fs::directory_iterator end; entries != end && !error; entries.increment(error)) {
+    const fs::path& path = entries->path();
+    if (path.extension() != ".sqlite") {
+      continue;
+    }
+    RunFile file{.file = path.string(),
+                 .bytes = size_of(path),
+                 .rotates = is_run_name(path.filename().string())};
+    for (const char* const beside : kBeside) {
+      file.bytes += size_of(path.string() + beside);
+    }
+    files.push_back(std::move(file));
+  }
+  std::ranges::sort(files, {}, &RunFile::file);
+  return files;
+}
+
+void rotate(const std::string& current, std::uint64_t max_bytes) {
+  const fs::path folder = fs::path(current).parent_path();
+  const auto files = run_files(folder.empty() ? "." : folder.string());
+  if (!files) {
+    return;
+  }
+  std::uint64_t bytes = 0;
+  for (const RunFile& file : *files) {
+    bytes += file.bytes;
+  }
+  for (const RunFile& file : *files) {
+    std::error_code error;
+    if (bytes <= max_bytes) {
+      return;
+    }
+    if (!file.rotates || fs::equivalent(file.file, current, error) ||
+        !fs::remove(file.file, error)) {
+      continue;
+    }
+    for (const char* const beside : kBeside) {
+      fs::remove(file.file + beside, error);
+    }
+    bytes -= file.bytes;
+  }
+}
+
+}  // namespace steadyrest::record

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace steadyrest::record {
+
+/// `STRY` in the file's head, so that `file` and we know a record from any other database.
+inline constexpr std::int64_t kApplication = 0x53545259;
+/// Raised by every change to the tables or columns.
+inline constexpr std::int64_t kFormat = 1;
+
+/// README.md explains the tables.
+inline constexpr const char* kSchema = R"(
+PRAGMA application_id = 1398035033;
+PRAGMA user_version = 1;
+PRAGMA journal_mode = WAL;
+PRAGMA synchronous = NORMAL;
+CREATE TABLE run (
+  start_utc TEXT NOT NULL, version TEXT NOT NULL, machine TEXT NOT NULL,
+  machine_text TEXT NOT NULL, program TEXT NOT NULL, program_text TEXT NOT NULL,
+  cycle_s REAL NOT NULL, capability INTEGER NOT NULL);
+CREATE TABLE totals (samples INTEGER NOT NULL, dropped INTEGER NOT NULL, closed INTEGER NOT NULL);
+INSERT INTO totals VALUES (0, 0, 0);
+CREATE TABLE chunk (
+  chunk INTEGER PRIMARY KEY, first_cycle INTEGER NOT NULL, samples INTEGER NOT NULL);
+CREATE TABLE chunk_column (
+  chunk INTEGER NOT NULL, name TEXT NOT NULL, data BLOB NOT NULL,
+  PRIMARY KEY (chunk, name)) WITHOUT ROWID;
+CREATE TABLE path (path INTEGER PRIMARY KEY, segments INTEGER NOT NULL);
+CREATE TABLE path_part (
+  path INTEGER NOT NULL, first INTEGER NOT NULL, segments INTEGER NOT NULL, data BLOB NOT NULL,
+  PRIMARY KEY (path, first));
+CREATE TABLE event (
+  event INTEGER PRIMARY KEY, before INTEGER NOT NULL, time_s REAL, kind INTEGER NOT NULL,
+  text TEXT NOT NULL);
+)";
+
+}  // namespace steadyrest::record

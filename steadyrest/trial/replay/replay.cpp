@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+#include <steadyrest/record/columns.hpp>
+#include <steadyrest/record/replay_port.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/trial/replay/replay.hpp>
+
+namespace steadyrest::trial::replay {
+namespace {
+
+using kernel::machine::Mode;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using kernel::signal::Command;
+using record::ReplayPort;
+
+constexpr std::uint64_t kCyclesBetweenProgress = 4096;
+
+std::vector<std::string> differing_fields(Command one, Command other) {
+  std::vector<std::uint64_t> bits;
+  auto keep = [&bits](const record::ColumnName&, auto& value) {
+    bits.push_back(record::to_bits(value));
+  };
+  record::command_columns(one, keep);
+  std::vector<std::string> fields;
+  std::size_t at = 0;
+  auto compare = [&](const record::ColumnName& name, auto& value) {
+    if (record::to_bits(value) != bits[at++]) {
+      fields.push_back(name.text());
+    }
+  };
+  record::command_columns(other, compare);
+  return fields;
+}
+
+std::optional<Mode> mode_of(const std::string& text) {
+  for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
+    if (passport::word(mode) == text) {
+      return mode;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The modes that were set before this cycle; refuses a word that is none.
+Result<void> set_modes(const std::string& file, ReplayPort& port, supervisor::Supervisor& layer) {
+  while (const auto text = port.mode_due()) {
+    const auto mode = mode_of(*text);
+    if (!mode) {
+      return refuse(file, "sets an unknown mode: " + *text,
+                    "use the version of Steadyrest that recorded it");
+    }
+    layer.set_mode(*mode);
+  }
+  return {};
+}
+
+void compare(const record::Sample& sample, const Command& decided, Replayed& replayed) {
+  ++replayed.cycles;
+  auto fields = differing_fields(sample.command, decided);
+  if (fields.empty()) {
+    return;
+  }
+  ++replayed.different;
+  if (!replayed.first_difference) {
+    replayed.first_difference = Difference{.cycle = sample.frame.cycle,
+                                           .time_s = sample.frame.time_s,
+                                           .line = sample.frame.program_line,
+                                           .fields = std::move(fields),
+                                           .recorded = sample.command,
+                                           .decided = decided};
+  }
+}
+
+/// A port that keeps what it was told to write: a cycle whose command is not taken gives none.
+class Watched final : public kernel::port::Port {
+ public:
+  explicit Watched(ReplayPort& port) : port_(port) {}
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override {
+    return port_.capability();
+  }
+  Result<kernel::signal::Frame> read() noexcept override {
+    refused_.reset();
+    return port_.read();
+  }
+  Result<void> write(const Command& command) noexcept override {
+    auto written = port_.write(command);
+    if (!written) {
+      refused_ = command;
+    }
+    return written;
+  }
+  [[nodiscard]] const std::optional<Command>& refused() const noexcept { return refused_; }
+
+ private:
+  ReplayPort& port_;
+  std::optional<Command> refused_;
+};
+
+}  // namespace
+
+Result<Replayed> replay(const std::string& file, const kernel::machine::Machine& machine,
+                        const std::function<void(double share)>& progress) {
+  auto opened = ReplayPort::open(file);
+  if (!opened) {
+    return std::unexpected(std::move(opened.error()));
+  }
+  ReplayPort& port = **opened;
+  auto layer = supervisor::Supervisor::make(machine, port.capability());
+  if (!layer) {
+    return std::unexpected(std::move(layer.error()));
+  }
+  Watched watched(port);
+  Replayed replayed;
+  replayed.paths_complete = port.reader().paths_complete();
+  const auto samples =
+      static_cast<double>(std::max<std::uint64_t>(1, port.reader().totals().samples));
+  std::uint64_t expected = 0;
+  while (true) {
+    if (auto set = set_modes(file, port, *layer); !set) {
+      return std::unexpected(std::move(set.error()));
+    }
+    if (port.finished()) {
+      break;
+    }
+    if (const auto next = port.next_number(); next && *next != expected) {
+      replayed.gap_after = port.sample().frame.cycle;
+      break;
+    }
+    const auto decided = layer->cycle(watched, {});
+    if (!decided && !watched.refused()) {
+      continue;  // a cycle without a frame, as it was
+    }
+    ++expected;
+    compare(port.sample(), decided ? *decided : *watched.refused(), replayed);
+    if (replayed.cycles % kCyclesBetweenProgress == 0) {
+      progress(static_cast<double>(replayed.cycles) / samples);
+    }
+  }
+  if (port.fault()) {
+    return std::unexpected(*port.fault());
+  }
+  return replayed;
+}
+
+}  // namespace steadyrest::trial::replay

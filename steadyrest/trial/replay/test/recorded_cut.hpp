@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/record/record_writer.hpp>
+#include <steadyrest/record/recording_port.hpp>
+#include <steadyrest/sim/simulated_machine.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/trial/test/examples.hpp>
+
+namespace steadyrest::trial::replay::test {
+
+struct RecordedCut {
+  std::uint64_t cycles = 0;
+  std::uint64_t reduced = 0;  ///< cycles in which the layer took feed away
+};
+
+/// Cuts the example circle with the layer acting, and records it. `lose_at`: the cycle that the
+/// record loses; 0: none.
+inline RecordedCut record_cut(const std::string& file, const kernel::machine::Machine& machine,
+                              std::uint64_t most_cycles, std::uint64_t lose_at = 0) {
+  nc::interpret::Config config;
+  config.dialect = nc::read::Dialect::sinumerik;
+  nc::plan::PathBuilder builder(machine);
+  EXPECT_TRUE(
+      nc::interpret::run_file(trial::test::kExamples + "programs/circle-r10.mpf", config, builder));
+  const auto simulated =
+      sim::SimulatedMachine::make(
+          {.machine = machine,
+           .path = std::make_shared<const nc::plan::PlannedPath>(builder.take().value())})
+          .value();
+  const auto writer =
+      record::RecordWriter::make({.file = file,
+                                  .info = {.machine = machine.name,
+                                           .program = "circle-r10.mpf",
+                                           .cycle_s = machine.control.interpolator_period_s,
+                                           .capability = simulated->capability()}})
+          .value();
+  auto layer = supervisor::Supervisor::make(machine, simulated->capability()).value();
+  layer.set_mode(kernel::machine::Mode::act);
+  writer->event(record::EventKind::mode, "act");
+  record::RecordingPort port(*simulated, *writer);
+  RecordedCut cut;
+  while (!simulated->finished() && cut.cycles < most_cycles) {
+    const auto command = layer.cycle(port, {}).value();
+    if (++cut.cycles == lose_at) {
+      kernel::signal::Frame lost;
+      const std::vector<double> too_many(record::kMaxVibration + 1);
+      lost.vibration = too_many;
+      writer->add(lost, command);
+    } else {
+      port.record(command);
+    }
+    cut.reduced += command.feed_ratio < 1.0 ? 1 : 0;
+    // The simulation is faster than any machine; the ring is made for a real one.
+    if (cut.cycles % 1000 == 0) {
+      writer->flush();
+    }
+  }
+  EXPECT_EQ(writer->dropped(), lose_at > 0 ? 1U : 0U);
+  return cut;
+}
+
+}  // namespace steadyrest::trial::replay::test

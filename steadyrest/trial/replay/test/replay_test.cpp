@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include <steadyrest/trial/replay/replay.hpp>
+#include <steadyrest/trial/replay/test/recorded_cut.hpp>
+
+namespace steadyrest::trial::replay {
+namespace {
+
+using kernel::machine::Machine;
+
+class Replay : public testing::Test {
+ protected:
+  Replay() { std::filesystem::remove(file_); }
+  ~Replay() override { std::filesystem::remove(file_); }
+
+  const std::string file_ = testing::TempDir() + "replay-" +
+                            testing::UnitTest::GetInstance()->current_test_info()->name() +
+                            ".sqlite";
+};
+
+constexpr std::uint64_t kAll = 1'000'000;
+
+TEST_F(Replay, TheSameMachineDecidesTheSameBitForBit) {
+  for (const char* const name : {"ideal-k50.toml", "vmc-840d.toml"}) {
+    std::filesystem::remove(file_);
+    const Machine machine = trial::test::machine_of(name);
+    const auto cut = test::record_cut(file_, machine, kAll);
+    EXPECT_GT(cut.reduced, 1000U);
+    const auto replayed = replay(file_, machine).value();
+    EXPECT_EQ(replayed.cycles, cut.cycles);
+    EXPECT_EQ(replayed.different, 0U);
+    EXPECT_FALSE(replayed.first_difference);
+    EXPECT_FALSE(replayed.gap_after);
+    EXPECT_TRUE(replayed.paths_complete);
+  }
+}
+
+TEST_F(Replay, AnotherLimitNamesTheFirstCycleThatIsDecidedOtherwise) {
+  Machine machine = trial::test::machine_of("vmc-840d.toml");
+  const auto cut = test::record_cut(file_, machine, kAll);
+  machine.contour.limit_mm *= 2.0;
+  const auto replayed = replay(file_, machine).value();
+  EXPECT_EQ(replayed.cycles, cut.cycles);
+  ASSERT_TRUE(replayed.first_difference);
+  EXPECT_GT(replayed.first_difference->cycle, 1U);
+  EXPECT_LT(replayed.first_difference->cycle, cut.cycles);
+  EXPECT_THAT(replayed.first_difference->fields,
+              testing::Contains(testing::StartsWith("command.feed")));
+  EXPECT_GT(replayed.different, 0U);
+}
+
+TEST_F(Replay, EndsBeforeALostSample) {
+  const Machine machine = trial::test::machine_of("ideal-k50.toml");
+  test::record_cut(file_, machine, 300, 200);
+  const auto replayed = replay(file_, machine).value();
+  EXPECT_EQ(replayed.cycles, 199U);
+  EXPECT_EQ(replayed.different, 0U);
+  EXPECT_TRUE(replayed.gap_after);
+}
+
+TEST_F(Replay, RefusesWhatIsNoRecord) {
+  EXPECT_FALSE(replay(file_, trial::test::machine_of("ideal-k50.toml")));
+}
+
+}  // namespace
+}  // namespace steadyrest::trial::replay
