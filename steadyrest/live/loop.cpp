@@ -40,36 +40,55 @@ Result<void> Loop::check(const Config& config) {
 }
 
 Loop::Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, Config config)
-    : port_(port), layer_(layer), pace_(pace), config_(std::move(config)), wanted_(config_.mode) {
+    : port_(port, pace),
+      layer_(layer),
+      pace_(pace),
+      config_(std::move(config)),
+      wanted_(config_.mode) {
   figures_.by_reason.assign(kernel::outcome::reasons().size(), 0);
   now_.contour_limit_mm = config_.contour_limit_mm;
 }
 
 const LoopFigures& Loop::run() noexcept {
-  double stopped_s = -1.0;
   for (;;) {
-    const Pace::Wake wake = pace_.wait();
-    const double begin_s = pace_.now_s();
-    figures_.overruns += wake.missed;
-    figures_.lateness.add(wake.lateness_s);
-    const bool stops = stop_.load() ||
-                       (config_.most_cycles > 0 && figures_.cycles >= config_.most_cycles) ||
-                       (config_.finished && config_.finished());
-    if (stops && stopped_s < 0.0) {
-      stopped_s = begin_s;
+    Pace::Wake wake;
+    if (!config_.port_paces) {
+      wake = pace_.wait();
     }
-    layer_.set_mode(stops ? Mode::observe : wanted_.load());
-    if (stops && layer_.mode_in_force() != Mode::act) {
-      break;
-    }
-    if (stops && begin_s - stopped_s > config_.handback_s) {
-      figures_.handed_back = false;
-      break;
+    if (!goes_on(pace_.now_s())) {
+      return figures_;
     }
     cycle();
-    figures_.work.add(pace_.now_s() - begin_s);
+    const double work_s = pace_.now_s() - port_.read_s;
+    figures_.work.add(work_s);
+    figures_.lateness.add(config_.port_paces ? port_.age_s : wake.lateness_s);
+    figures_.overruns +=
+        config_.port_paces ? static_cast<std::uint64_t>(work_s > config_.period_s) : wake.missed;
   }
-  return figures_;
+}
+
+/// Sets the mode of the next cycle; false once there is none.
+bool Loop::goes_on(double now_s) noexcept {
+  const bool stops = stop_.load() ||
+                     (config_.most_cycles > 0 && figures_.cycles >= config_.most_cycles) ||
+                     (config_.finished && config_.finished());
+  if (stops && stopped_s_ < 0.0) {
+    stopped_s_ = now_s;
+  }
+  const Mode mode = stops ? Mode::observe : wanted_.load();
+  if (stops && layer_.mode_in_force() != Mode::act) {
+    return false;
+  }
+  if (stops && now_s - stopped_s_ > config_.handback_s) {
+    figures_.handed_back = false;
+    return false;
+  }
+  layer_.set_mode(mode);
+  if (config_.on_mode && told_ != mode) {
+    config_.on_mode(mode);
+    told_ = mode;
+  }
+  return true;
 }
 
 void Loop::cycle() noexcept {
@@ -77,6 +96,9 @@ void Loop::cycle() noexcept {
   ++figures_.cycles;
   now_.port_fault = !command;
   if (command) {
+    if (config_.on_command) {
+      config_.on_command(*command);
+    }
     count(*command);
     publish(*command);
   } else {

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <optional>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -45,8 +45,14 @@ class Loop {
     kernel::machine::Mode mode = kernel::machine::Mode::observe;
     std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
     /// The machine has nothing more to do; empty: never.
-    // NOLINTNEXTLINE(readability-redundant-member-init)
+    // NOLINTBEGIN(readability-redundant-member-init)
     std::function<bool()> finished = {};
+    /// read() waits for the next frame: the port sets the pace.
+    bool port_paces = false;
+    /// For a record, in the cycle: the mode wanted from here on, and each cycle's command.
+    std::function<void(kernel::machine::Mode)> on_mode = {};
+    std::function<void(const kernel::signal::Command&)> on_command = {};
+    // NOLINTEND(readability-redundant-member-init)
   };
 
   /// Refused: a period out of range.
@@ -66,17 +72,44 @@ class Loop {
   [[nodiscard]] const LoopFigures& figures() const noexcept { return figures_; }
 
  private:
+  /// Passes everything on and notes when the frame was there.
+  class Watched final : public kernel::port::Port {
+   public:
+    Watched(kernel::port::Port& port, const Pace& pace) noexcept : port_(port), pace_(pace) {}
+    [[nodiscard]] kernel::port::Capability capability() const noexcept override {
+      return port_.capability();
+    }
+    kernel::outcome::Result<kernel::signal::Frame> read() noexcept override {
+      auto frame = port_.read();
+      read_s = pace_.now_s();
+      age_s = frame ? frame->age_s : 0.0;
+      return frame;
+    }
+    kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override {
+      return port_.write(command);
+    }
+    double read_s = 0.0;
+    double age_s = 0.0;
+
+   private:
+    kernel::port::Port& port_;
+    const Pace& pace_;
+  };
+
+  [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
   void publish(const kernel::signal::Command& command) noexcept;
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
 
-  kernel::port::Port& port_;
+  Watched port_;
   supervisor::Supervisor& layer_;
   Pace& pace_;
   Config config_;
   std::atomic<kernel::machine::Mode> wanted_;
   std::atomic<bool> stop_{false};
+  double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
+  std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;
   LoopFigures figures_;

@@ -13,8 +13,10 @@ namespace steadyrest::apps::cli::live {
 
 /// A machine that the layer can run on.
 struct LivePort {
+  std::shared_ptr<void> beside;  ///< what the port needs, as long as it lives
   std::unique_ptr<kernel::port::Port> port;
   double period_s = 0.001;
+  bool paces = false;              ///< read() waits for the control's next sample
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never
 };
 
