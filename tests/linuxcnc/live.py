@@ -3,7 +3,7 @@
 """Lets probes read and correct the LinuxCNC that is up while it cuts circles. GPL-2.0+ modules are imported, not linked.
 
 live.py PROGRAM LOG: beside LOG come the frames of each probe (read, hold, half, …) and what the probes said (.said).
-LOG: one line for each servo period: number, tick, path speed, layer in force, heartbeat, watchdog.
+LOG: one line for each servo period: number, tick, path speed, layer in force, heartbeat, watchdog, commanded z.
 """
 import os
 import signal
@@ -69,7 +69,8 @@ def main():
     stalled.send_signal(signal.SIGCONT)
     stalled.wait()
     time.sleep(0.3)
-    killed = probe("killed", "--frames", "100000", "--ratio", "0.2", "--name", "killed")
+    killed = probe("killed", "--frames", "100000", "--ratio", "0.2", "--name", "killed", "--offset-z-mm", "0.05",
+                   "--path-offset-z-mm", "0.2")
     time.sleep(1.0)
     killed.send_signal(signal.SIGKILL)
     killed.wait()

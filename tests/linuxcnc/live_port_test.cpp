@@ -38,7 +38,7 @@ const std::string kCircles =
 enum : std::size_t { kTime, kAge, kMotion, kLine, kSpeed, kFeed, kInForce, kCmdX, kCmdY, kActX };
 constexpr std::size_t kErrX = kActX + 2;
 /// Columns of the servo thread's log (live.py).
-enum : std::size_t { kNumber, kTick, kLogSpeed, kLayer, kBeat, kAlive };
+enum : std::size_t { kNumber, kTick, kLogSpeed, kLayer, kBeat, kAlive, kCmdZ };
 
 Table table(const std::string& name) {
   std::ifstream in(name);
@@ -149,7 +149,7 @@ void expect_ramp_after_kill(const Table& log) {
   while (beat > 1 && log[beat][kBeat] == log[beat - 1][kBeat]) {
     --beat;
   }
-  ASSERT_LT(beat + 110, log.size());
+  ASSERT_LT(beat + 300, log.size());
   for (std::size_t i = beat + 1; i <= beat + 110; ++i) {
     ASSERT_EQ(log[i][kTick], log[i - 1][kTick] + 1.0);
     EXPECT_LE(log[i][kLayer] - log[i - 1][kLayer], 15.0 * kPeriod_s + 1e-9);
@@ -159,16 +159,20 @@ void expect_ramp_after_kill(const Table& log) {
   }
   EXPECT_EQ(log[beat + 15][kAlive], 1.0);
   EXPECT_EQ(log[beat + 25][kAlive], 0.0);
+  // The path offset goes within 0.2 s; the one against heat stays.
+  EXPECT_NEAR(log[beat][kCmdZ], 0.25, 1e-4);
+  EXPECT_NEAR(log[beat + 200][kCmdZ], 0.05, 1e-4);
+  EXPECT_NEAR(log[beat + 300][kCmdZ], 0.05, 1e-4);
   EXPECT_NEAR(log[beat][kLogSpeed], 0.2 * kFeed_mm_s, 1e-6);
   EXPECT_NEAR(log[beat + 100][kLogSpeed], kFeed_mm_s, 1e-6);
 }
 
 int run_live(const std::string& folder) {
-  const std::string command =
-      "PROBE=" STEADYREST_PROBE
-      " DRIVE=live.py HAL='lag.hal layer.hal lag_log.hal' bash " STEADYREST_SOURCE_DIR
-      "/tests/linuxcnc/measure.sh " +
-      folder + "/circles.ngc " + folder + "/log";
+  const std::string command = "PROBE=" STEADYREST_PROBE
+                              " DRIVE=live.py HAL='lag.hal layer.hal layer_offsets.hal "
+                              "lag_log.hal' bash " STEADYREST_SOURCE_DIR
+                              "/tests/linuxcnc/measure.sh " +
+                              folder + "/circles.ngc " + folder + "/log";
   return WEXITSTATUS(std::system(command.c_str()));
 }
 
@@ -208,6 +212,7 @@ TEST(LinuxCncPortLive, ReadsCorrectsAndLetsGo) {
   EXPECT_THAT(text_of(folder.at("taken.said")), HasSubstr("give another name"));
   EXPECT_THAT(text_of(folder.at("driven.said")), HasSubstr("layer-feed is missing or another"));
   EXPECT_NEAR(table(folder.at("again.csv")).back()[kSpeed], 0.5 * kFeed_mm_s, 1e-6);
+  EXPECT_NEAR(log.back()[kCmdZ], 0.0, 1e-4);
 }
 
 }  // namespace

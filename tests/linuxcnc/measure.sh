@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # measure.sh PROGRAM [LOG]: how many servo periods (1 ms) LinuxCNC's motion takes for PROGRAM.
-# DRIVE=live.py PROBE=… HAL="lag.hal layer.hal lag_log.hal" by environment: another driver, the program that it calls, other HAL
+# DRIVE=live.py PROBE=… HAL="lag.hal layer.hal layer_offsets.hal lag_log.hal" by environment: another driver, the program that it calls, other HAL
 # files; whatever the driver leaves beside its log is copied to LOG's folder.
 # Limits by environment: VX VY VZ (mm/s), AX AY AZ (mm/s²), VPATH_MM_S, APATH, MAX_OVERRIDE; the defaults are those of
 # examples/machines/linuxcnc-mill.toml.
@@ -16,15 +16,16 @@ D=$(mktemp -d /var/tmp/measure.XXXXXX); export D
 mkdir -p "$D/cfg/bin" "$D/home" "$D/tmp" "$D/out"
 hal=${HAL:-mill.hal}; drive=${DRIVE:-drive.py}; export drive
 for f in $hal; do
-  case $f in layer.hal) f=../../steadyrest/adapters/linuxcnc/layer.hal ;; esac
+  case $f in layer*.hal) f=../../steadyrest/adapters/linuxcnc/$f ;; esac
   cp "$here/$f" "$D/cfg/"; done
 # The sampler is loaded once: lag_log.hal has its channel added here.
-case $hal in *lag_log.hal*) sed -i '/^loadrt sampler/s/4000,4000/4000,4000,60000/;/^loadrt sampler/s/$/,fffbb/' "$D/cfg/layer.hal" ;; esac
+case $hal in *lag_log.hal*) sed -i '/^loadrt sampler/s/4000,4000/4000,4000,60000/;/^loadrt sampler/s/$/,fffbbf/' "$D/cfg/layer.hal" ;; esac
 cp "$here/$drive" "$D/cfg/"; [ -n "${PROBE:-}" ] && cp "$PROBE" "$D/cfg/probe"
 cp "$here/hold" "$D/cfg/bin/"; chmod 755 "$D/cfg/bin/hold"
 sed -e "s/@VX@/${VX:-200}/;s/@VY@/${VY:-200}/;s/@VZ@/${VZ:-200}/;s/@AX@/${AX:-2000}/;s/@AY@/${AY:-2000}/" \
   -e "s/@AZ@/${AZ:-2000}/;s/@MAX_OVERRIDE@/${MAX_OVERRIDE:-1.0}/;s/@VPATH@/${VPATH_MM_S:-250}/;s/@APATH@/${APATH:-3000}/" "$here/mill.ini" |
   sed "s/^HALFILE = mill.hal/$(printf 'HALFILE = %s\\n' $hal)/" >"$D/cfg/mill.ini"
+case $hal in *layer_offsets.hal*) sed -i '/^.AXIS_/a OFFSET_AV_RATIO = 0.2' "$D/cfg/mill.ini" ;; esac
 for t in $(seq 99); do echo "T$t P$t Z0 D0"; done >"$D/cfg/mill.tbl"
 : >"$D/cfg/mill.var"; for p in 5161 5162 5163 5164 5165 5166 5167 5168 5169 5181 5182 5183 5184 5185 5186 5187 5188 5189 5210 \
   5211 5212 5213 5214 5215 5216 5217 5218 5219 5220 $(seq 5221 5230) $(seq 5241 5250) $(seq 5261 5270) $(seq 5281 5290) \

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A layer of the simplest kind on a running LinuxCNC: it reads frames and, if told, holds one feed
+// A layer of the simplest kind on a running LinuxCNC: it reads frames and, if told, holds a feed
 // ratio.
 //
-//   steadyrest_linuxcnc_probe --frames 3000 -o OUT.csv [--ratio 0.5 --from 1000] [--name N]
-//   [--replaces OLD]
+//   steadyrest_linuxcnc_probe --frames 3000 -o OUT.csv --ratio 0.5 --from 1000
 //
 // OUT.csv, a row per frame:
 // time_s,age_s,motion,line,speed_mm_s,feed_mm_s,effective,command_x,command_y,
@@ -30,6 +29,8 @@ struct Options {
   std::size_t frames = 1000;
   std::size_t from = 0;
   double ratio = -1.0;
+  double offset_z_mm = 0.0;
+  double path_offset_z_mm = 0.0;
   double servo_period_s = 0.001;
   std::string name = "steadyrest";
   std::string replaces;
@@ -47,6 +48,8 @@ outcome::Result<std::vector<signal::Frame>> cycle(LinuxCncPort& port, const Opti
   frames.reserve(options.frames);
   signal::Command command;
   command.write = true;
+  command.offset_mm[2] = options.offset_z_mm;
+  command.path_offset_mm[2] = options.path_offset_z_mm;
   while (frames.size() < options.frames) {
     const auto frame = port.read();
     if (!frame) {
@@ -84,12 +87,13 @@ int run(const Options& options) {
   const auto hal = HalProcess::make({.name = options.name,
                                      .replaces = options.replaces,
                                      .servo_period_s = options.servo_period_s,
+                                     .offsets_connected = true,
                                      .writes = options.ratio >= 0.0});
   if (!hal) {
     return refused(hal.error());
   }
-  const auto port =
-      LinuxCncPort::make({.units = {.servo_period_s = options.servo_period_s}}, **hal);
+  const auto port = LinuxCncPort::make(
+      {.units = {.servo_period_s = options.servo_period_s}, .offsets_connected = true}, **hal);
   if (!port) {
     return refused(port.error());
   }
@@ -110,6 +114,8 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "frames to read");
   app.add_option("--ratio", options.ratio, "feed ratio to hold; without it nothing is written");
   app.add_option("--from", options.from, "hold it from this frame on");
+  app.add_option("--offset-z-mm", options.offset_z_mm, "offset of Z, kept when the probe dies");
+  app.add_option("--path-offset-z-mm", options.path_offset_z_mm, "offset of Z, taken back then");
   app.add_option("--servo-period-s", options.servo_period_s, "[EMCMOT] SERVO_PERIOD");
   app.add_option("--name", options.name, "name of the HAL component");
   app.add_option("--replaces", options.replaces, "component that was killed");

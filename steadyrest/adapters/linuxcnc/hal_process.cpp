@@ -29,7 +29,11 @@ constexpr double kPausesPerPeriod = 10.0;
 struct SharedPins {
   hal_float_t* feed;
   hal_float_t* spindle;
-  std::array<hal_s32_t*, kernel::signal::kMaxAxes> offset;
+  struct Axis {
+    hal_float_t* offset;
+    hal_float_t* path_offset;
+  };
+  std::array<Axis, kernel::signal::kMaxAxes> axis;
   hal_bit_t* heartbeat;
   hal_bit_t* armed;
 };
@@ -111,8 +115,10 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
   code |= hal_pin_bit_newf(HAL_OUT, &pins->heartbeat, component, "%s.heartbeat", name);
   code |= hal_pin_bit_newf(HAL_OUT, &pins->armed, component, "%s.armed", name);
   for (std::size_t a = 0; a < offsets; ++a) {
-    code |= hal_pin_s32_newf(HAL_OUT, &pins->offset[a], component, "%s.offset-%d", name,
-                             static_cast<int>(a));
+    const int n = static_cast<int>(a);
+    code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].offset, component, "%s.offset-%d", name, n);
+    code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].path_offset, component, "%s.path-offset-%d",
+                               name, n);
   }
   if (code != 0) {
     return unavailable(fmt::format("the pins of {} cannot be made ({})", name, code),
@@ -144,8 +150,10 @@ Result<void> HalProcess::Hal::connect(const Config& config) {
     }
   }
   for (std::size_t a = 0; a < offsets; ++a) {
-    if (auto linked = link(config, fmt::format("offset-{}", a)); !linked) {
-      return linked;
+    for (const char* pin : {"offset", "path-offset"}) {
+      if (auto linked = link(config, fmt::format("{}-{}", pin, a)); !linked) {
+        return linked;
+      }
     }
   }
   return {};
@@ -230,7 +238,8 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
   *hal_->pins->feed = pins.feed;
   *hal_->pins->spindle = pins.spindle;
   for (std::size_t a = 0; a < hal_->offsets; ++a) {
-    *hal_->pins->offset[a] = pins.offset_counts[a];
+    *hal_->pins->axis[a].offset = pins.offset[a];
+    *hal_->pins->axis[a].path_offset = pins.path_offset[a];
   }
   // After the values: who sees the beat finds them in place.
   *hal_->pins->armed = pins.armed;

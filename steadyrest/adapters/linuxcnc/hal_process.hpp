@@ -12,9 +12,9 @@ namespace steadyrest::adapters::linuxcnc {
 
 /// This process as a HAL component beside a LinuxCNC that has loaded layer.hal.
 ///
-/// It makes the pins NAME.feed, .spindle, .offset-N, .heartbeat and .armed, connects them to the
-/// signals of layer.hal and attaches to the sampler's channels. Destroyed in good order it disarms
-/// the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
+/// It makes the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat and .armed,
+/// connects them to the signals of layer.hal and attaches to the sampler's channels. Destroyed in
+/// good order it disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
 class HalProcess final : public HalSide {
  public:
   struct Config {
@@ -24,7 +24,7 @@ class HalProcess final : public HalSide {
     std::string replaces;
     std::size_t axes = 3;
     double servo_period_s = 0.001;
-    bool offsets_connected = false;  ///< layer.hal has the signals layer-offset-N
+    bool offsets_connected = false;  ///< layer_offsets.hal is loaded
     bool writes = true;              ///< false: no pins, reading only
   };
 

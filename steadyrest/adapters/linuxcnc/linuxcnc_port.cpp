@@ -54,10 +54,6 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
     return refuse("linear unit (allowed: above 0 mm)",
                   "give 1 for [TRAJ] LINEAR_UNITS = mm, 25.4 for inch");
   }
-  if (!(units.offset_count_mm > 0.0 && std::isfinite(units.offset_count_mm))) {
-    return refuse("size of an offset count (allowed: above 0 mm)",
-                  "give the value of axis.L.eoffset-scale");
-  }
   if (!(config.lost_after_s > units.servo_period_s && config.lost_after_s <= 10.0)) {
     return refuse("time without a sample (allowed: above the servo period, up to 10 s)",
                   "give about 0.1 s");
@@ -69,7 +65,7 @@ kernel::port::Capability LinuxCncPort::capability() const noexcept {
   return {.feed_override = true,
           .spindle_override = config_.spindle_connected,
           .axis_offset = config_.offsets_connected,
-          .path_offset = false,
+          .path_offset = config_.offsets_connected,
           .latched_word = true};
 }
 
@@ -118,7 +114,8 @@ Result<void> LinuxCncPort::write(const kernel::signal::Command& command) noexcep
   }
   pins_ = pins_of(command, sample_, config_.units, pins_);
   if (!config_.offsets_connected) {
-    pins_.offset_counts.fill(0);
+    pins_.offset.fill(0.0);
+    pins_.path_offset.fill(0.0);
   }
   pins_.heartbeat = !pins_.heartbeat;
   arm();

@@ -24,7 +24,7 @@ class LinuxCncPort final : public kernel::port::Port {
   struct Config {
     Units units;
     bool spindle_connected = true;   ///< layer.hal's factor lies before the drive
-    bool offsets_connected = false;  ///< axis.L.eoffset is switched on ([AXIS_L] OFFSET_AV_RATIO)
+    bool offsets_connected = false;  ///< layer_offsets.hal is loaded
     double lost_after_s = 0.1;       ///< without a sample: the link is lost; > servo period
     std::size_t most_waiting = 20;   ///< servo cycles
   };

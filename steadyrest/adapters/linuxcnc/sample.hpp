@@ -73,7 +73,8 @@ struct Sample {
 struct Pins {
   double feed = 1.0;     ///< factor on the feed, 0 … 1, for motion.adaptive-feed
   double spindle = 1.0;  ///< factor on the speed between spindle.0.speed-out and the drive
-  std::array<std::int32_t, kernel::signal::kMaxAxes> offset_counts{};
+  kernel::signal::AxisValues offset{};       ///< in the control's units; kept when the layer dies
+  kernel::signal::AxisValues path_offset{};  ///< the same; ramps to 0 when the layer dies
   bool heartbeat = false;
   bool armed = false;  ///< the watchdog watches; a rising edge clears an earlier verdict
 };

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include <steadyrest/adapters/linuxcnc/translate.hpp>
@@ -48,13 +47,9 @@ double effective(const Sample& sample, const Units& units, double panel) noexcep
                               : panel * sample[Column::layer_feed];
 }
 
-std::int32_t counts_of(double offset_mm, double count_mm, std::int32_t before) noexcept {
-  const double counts = std::round(offset_mm / count_mm);
-  if (!std::isfinite(counts)) {
-    return before;
-  }
-  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(counts, -kMost, kMost));
+/// A machine axis's unit (mm or rad) in one of the control's units.
+double unit_of(std::size_t axis, const Units& units) noexcept {
+  return units.rotary[axis] ? kDegree_rad : units.linear_unit_mm;
 }
 
 }  // namespace
@@ -65,7 +60,7 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
   frame.cycle = sample.tick;
   frame.axis_count = static_cast<std::uint8_t>(units.axes);
   for (std::size_t a = 0; a < units.axes; ++a) {
-    const double scale = units.rotary[a] ? kDegree_rad : units.linear_unit_mm;
+    const double scale = unit_of(a, units);
     frame.axis[a].command_mm = scale * sample.axis[a].command;
     frame.axis[a].actual_mm = scale * sample.axis[a].actual;
     frame.axis[a].following_error_mm = scale * sample.axis[a].following_error;
@@ -113,8 +108,10 @@ Pins pins_of(const kernel::signal::Command& command, const Sample& sample, const
                      ? std::clamp(spindle, 0.0, kMostSpindleFactor)
                      : 1.0;
   for (std::size_t a = 0; a < units.axes; ++a) {
-    pins.offset_counts[a] =
-        counts_of(command.offset_mm[a], units.offset_count_mm, before.offset_counts[a]);
+    const double offset = command.offset_mm[a] / unit_of(a, units);
+    const double path_offset = command.path_offset_mm[a] / unit_of(a, units);
+    pins.offset[a] = std::isfinite(offset) ? offset : before.offset[a];
+    pins.path_offset[a] = std::isfinite(path_offset) ? path_offset : 0.0;
   }
   return pins;
 }

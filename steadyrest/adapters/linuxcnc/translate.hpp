@@ -12,10 +12,9 @@ namespace steadyrest::adapters::linuxcnc {
 
 /// How LinuxCNC's numbers become ours.
 struct Units {
-  std::size_t axes = 3;           ///< joints 0 …, in the order of the machine file; 1 … 8
-  double servo_period_s = 0.0;    ///< [EMCMOT] SERVO_PERIOD; must be given
-  double linear_unit_mm = 1.0;    ///< [TRAJ] LINEAR_UNITS: 1, or 25.4 for inches
-  double offset_count_mm = 1e-4;  ///< axis.L.eoffset-scale in mm, in rad for a rotary axis
+  std::size_t axes = 3;         ///< joints 0 …, in the order of the machine file; 1 … 8
+  double servo_period_s = 0.0;  ///< [EMCMOT] SERVO_PERIOD; must be given
+  double linear_unit_mm = 1.0;  ///< [TRAJ] LINEAR_UNITS: 1, or 25.4 for inches
   std::array<bool, kernel::signal::kMaxAxes> rotary{};  ///< counted in degrees
 };
 
@@ -29,7 +28,7 @@ struct Units {
 [[nodiscard]] double feed_factor(double layer_ratio, double panel_ratio) noexcept;
 
 /// The command's ratios and offsets as pins; heartbeat and arming are the port's. What is not
-/// finite becomes neutral: the panel's value alone, the offset that `before` had.
+/// finite becomes neutral: the panel's value alone, the offset that `before` had, no path offset.
 [[nodiscard]] Pins pins_of(const kernel::signal::Command& command, const Sample& sample,
                            const Units& units, const Pins& before) noexcept;
 

@@ -37,7 +37,6 @@ TEST(LinuxCncPort, RefusesFiguresOutOfRange) {
   for (const auto& spoil : {+[](LinuxCncPort::Config& c) { c.units.axes = 0; },
                             +[](LinuxCncPort::Config& c) { c.units.axes = 9; },
                             +[](LinuxCncPort::Config& c) { c.units.linear_unit_mm = 0.0; },
-                            +[](LinuxCncPort::Config& c) { c.units.offset_count_mm = -1.0; },
                             +[](LinuxCncPort::Config& c) { c.lost_after_s = 0.001; }}) {
     auto config = kMillPort;
     spoil(config);
@@ -145,11 +144,14 @@ TEST(LinuxCncPort, WritesNoOffsetThatNobodyConnected) {
   const auto port = port_on(hal);
   Command command = kHalf;
   command.offset_mm[2] = 0.01;
+  command.path_offset_mm[2] = 0.01;
   hal.push(cutting(1));
   ASSERT_TRUE(port->read().has_value());
   ASSERT_TRUE(port->write(command).has_value());
   EXPECT_FALSE(port->capability().axis_offset);
-  EXPECT_EQ(hal.written.back().offset_counts[2], 0);
+  EXPECT_FALSE(port->capability().path_offset);
+  EXPECT_EQ(hal.written.back().offset[2], 0.0);
+  EXPECT_EQ(hal.written.back().path_offset[2], 0.0);
 }
 
 TEST(LinuxCncPort, AllocatesNothingInACycle) {

@@ -131,14 +131,19 @@ TEST(PinsOfLinuxCnc, CarryRatiosAndOffsets) {
                   .spindle_ratio = 1.2,
                   .spindle_masks_panel = true,
                   .write = true};
-  command.offset_mm[2] = -0.0123;
+  command.offset_mm[2] = -0.0254;
+  command.path_offset_mm[1] = std::numbers::pi;
   Sample sample = cutting(1);
   sample[Column::feed_panel] = 0.6;
   sample[Column::spindle_panel] = 0.8;
-  const Pins pins = pins_of(command, sample, kMillUnits, {});
+  Units units = kMillUnits;
+  units.linear_unit_mm = 25.4;
+  units.rotary[1] = true;
+  const Pins pins = pins_of(command, sample, units, {});
   EXPECT_NEAR(pins.feed, 0.5, 1e-12);
   EXPECT_NEAR(pins.spindle, 1.5, 1e-12);
-  EXPECT_EQ(pins.offset_counts[2], -123);
+  EXPECT_NEAR(pins.offset[2], -0.001, 1e-12);
+  EXPECT_NEAR(pins.path_offset[1], 180.0, 1e-12);
 }
 
 TEST(PinsOfLinuxCnc, AreNeutralWhereTheCommandIsNotFinite) {
@@ -148,12 +153,15 @@ TEST(PinsOfLinuxCnc, AreNeutralWhereTheCommandIsNotFinite) {
                   .spindle_masks_panel = true,
                   .write = true};
   command.offset_mm[0] = kNan;
+  command.path_offset_mm[0] = kNan;
   Pins before;
-  before.offset_counts[0] = 42;
+  before.offset[0] = 0.042;
+  before.path_offset[0] = 0.1;
   const Pins pins = pins_of(command, cutting(1), kMillUnits, before);
   EXPECT_EQ(pins.feed, 1.0);
   EXPECT_EQ(pins.spindle, 1.0);
-  EXPECT_EQ(pins.offset_counts[0], 42);
+  EXPECT_EQ(pins.offset[0], 0.042);
+  EXPECT_EQ(pins.path_offset[0], 0.0);
 }
 
 }  // namespace
