@@ -51,7 +51,7 @@ double end_mm(const nc::plan::PlannedPath& path) {
 void cut(const char* machine_file, const char* program) {
   const auto machine = passport::read(machine_file).value();
   const auto path = plan(program, machine);
-  // the only port so far; a real machine's would be made here instead
+  // a real machine's port would be made here instead
   std::unique_ptr<kernel::port::Port> port = sim::SimulatedMachine::make({machine, path}).value();
   auto layer = supervisor::Supervisor::make(machine, port->capability()).value();
   layer.set_mode(kernel::machine::Mode::act);

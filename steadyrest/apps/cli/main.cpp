@@ -32,6 +32,10 @@
 #include <steadyrest/apps/cli/program/verb_program_strip.hpp>
 #include <steadyrest/apps/cli/program/verb_program_time.hpp>
 #include <steadyrest/apps/cli/program/verb_program_verify.hpp>
+#include <steadyrest/apps/cli/record/verb_record_export.hpp>
+#include <steadyrest/apps/cli/record/verb_record_list.hpp>
+#include <steadyrest/apps/cli/record/verb_record_replay.hpp>
+#include <steadyrest/apps/cli/record/verb_record_show.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/apps/cli/thermal/verb_thermal_adapt.hpp>
 #include <steadyrest/apps/cli/thermal/verb_thermal_fit.hpp>
@@ -202,6 +206,20 @@ constexpr Entry kVerbs[] = {
      {"examples/programs/rib-pocket.ngc examples/plans/rib-pocket-compensated.ngc --dialect "
       "linuxcnc --plan examples/plans/rib-pocket.json --machine "
       "examples/machines/linuxcnc-mill.toml"}},
+    {"record", "Records of live runs"},
+    {"record list", "List the records of a folder", add_verb_record_list, {"examples/records"}},
+    {"record show",
+     "What a record holds: machine, program, reasons, events",
+     add_verb_record_show,
+     {"examples/records/circle-start.sqlite"}},
+    {"record export",
+     "Write a record as CSV: one row per cycle, every field of frame and command",
+     add_verb_record_export,
+     {"examples/records/circle-start.sqlite -o out.csv"}},
+    {"record replay",
+     "Decide a recorded run again, and say in which cycle the first command differs",
+     add_verb_record_replay,
+     {"examples/records/circle-start.sqlite"}},
 };
 
 int run(int argc, char** argv) {

@@ -103,7 +103,7 @@ constexpr std::string_view kOpening =
 # The machine file
 
 One TOML file is the machine's passport. A simulated and a real machine read the same file; only `port` differs, and
-`sim`, the simulated machine, is the only port so far. Start from one of [`examples/machines/`](../examples/machines) and check yours with
+`sim` is the simulated machine, `linuxcnc` a running LinuxCNC (in builds that have found its library). Start from one of [`examples/machines/`](../examples/machines) and check yours with
 
     steadyrest doctor --machine examples/machines/vmc-840d.toml
 

@@ -25,7 +25,7 @@ using std::string_view;
 
 constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opcua", "replay"};
 /// Those with an adapter; a file with another one is refused.
-constexpr auto kBuiltPorts = std::span(kPorts).first<1>();
+constexpr auto kBuiltPorts = std::span(kPorts).first<2>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
 
@@ -42,7 +42,7 @@ std::span<const Key<Machine>> top_keys() noexcept {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
       Key<Machine>{
           "port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
-          "The port to the machine. `sim`, the simulated machine, is the only one so far."},
+          "The port to the machine: `sim`, the simulated machine, or `linuxcnc`, a running LinuxCNC."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };

@@ -141,9 +141,15 @@ std::vector<OutputRow> of_program() {
   };
 }
 
+std::vector<OutputRow> of_record() {
+  const std::string record = "examples/records/circle-start.sqlite";
+  return {{"record export", record, {file("out.csv")}, {record}}};
+}
+
 std::vector<OutputRow> all() {
   std::vector<OutputRow> rows;
-  for (const auto& some : {of_cut(), of_chatter(), of_motion(), of_thermal(), of_program()}) {
+  for (const auto& some :
+       {of_cut(), of_chatter(), of_motion(), of_thermal(), of_program(), of_record()}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   return rows;

@@ -4,20 +4,20 @@
 #include <gmock/gmock.h>
 
 #include <steadyrest/trial/replay/replay.hpp>
-#include <steadyrest/trial/replay/test/recorded_cut.hpp>
+#include <steadyrest/trial/replay/testing/recorded_cut.hpp>
 
 namespace steadyrest::trial::replay {
 namespace {
 
 using kernel::machine::Machine;
 
-class Replay : public testing::Test {
+class Replay : public ::testing::Test {
  protected:
   Replay() { std::filesystem::remove(file_); }
   ~Replay() override { std::filesystem::remove(file_); }
 
-  const std::string file_ = testing::TempDir() + "replay-" +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() +
+  const std::string file_ = ::testing::TempDir() + "replay-" +
+                            ::testing::UnitTest::GetInstance()->current_test_info()->name() +
                             ".sqlite";
 };
 
@@ -27,8 +27,9 @@ TEST_F(Replay, TheSameMachineDecidesTheSameBitForBit) {
   for (const char* const name : {"ideal-k50.toml", "vmc-840d.toml"}) {
     std::filesystem::remove(file_);
     const Machine machine = trial::test::machine_of(name);
-    const auto cut = test::record_cut(file_, machine, kAll);
+    const auto cut = testing::record_cut(file_, machine, kAll);
     EXPECT_GT(cut.reduced, 1000U);
+    EXPECT_EQ(cut.dropped, 0U);
     const auto replayed = replay(file_, machine).value();
     EXPECT_EQ(replayed.cycles, cut.cycles);
     EXPECT_EQ(replayed.different, 0U);
@@ -40,7 +41,7 @@ TEST_F(Replay, TheSameMachineDecidesTheSameBitForBit) {
 
 TEST_F(Replay, AnotherLimitNamesTheFirstCycleThatIsDecidedOtherwise) {
   Machine machine = trial::test::machine_of("vmc-840d.toml");
-  const auto cut = test::record_cut(file_, machine, kAll);
+  const auto cut = testing::record_cut(file_, machine, kAll);
   machine.contour.limit_mm *= 2.0;
   const auto replayed = replay(file_, machine).value();
   EXPECT_EQ(replayed.cycles, cut.cycles);
@@ -48,13 +49,13 @@ TEST_F(Replay, AnotherLimitNamesTheFirstCycleThatIsDecidedOtherwise) {
   EXPECT_GT(replayed.first_difference->cycle, 1U);
   EXPECT_LT(replayed.first_difference->cycle, cut.cycles);
   EXPECT_THAT(replayed.first_difference->fields,
-              testing::Contains(testing::StartsWith("command.feed")));
+              ::testing::Contains(::testing::StartsWith("command.feed")));
   EXPECT_GT(replayed.different, 0U);
 }
 
 TEST_F(Replay, EndsBeforeALostSample) {
   const Machine machine = trial::test::machine_of("ideal-k50.toml");
-  test::record_cut(file_, machine, 300, 200);
+  testing::record_cut(file_, machine, 300, 200);
   const auto replayed = replay(file_, machine).value();
   EXPECT_EQ(replayed.cycles, 199U);
   EXPECT_EQ(replayed.different, 0U);

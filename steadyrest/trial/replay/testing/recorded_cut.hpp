@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-
-#include <gtest/gtest.h>
+#include <vector>
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
@@ -15,34 +14,36 @@
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/test/examples.hpp>
 
-namespace steadyrest::trial::replay::test {
+namespace steadyrest::trial::replay::testing {
 
 struct RecordedCut {
   std::uint64_t cycles = 0;
+  std::uint64_t dropped = 0;
   std::uint64_t reduced = 0;  ///< cycles in which the layer took feed away
 };
 
 /// Cuts the example circle with the layer acting, and records it. `lose_at`: the cycle that the
 /// record loses; 0: none.
 inline RecordedCut record_cut(const std::string& file, const kernel::machine::Machine& machine,
-                              std::uint64_t most_cycles, std::uint64_t lose_at = 0) {
+                              std::uint64_t most_cycles, std::uint64_t lose_at = 0,
+                              record::RunInfo info = {}) {
   nc::interpret::Config config;
   config.dialect = nc::read::Dialect::sinumerik;
   nc::plan::PathBuilder builder(machine);
-  EXPECT_TRUE(
-      nc::interpret::run_file(trial::test::kExamples + "programs/circle-r10.mpf", config, builder));
+  if (!nc::interpret::run_file(trial::test::kExamples + "programs/circle-r10.mpf", config,
+                               builder)) {
+    return {};
+  }
   const auto simulated =
       sim::SimulatedMachine::make(
           {.machine = machine,
            .path = std::make_shared<const nc::plan::PlannedPath>(builder.take().value())})
           .value();
-  const auto writer =
-      record::RecordWriter::make({.file = file,
-                                  .info = {.machine = machine.name,
-                                           .program = "circle-r10.mpf",
-                                           .cycle_s = machine.control.interpolator_period_s,
-                                           .capability = simulated->capability()}})
-          .value();
+  info.machine = machine.name;
+  info.program = "circle-r10.mpf";
+  info.cycle_s = machine.control.interpolator_period_s;
+  info.capability = simulated->capability();
+  const auto writer = record::RecordWriter::make({.file = file, .info = info}).value();
   auto layer = supervisor::Supervisor::make(machine, simulated->capability()).value();
   layer.set_mode(kernel::machine::Mode::act);
   writer->event(record::EventKind::mode, "act");
@@ -64,8 +65,8 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
       writer->flush();
     }
   }
-  EXPECT_EQ(writer->dropped(), lose_at > 0 ? 1U : 0U);
+  cut.dropped = writer->dropped();
   return cut;
 }
 
-}  // namespace steadyrest::trial::replay::test
+}  // namespace steadyrest::trial::replay::testing
