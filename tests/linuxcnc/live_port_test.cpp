@@ -32,11 +32,12 @@ constexpr double kPathAcceleration_mm_s2 = 2000.0;
 
 /// M52 P1 lets the layer in. One block: no queue can run dry.
 const std::string kCircles =
-    "G21 G90 G94 G17 G61\nM52 P1\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P80\n";
+    "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P80\n";
 
 /// Columns of a probe's frames (probe.cpp).
 enum : std::size_t { kTime, kAge, kMotion, kLine, kSpeed, kFeed, kInForce, kCmdX, kCmdY, kActX };
 constexpr std::size_t kErrX = kActX + 2;
+constexpr std::size_t kSpindle = kErrX + 2;  ///< program, drive, measured
 /// Columns of the servo thread's log (live.py).
 enum : std::size_t { kNumber, kTick, kLogSpeed, kLayer, kBeat, kAlive, kCmdZ };
 
@@ -117,7 +118,12 @@ void expect_half_speed(const Table& frames) {
   for (std::size_t i = 600; i < frames.size(); ++i) {
     EXPECT_NEAR(frames[i][kInForce], 0.5, 1e-9);
     EXPECT_NEAR(frames[i][kSpeed], 0.5 * kFeed_mm_s, 1e-6);
+    EXPECT_NEAR(frames[i][kSpindle], 100.0, 1e-9);
+    EXPECT_NEAR(frames[i][kSpindle + 1], 90.0, 1e-9);
   }
+  // The drive's lag of 0.2 s has passed five times.
+  EXPECT_NEAR(frames.front()[kSpindle + 2], 100.0, 0.1);
+  EXPECT_NEAR(frames.back()[kSpindle + 2], 90.0, 0.1);
 }
 
 /// The operator turned the panel to 80 %, then to 30 %: min(layer, panel) with the layer at 50 %.
