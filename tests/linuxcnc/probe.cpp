@@ -22,7 +22,8 @@
 
 namespace {
 
-using namespace steadyrest::adapters::linuxcnc;
+using steadyrest::adapters::linuxcnc::HalProcess;
+using steadyrest::adapters::linuxcnc::LinuxCncPort;
 namespace outcome = steadyrest::kernel::outcome;
 namespace signal = steadyrest::kernel::signal;
 
