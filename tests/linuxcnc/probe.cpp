@@ -6,7 +6,8 @@
 //
 // OUT.csv, a row per frame:
 // time_s,age_s,motion,line,speed_mm_s,feed_mm_s,effective,command_x,command_y,
-// actual_x,actual_y,error_x,error_y. Exit: 0 done, 1 the link was lost, 2 refused.
+// actual_x,actual_y,error_x,error_y,spindle_rev_s (program, drive, measured). Exit: 0 done, 1 the
+// link was lost, 2 refused.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -21,7 +22,8 @@
 
 namespace {
 
-using namespace steadyrest::adapters::linuxcnc;
+using steadyrest::adapters::linuxcnc::HalProcess;
+using steadyrest::adapters::linuxcnc::LinuxCncPort;
 namespace outcome = steadyrest::kernel::outcome;
 namespace signal = steadyrest::kernel::signal;
 
@@ -29,6 +31,7 @@ struct Options {
   std::size_t frames = 1000;
   std::size_t from = 0;
   double ratio = -1.0;
+  double spindle_ratio = 1.0;
   double offset_z_mm = 0.0;
   double path_offset_z_mm = 0.0;
   double servo_period_s = 0.001;
@@ -48,6 +51,8 @@ outcome::Result<std::vector<signal::Frame>> cycle(LinuxCncPort& port, const Opti
   frames.reserve(options.frames);
   signal::Command command;
   command.write = true;
+  command.spindle_ratio = options.spindle_ratio;
+  command.spindle_masks_panel = true;
   command.offset_mm[2] = options.offset_z_mm;
   command.path_offset_mm[2] = options.path_offset_z_mm;
   while (frames.size() < options.frames) {
@@ -74,11 +79,12 @@ bool save(const std::vector<signal::Frame>& frames, const std::string& name) {
     return false;
   }
   for (const signal::Frame& f : frames) {
-    fmt::print(out, "{:.6f},{:.6f},{},{},{},{},{},{},{},{},{},{},{}\n", f.time_s, f.age_s,
+    fmt::print(out, "{:.6f},{:.6f},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", f.time_s, f.age_s,
                static_cast<int>(f.motion), f.program_line, f.path_speed_mm_s,
                f.programmed_feed_mm_s, f.feed.effective_ratio, f.axis[0].command_mm,
                f.axis[1].command_mm, f.axis[0].actual_mm, f.axis[1].actual_mm,
-               f.axis[0].following_error_mm, f.axis[1].following_error_mm);
+               f.axis[0].following_error_mm, f.axis[1].following_error_mm,
+               f.spindle_programmed_rev_s, f.spindle_command_rev_s, f.spindle_actual_rev_s);
   }
   return std::fclose(out) == 0;
 }
@@ -114,6 +120,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.frames, "frames to read");
   app.add_option("--ratio", options.ratio, "feed ratio to hold; without it nothing is written");
   app.add_option("--from", options.from, "hold it from this frame on");
+  app.add_option("--spindle-ratio", options.spindle_ratio, "spindle ratio to hold");
   app.add_option("--offset-z-mm", options.offset_z_mm, "offset of Z, kept when the probe dies");
   app.add_option("--path-offset-z-mm", options.path_offset_z_mm, "offset of Z, taken back then");
   app.add_option("--servo-period-s", options.servo_period_s, "[EMCMOT] SERVO_PERIOD");
