@@ -12,6 +12,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/rt/ring.hpp>
 #include <steadyrest/record/chunk_store.hpp>
+#include <steadyrest/record/keep_last.hpp>
 #include <steadyrest/record/record_writer.hpp>
 #include <steadyrest/record/run_folder.hpp>
 
@@ -47,6 +48,7 @@ struct RecordWriter::Cycle {
   kernel::rt::Ring<RawEvent, kEventRing> events;
   std::atomic<std::uint64_t> dropped{0};
   std::atomic<bool> failed{false};
+  std::atomic<bool> keep{false};
 
   Sample next;
   std::uint64_t number = 0;
@@ -95,7 +97,8 @@ class RecordWriter::Thread {
       wake_.wait_for(lock, std::chrono::duration<double>(config_.drain_s),
                      [&] { return stop_ || flushes_wanted_ > flushes_done_; });
       const std::uint64_t flushes = flushes_wanted_;
-      const bool asked = stop_ || flushes > flushes_done_;
+      const bool keeps = cycle_.keep.exchange(false);
+      const bool asked = stop_ || keeps || flushes > flushes_done_;
       stop = stop_;
       lock.unlock();
       drain();
@@ -108,6 +111,9 @@ class RecordWriter::Thread {
         keep(store_->commit(cycle_.dropped.load()));
         committed = now;
       }
+      if (keeps && !cycle_.failed) {
+        keep_copy();
+      }
       if (config_.max_bytes > 0 && now - rotated >= kRotateEvery) {
         rotate(config_.file, config_.max_bytes);
         rotated = now;
@@ -115,6 +121,18 @@ class RecordWriter::Thread {
       lock.lock();
       flushes_done_ = flushes;
       flushed_.notify_all();
+    }
+  }
+
+  /// A copy that fails costs the run's own record nothing.
+  void keep_copy() {
+    const auto folder = std::filesystem::path(config_.file).parent_path();
+    if (auto kept =
+            keep_last(config_.file, (folder / fault_name(utc_now())).string(), config_.keep_last_s);
+        !kept) {
+      store_->add({.time_s = 0.0,
+                   .kind = EventKind::note,
+                   .text = "not kept: " + kernel::outcome::text(kept.error())});
     }
   }
 
@@ -176,9 +194,11 @@ class RecordWriter::Thread {
 
 Result<std::unique_ptr<RecordWriter>> RecordWriter::make(const Config& config) {
   if (!(config.commit_s >= 0.1 && config.commit_s <= 3600.0) ||
-      !(config.drain_s >= 0.001 && config.drain_s <= 3600.0)) {
-    return refuse("commit_s or drain_s is out of range",
-                  "give commit_s from 0.1 to 3600 and drain_s from 0.001 to 3600");
+      !(config.drain_s >= 0.001 && config.drain_s <= 3600.0) ||
+      !(config.keep_last_s >= 1.0 && config.keep_last_s <= 3600.0)) {
+    return refuse("commit_s, drain_s or keep_last_s is out of range",
+                  "give commit_s from 0.1 to 3600, drain_s from 0.001 to 3600 and keep_last_s from "
+                  "1 to 3600");
   }
   Config whole = config;
   whole.info.version = STEADYREST_VERSION;
@@ -248,6 +268,12 @@ void RecordWriter::event(EventKind kind, std::string_view text) noexcept {
   if (cycle_->failed.load(std::memory_order_relaxed) || !cycle_->events.try_push(raw)) {
     cycle_->drop();
   }
+}
+
+// The note first: the thread that sees the flag finds it in the ring.
+void RecordWriter::keep(std::string_view reason) noexcept {
+  event(EventKind::note, reason);
+  cycle_->keep.store(true);
 }
 
 std::uint64_t RecordWriter::dropped() const noexcept {

@@ -38,6 +38,7 @@ class RecordWriter {
     /// Limit of the file's folder, checked at the start of a run and every minute: older runs are
     /// removed first. 0: none.
     std::uint64_t max_bytes = 0;
+    double keep_last_s = 30.0;  ///< [1, 3600]: what keep() copies
   };
 
   /// Makes the file. Refuses one that exists, and a folder that cannot be written.
@@ -51,6 +52,10 @@ class RecordWriter {
   void add(const kernel::signal::Frame& frame, const kernel::signal::Command& command) noexcept;
   /// In the cycle, from the same thread: what happens before the next sample.
   void event(EventKind kind, std::string_view text) noexcept;
+  /// In the cycle, after a fault: notes the reason, and the writer's thread soon copies the last
+  /// `keep_last_s` into `fault-<time>.sqlite` beside the record, which no rotation removes. Several
+  /// calls before that make one copy.
+  void keep(std::string_view reason) noexcept;
   /// Samples and events lost so far.
   [[nodiscard]] std::uint64_t dropped() const noexcept;
   /// The record has ended before its run; fault() says why.

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <ctime>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -32,6 +33,11 @@ bool is_run_name(std::string_view name) {
   });
 }
 
+std::string named(std::string name, const std::string& utc) {
+  std::ranges::copy_if(utc, std::back_inserter(name), [](char c) { return c != '-' && c != ':'; });
+  return name + ".sqlite";
+}
+
 }  // namespace
 
 std::string utc_now() {
@@ -44,9 +50,11 @@ std::string utc_now() {
 }
 
 std::string run_name(const std::string& utc) {
-  std::string name = "run-";
-  std::ranges::copy_if(utc, std::back_inserter(name), [](char c) { return c != '-' && c != ':'; });
-  return name + ".sqlite";
+  return named("run-", utc);
+}
+
+std::string fault_name(const std::string& utc) {
+  return named("fault-", utc);
 }
 
 Result<std::vector<RunFile>> run_files(const std::string& folder) {

@@ -13,6 +13,8 @@ namespace steadyrest::record {
 [[nodiscard]] std::string utc_now();
 /// `run-20261126T124934Z.sqlite` from such a time.
 [[nodiscard]] std::string run_name(const std::string& utc);
+/// `fault-20260101T124934Z.sqlite`: the last seconds before a fault.
+[[nodiscard]] std::string fault_name(const std::string& utc);
 
 struct RunFile {
   std::string file;         ///< with the folder, as it was given

@@ -241,7 +241,7 @@ void add_verb_run(Session& session, Verb& verb) {
       ->check(within(0.001, 1e8));
   verb.add_option("--record", options->record,
                   "Record the run in a file of its own in this folder (SQLite)")
-      ->type_name("DIR");
+      ->type_name("FOLDER");
   live::add_socket_option(verb, options->socket);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");
