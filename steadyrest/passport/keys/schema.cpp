@@ -40,9 +40,9 @@ constexpr auto kRotary = For::rotary;
 std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
-      Key<Machine>{
-          "port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
-          "The port to the machine: `sim`, the simulated machine, or `linuxcnc`, a running LinuxCNC."},
+      Key<Machine>{"port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
+                   "The port to the machine: `sim`, the simulated machine, or `linuxcnc`, a "
+                   "running LinuxCNC."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };
