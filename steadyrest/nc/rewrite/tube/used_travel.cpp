@@ -11,7 +11,7 @@ namespace steadyrest::nc::rewrite {
 namespace {
 
 /// Positions are sums of rounded numbers.
-constexpr double kRounding_mm = 1e-6;
+constexpr double kSumRounding_mm = 1e-6;
 
 std::string sentence(char letter, double to_mm, double end_mm, double own_mm) {
   return fmt::format(
@@ -47,12 +47,12 @@ std::optional<TravelFault> travel_fault(std::span<const kernel::machine::Axis> a
       continue;
     }
     const auto& high = changed.high(i);
-    if (high.mm > std::max(axis.max_au, original.high(i).mm) + kRounding_mm) {
+    if (high.mm > std::max(axis.max_au, original.high(i).mm) + kSumRounding_mm) {
       return TravelFault{high.line,
                          sentence(kLetters[i], high.mm, axis.max_au, original.high(i).mm)};
     }
     const auto& low = changed.low(i);
-    if (low.mm < std::min(axis.min_au, original.low(i).mm) - kRounding_mm) {
+    if (low.mm < std::min(axis.min_au, original.low(i).mm) - kSumRounding_mm) {
       return TravelFault{low.line, sentence(kLetters[i], low.mm, axis.min_au, original.low(i).mm)};
     }
   }

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// `steadyrest run` on a LinuxCNC that cuts circles of 10 mm at F4000 with axes that lag like a
+// position loop with 20 1/s. Time is the servo thread's own count; no other clock judges anything.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/trial/replay/replay.hpp>
+
+namespace steadyrest {
+namespace {
+
+using kernel::file::testing::OwnFolder;
+using kernel::file::testing::text_of_file;
+using nlohmann::json;
+
+constexpr int kCannotRun = 77;
+constexpr double kFeed_mm_s = 4000.0 / 60.0;
+
+/// The mill of the examples, on a running LinuxCNC.
+void write_machine(const std::string& file) {
+  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
+  const std::string sim = "port = \"sim\"";
+  text.replace(text.find(sim), sim.size(), "port = \"linuxcnc\"");
+  std::ofstream(file) << text;
+}
+
+int run_on_linuxcnc(const OwnFolder& folder) {
+  const std::string command = "DRIVE=layer.py PROBE='" STEADYREST_PROGRAM "' MACHINE='" +
+                              folder.at("machine.toml") +
+                              "' HAL='lag.hal layer.hal lag_log.hal' bash " STEADYREST_SOURCE_DIR
+                              "/tests/linuxcnc/measure.sh '" +
+                              folder.at("circles.ngc") + "' '" + folder.at("log") + "'";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Columns of the servo thread's log (lag_log.hal).
+struct Row {
+  double tick = 0.0;
+  double speed_mm_s = 0.0;
+  double layer_ratio = 0.0;
+};
+std::vector<Row> servo_log(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<Row> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    double number = 0.0;
+    Row row;
+    if (words >> number >> row.tick >> row.speed_mm_s >> row.layer_ratio) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+void expect_slowed_and_handed_back(const std::vector<Row>& log) {
+  ASSERT_GT(log.size(), 6000U);
+  double lowest = 1.0;
+  std::size_t slowed = 0;
+  for (std::size_t i = 1; i < log.size(); ++i) {
+    lowest = std::min(lowest, log[i].layer_ratio);
+    slowed += log[i].layer_ratio < 0.3 ? 1 : 0;
+    // layer.hal's ramp: 15 1/s.
+    EXPECT_LE(log[i].layer_ratio - log[i - 1].layer_ratio,
+              0.015 * (log[i].tick - log[i - 1].tick) + 1e-9)
+        << "at tick " << log[i].tick;
+  }
+  EXPECT_LT(lowest, 0.15);
+  EXPECT_GT(slowed, 2000U);
+  EXPECT_DOUBLE_EQ(log.back().layer_ratio, 1.0);
+  EXPECT_TRUE(std::ranges::any_of(log.end() - 1000, log.end(), [](const Row& row) {
+    return std::abs(row.speed_mm_s - kFeed_mm_s) < 0.01;
+  })) << "the feed is back";
+}
+
+/// The record of a live run decides the same again.
+void expect_replays(const std::string& file, const kernel::machine::Machine& machine) {
+  const auto replayed = trial::replay::replay(file, machine);
+  ASSERT_TRUE(replayed.has_value()) << replayed.error().what;
+  EXPECT_GE(replayed->cycles, 2000U);
+  EXPECT_FALSE(replayed->first_difference.has_value());
+}
+
+// v²/(2·R·k²) with k = 20 1/s: 10 µm ask for 8.9 mm/s on this circle, 13 % of its feed.
+TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
+  const OwnFolder folder;
+  write_machine(folder.at("machine.toml"));
+  std::ofstream(folder.at("circles.ngc"))
+      << "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\n"
+         "G3 X10 Y0 I-10 J0 P80\n";
+  const int status = run_on_linuxcnc(folder);
+  if (status == kCannotRun) {
+    GTEST_SKIP() << "LinuxCNC cannot run here";
+  }
+  ASSERT_EQ(status, 0);
+  const json observed = json::parse(text_of_file(folder.at("observe.json")), nullptr, false);
+  const json acted = json::parse(text_of_file(folder.at("act.json")), nullptr, false);
+  ASSERT_TRUE(observed.is_object()) << text_of_file(folder.at("observe.said"));
+  ASSERT_TRUE(acted.is_object()) << text_of_file(folder.at("act.said"));
+  EXPECT_EQ(observed["cycles"], 2000);
+  EXPECT_GT(observed["over_limit_s"].get<double>(), 1.9);
+  EXPECT_LT(acted["over_limit_s"].get<double>(), 1.0) << "of 4 s";
+  EXPECT_EQ(acted["handed_back"], true);
+  EXPECT_EQ(acted["port_faults"], 0);
+  expect_slowed_and_handed_back(servo_log(folder.at("log")));
+  const auto machine = passport::read(folder.at("machine.toml"));
+  ASSERT_TRUE(machine.has_value());
+  std::size_t records = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().extension() == ".sqlite") {
+      expect_replays(entry.path().string(), *machine);
+      ++records;
+    }
+  }
+  EXPECT_EQ(records, 2U);
+}
+
+}  // namespace
+}  // namespace steadyrest
