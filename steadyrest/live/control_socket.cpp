@@ -103,15 +103,15 @@ class Server final : public ControlSocket {
 
   Result<void> start() {
     error_code fault;
-    acceptor_.open(stream_protocol(), fault);
+    fault = acceptor_.open(stream_protocol(), fault);
     const mode_t before = ::umask(S_IXUSR | S_IRWXG | S_IRWXO);
     if (!fault) {
-      acceptor_.bind(stream_protocol::endpoint(path_), fault);
+      fault = acceptor_.bind(stream_protocol::endpoint(path_), fault);
     }
     ::umask(before);
     bound_ = !fault;
     if (!fault) {
-      acceptor_.listen(asio::socket_base::max_listen_connections, fault);
+      fault = acceptor_.listen(asio::socket_base::max_listen_connections, fault);
     }
     if (fault) {
       return refuse(path_, fmt::format("the socket cannot be made: {}", fault.message()),
@@ -169,7 +169,7 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
     asio::io_context io;
     stream_protocol::socket other(io);
     error_code fault;
-    other.connect(stream_protocol::endpoint(path), fault);
+    fault = other.connect(stream_protocol::endpoint(path), fault);
     if (!fault) {
       return refuse(path, "another layer answers on this socket",
                     "stop it first, or give another --socket");
@@ -194,7 +194,7 @@ Result<std::string> ask(const std::string& path, const std::string& line, double
   asio::io_context io;
   stream_protocol::socket socket(io);
   error_code fault;
-  socket.connect(stream_protocol::endpoint(path), fault);
+  fault = socket.connect(stream_protocol::endpoint(path), fault);
   if (fault) {
     return none(fault.message());
   }

@@ -21,7 +21,7 @@ class TimeFigures {
   [[nodiscard]] double quantile_s(double share) const noexcept;
 
  private:
-  static constexpr std::size_t kBins = 16 * 27;
+  static constexpr std::size_t kBins = std::size_t{16} * 27;
   std::array<std::uint64_t, kBins> bins_{};
   std::uint64_t count_ = 0;
   double largest_s_ = 0.0;

@@ -12,9 +12,17 @@ namespace {
 
 using kernel::outcome::Result;
 
-enum Sql : std::uint8_t { kChunk, kColumn, kPath, kPart, kEvent, kTotals, kSqls };
+enum Sql : std::uint8_t {
+  insert_chunk,
+  insert_column,
+  insert_path,
+  insert_part,
+  insert_event,
+  update_totals,
+  sql_count
+};
 
-constexpr const char* kText[kSqls] = {
+constexpr const char* kText[sql_count] = {
     "INSERT INTO chunk VALUES (?, ?, ?)",
     "INSERT INTO chunk_column VALUES (?, ?, ?)",
     "INSERT OR IGNORE INTO path VALUES (?, ?)",
@@ -94,7 +102,7 @@ void ChunkStore::add(PathPiece& piece) {
 
 Result<void> ChunkStore::write_column(const std::string& name, const Column& column) {
   const auto data = pack(column);
-  return statements_[kColumn].bind(0, chunk_).bind(1, name).bind(2, std::span(data)).run();
+  return statements_[insert_column].bind(0, chunk_).bind(1, name).bind(2, std::span(data)).run();
 }
 
 Result<void> ChunkStore::write_chunk() {
@@ -102,7 +110,7 @@ Result<void> ChunkStore::write_chunk() {
     return {};
   }
   ++chunk_;
-  auto done = statements_[kChunk]
+  auto done = statements_[insert_chunk]
                   .bind(0, chunk_)
                   .bind(1, static_cast<std::int64_t>(first_cycle_))
                   .bind(2, static_cast<std::int64_t>(samples_))
@@ -140,21 +148,21 @@ Result<void> ChunkStore::write_part() {
     all.insert(all.end(), column.begin(), column.end());
   }
   const auto data = pack(all);
-  statements_[kPath]
+  statements_[insert_path]
       .bind(0, std::int64_t{first.path})
       .bind(1, static_cast<std::int64_t>(first.segments));
-  statements_[kPart]
+  statements_[insert_part]
       .bind(0, std::int64_t{first.path})
       .bind(1, static_cast<std::int64_t>(first.index))
       .bind(2, static_cast<std::int64_t>(count))
       .bind(3, std::span(data));
-  return in_turn([this] { return statements_[kPath].run(); },
-                 [this] { return statements_[kPart].run(); });
+  return in_turn([this] { return statements_[insert_path].run(); },
+                 [this] { return statements_[insert_part].run(); });
 }
 
 Result<void> ChunkStore::write_events() {
   for (const Event& event : events_) {
-    if (auto done = statements_[kEvent]
+    if (auto done = statements_[insert_event]
                         .bind(0, static_cast<std::int64_t>(event.before))
                         .bind(1, event.time_s)
                         .bind(2, static_cast<std::int64_t>(to_bits(event.kind)))
@@ -173,12 +181,12 @@ Result<void> ChunkStore::write_all(std::uint64_t dropped, bool closed) {
   while (done && !pieces_.empty()) {
     done = write_part();
   }
-  statements_[kTotals]
+  statements_[update_totals]
       .bind(0, static_cast<std::int64_t>(stored_))
       .bind(1, static_cast<std::int64_t>(dropped))
       .bind(2, std::int64_t{closed ? 1 : 0});
   return in_turn([&done] { return done; }, [this] { return write_events(); },
-                 [this] { return statements_[kTotals].run(); },
+                 [this] { return statements_[update_totals].run(); },
                  [this] { return database_.run("COMMIT"); });
 }
 

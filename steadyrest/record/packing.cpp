@@ -39,7 +39,7 @@ std::optional<std::vector<std::uint64_t>> unpack(std::span<const std::byte> pack
   }
   // One byte more than expected, so that a longer column shows; and never an empty buffer.
   std::vector<std::byte> plain(count * kBytes + 1);
-  uLongf size = static_cast<uLongf>(plain.size());
+  auto size = static_cast<uLongf>(plain.size());
   if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &size,
                  reinterpret_cast<const Bytef*>(packed.data()),
                  static_cast<uLong>(packed.size())) != Z_OK ||

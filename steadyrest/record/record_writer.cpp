@@ -63,8 +63,11 @@ struct RecordWriter::Cycle {
 /// The writer's thread: from the rings to the file.
 class RecordWriter::Thread {
  public:
-  Thread(const Config& config, Cycle& cycle, std::unique_ptr<ChunkStore> store)
-      : config_(config), cycle_(cycle), store_(std::move(store)), thread_([this] { work(); }) {}
+  Thread(Config config, Cycle& cycle, std::unique_ptr<ChunkStore> store)
+      : config_(std::move(config)),
+        cycle_(cycle),
+        store_(std::move(store)),
+        thread_([this] { work(); }) {}
   Thread(const Thread&) = delete;
   Thread& operator=(const Thread&) = delete;
   ~Thread() {
@@ -150,7 +153,7 @@ class RecordWriter::Thread {
         keep(store_->commit(cycle_.dropped.load()));
       }
     }
-    for (std::size_t i = 0; i < cycle_.pieces.capacity(); ++i) {
+    for (std::size_t i = 0; i < decltype(Cycle::pieces)::capacity(); ++i) {
       auto piece = cycle_.pieces.try_pop();
       if (!piece) {
         break;
