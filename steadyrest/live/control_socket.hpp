@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostClients = 16;
 /// `$XDG_RUNTIME_DIR/steadyrest.sock`, or `/run/steadyrest.sock` where that is not set.
 [[nodiscard]] std::string usual_socket();
 
-/// Answers lines on a Unix socket, each with one line, in a thread of its own. The file is
+/// Answers lines on a Unix socket, each with one line, in its own thread. The file is
 /// readable and writable by its owner alone, and goes with the object.
 ///
 /// A line that is too long is answered with an error and ends the connection.

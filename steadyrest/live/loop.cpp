@@ -34,7 +34,7 @@ Result<void> Loop::check(const Config& config) {
     return kernel::outcome::refuse(
         fmt::format("the cycle of {:g} Hz is out of range; allowed: 100 … 4000 Hz",
                     1.0 / config.period_s),
-        "give --cycle-hz");
+        "set the period of the control in the machine file");
   }
   return {};
 }
@@ -52,7 +52,8 @@ Loop::Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, 
 const LoopFigures& Loop::run() noexcept {
   for (;;) {
     Pace::Wake wake;
-    if (!config_.port_paces) {
+    // A port that fails at once sets no pace.
+    if (!config_.port_paces || now_.port_fault) {
       wake = pace_.wait();
     }
     if (!goes_on(pace_.now_s())) {

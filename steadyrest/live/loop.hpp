@@ -44,11 +44,10 @@ class Loop {
     double handback_s = 5.0;        ///< the longest way to neutral at the end
     kernel::machine::Mode mode = kernel::machine::Mode::observe;
     std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
-    /// The machine has nothing more to do; empty: never.
+    bool port_paces = false;        ///< read() waits for the next frame
     // NOLINTBEGIN(readability-redundant-member-init)
+    /// The machine has nothing more to do; empty: never.
     std::function<bool()> finished = {};
-    /// read() waits for the next frame: the port sets the pace.
-    bool port_paces = false;
     /// For a record, in the cycle: the mode wanted from here on, and each cycle's command.
     std::function<void(kernel::machine::Mode)> on_mode = {};
     std::function<void(const kernel::signal::Command&)> on_command = {};

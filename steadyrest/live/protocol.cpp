@@ -9,9 +9,13 @@ namespace {
 
 constexpr int kMostShown = 40;
 
+/// One line of UTF-8, whatever the words of a client or a port were.
+std::string line_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string error(const std::string& what, const std::string& to_do) {
-  return Json({{"version", kProtocol}, {"error", {{"what", what}, {"to_do", to_do}}}})
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return line_of({{"version", kProtocol}, {"error", {{"what", what}, {"to_do", to_do}}}});
 }
 
 /// Of a client's words, as much as a message needs.
@@ -37,7 +41,7 @@ std::string answer(Loop& loop, std::string_view port, std::string_view line) {
     Json status = status_json(loop.status());
     status["mode_wanted"] = word(loop.mode_wanted());  // asked for since the last cycle
     status["port"] = port;
-    return Json({{"version", kProtocol}, {"status", std::move(status)}}).dump();
+    return line_of({{"version", kProtocol}, {"status", std::move(status)}});
   }
   if (ask == "mode") {
     const Json name = request.value("mode", Json());
@@ -48,7 +52,7 @@ std::string answer(Loop& loop, std::string_view port, std::string_view line) {
           "give one of these");
     }
     loop.ask_mode(*mode);
-    return Json({{"version", kProtocol}, {"mode_wanted", word(*mode)}}).dump();
+    return line_of({{"version", kProtocol}, {"mode_wanted", word(*mode)}});
   }
   return error(fmt::format("{} cannot be asked; allowed: status, mode", shown(ask)),
                "give one of these as `ask`");

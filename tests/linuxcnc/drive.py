@@ -11,29 +11,14 @@ import time
 
 import linuxcnc
 
+from bring_up import bring_up
+
 
 def main():
     program, log = sys.argv[1], sys.argv[2]
-    command, status, errors = linuxcnc.command(), linuxcnc.stat(), linuxcnc.error_channel()
+    errors = linuxcnc.error_channel()
+    command, status = bring_up(program)
 
-    def ask(call, *arguments):
-        call(*arguments)
-        command.wait_complete(5)
-        status.poll()
-
-    ask(command.state, linuxcnc.STATE_ESTOP_RESET)
-    ask(command.state, linuxcnc.STATE_ON)
-    ask(command.mode, linuxcnc.MODE_MANUAL)
-    ask(command.teleop_enable, 0)
-    command.home(-1)
-    for _ in range(200):
-        status.poll()
-        if all(status.homed[:3]):
-            break
-        time.sleep(0.02)
-    ask(command.mode, linuxcnc.MODE_AUTO)
-    command.program_open(program)
-    command.wait_complete(60)
     sampler = subprocess.Popen(["halsampler", "-t", log])
     time.sleep(0.3)
     subprocess.run(["halcmd", "setp", "sampler.0.enable", "1"], check=True)

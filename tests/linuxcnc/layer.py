@@ -11,18 +11,15 @@ import time
 
 import linuxcnc
 
+from bring_up import bring_up
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def main():
     program, log = sys.argv[1], sys.argv[2]
     folder = os.path.dirname(log)
-    command, status = linuxcnc.command(), linuxcnc.stat()
-
-    def ask(call, *arguments):
-        call(*arguments)
-        command.wait_complete(5)
-        status.poll()
+    command, _ = bring_up(program)
 
     def layer(mode, seconds):
         with open(os.path.join(folder, mode + ".json"), "w") as out, open(os.path.join(folder, mode + ".said"), "w") as said:
@@ -30,19 +27,6 @@ def main():
                             "--for-s", str(seconds), "--socket", os.path.join(folder, "s"), "--record", folder, "--json"],
                            stdout=out, stderr=said)
 
-    ask(command.state, linuxcnc.STATE_ESTOP_RESET)
-    ask(command.state, linuxcnc.STATE_ON)
-    ask(command.mode, linuxcnc.MODE_MANUAL)
-    ask(command.teleop_enable, 0)
-    command.home(-1)
-    for _ in range(200):
-        status.poll()
-        if all(status.homed[:3]):
-            break
-        time.sleep(0.02)
-    ask(command.mode, linuxcnc.MODE_AUTO)
-    command.program_open(program)
-    command.wait_complete(60)
     sampler = subprocess.Popen(["halsampler", "-c", "2", "-t", log])
     command.auto(linuxcnc.AUTO_RUN, 0)
     time.sleep(2.0)

@@ -26,7 +26,7 @@ std::unexpected<Refusal> lost(std::string what, std::string to_do) {
 std::unexpected<Refusal> why(Got got) {
   switch (got) {
     case Got::frozen:
-      return lost("LinuxCNC's cycle counter stands still",
+      return lost("LinuxCNC's cycle counter does not change",
                   "add layer.tick to the servo thread before the samplers, as layer.hal does");
     case Got::restarted:
       return lost("LinuxCNC's cycle counter went back", "start the layer again");

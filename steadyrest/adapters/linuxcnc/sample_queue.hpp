@@ -18,7 +18,7 @@ class SampleQueue {
   enum class Got : std::uint8_t {
     sample,
     none,        ///< nothing waits, or not in every channel
-    frozen,      ///< the tick stands still: nobody counts it
+    frozen,      ///< the tick does not change: nothing counts it
     restarted,   ///< the tick went back: another LinuxCNC, or its counter was set
     not_a_tick,  ///< negative, not whole or not a number
   };

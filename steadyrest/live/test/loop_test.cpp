@@ -179,6 +179,18 @@ TEST(Loop, APortThatWaitsSetsThePace) {
   EXPECT_EQ(loop.figures().lateness.largest_s(), 0.0);
 }
 
+TEST(Loop, APortThatFailsAtOnceSetsNoPace) {
+  Desk desk;
+  Spy spy(*desk.port);
+  spy.lost = true;
+  Loop::Config config = until_finished(desk, Mode::observe);
+  config.most_cycles = 50;
+  config.port_paces = true;
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  loop.run();
+  EXPECT_EQ(desk.pace.waits, 50);
+}
+
 TEST(Loop, TellsARecordModesAndCommands) {
   Desk desk;
   Loop::Config config = until_finished(desk, Mode::advise);

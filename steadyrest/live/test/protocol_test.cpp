@@ -72,6 +72,34 @@ TEST_F(Protocol, AnswersAnyBytesWithOneObject) {
   }
 }
 
+/// A link that is lost with these words.
+class LostPort final : public kernel::port::Port {
+ public:
+  [[nodiscard]] kernel::port::Capability capability() const noexcept override { return {}; }
+  kernel::outcome::Result<kernel::signal::Frame> read() noexcept override {
+    return std::unexpected(kernel::outcome::Refusal{
+        .kind = kernel::outcome::Kind::unavailable, .file = {}, .what = words, .to_do = {}});
+  }
+  kernel::outcome::Result<void> write(const kernel::signal::Command&) noexcept override {
+    return {};
+  }
+  std::string words;
+};
+
+// The words are cut to the status's room, here within a character of three bytes.
+TEST(ProtocolOfALostPort, TellsItsWordsAsUtf8) {
+  test::Desk desk;
+  LostPort port;
+  port.words = "a";
+  for (int i = 0; i < 100; ++i) {
+    port.words += "…";
+  }
+  Loop loop(port, *desk.layer, desk.pace, {.period_s = 0.004, .most_cycles = 3});
+  loop.run();
+  const Json status = Json::parse(answer(loop, "sim", R"({"version":1,"ask":"status"})"))["status"];
+  EXPECT_THAT(status["port_fault"].get<std::string>(), ::testing::StartsWith("a……"));
+}
+
 TEST(StatusJson, KnowsItsModes) {
   for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
     EXPECT_EQ(mode_of(word(mode)), mode);

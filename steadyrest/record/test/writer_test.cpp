@@ -95,7 +95,7 @@ int record_until_full(const std::string& file) {
   return writer->failed() && writer->fault() && writer->dropped() == before + 1 ? 0 : 1;
 }
 
-// In a process of its own: the limit holds for all of it.
+// In a child process, since the limit holds for the whole process.
 TEST(RecordWriter, AFullDiskEndsTheRecordAndKeepsWhatWasWritten) {
   const test::Folder folder;
   const std::string file = folder.file("a.sqlite");

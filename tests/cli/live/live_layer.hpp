@@ -12,8 +12,8 @@
 
 namespace steadyrest::test {
 
-/// A layer that runs on the simulated machine in the background, and the usual socket in a folder
-/// of its own while this lives.
+/// A layer that runs on the simulated machine in the background, with the usual socket in a
+/// temporary folder.
 class LiveLayer {
  public:
   explicit LiveLayer(const std::string& mode = "observe")

@@ -28,6 +28,17 @@ TEST(Run, TellsWhatARunHasShown) {
   EXPECT_GT(answer["reasons"]["not_cutting"].get<int>(), 0);
 }
 
+TEST(Run, IsRecordedAndDecidedAgain) {
+  const Scratch scratch;
+  const auto answer =
+      answer_of(kCutting + " --for-s 0.4 --mode act --socket s --record " + scratch.at("runs"));
+  EXPECT_EQ(answer["record"]["dropped"], 0);
+  EXPECT_TRUE(answer["record"]["fault"].is_null());
+  const auto again = answer_of("record replay " + answer["record"]["file"].get<std::string>());
+  EXPECT_EQ(again["cycles"], answer["cycles"]);
+  EXPECT_TRUE(again["first_difference"].is_null());
+}
+
 TEST(Run, IsRefusedWhereItCannotRun) {
   expect_refused(kOnMill + " --socket s", "nothing to cut");
   expect_refused(kCutting + " --socket s --mode fast", "--mode");

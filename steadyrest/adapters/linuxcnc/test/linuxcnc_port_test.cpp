@@ -91,7 +91,7 @@ TEST(LinuxCncPort, SaysWhatIsWrongWithTheCounter) {
   EXPECT_TRUE(port->read().has_value());
   const auto frozen = port->read();
   ASSERT_FALSE(frozen.has_value());
-  EXPECT_THAT(frozen.error().what, HasSubstr("stands still"));
+  EXPECT_THAT(frozen.error().what, HasSubstr("does not change"));
   const auto restarted = port->read();
   ASSERT_FALSE(restarted.has_value());
   EXPECT_THAT(restarted.error().what, HasSubstr("went back"));

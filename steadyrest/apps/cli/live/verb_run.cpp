@@ -3,9 +3,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/live/live_port.hpp>
+#include <steadyrest/apps/cli/live/run_record.hpp>
 #include <steadyrest/apps/cli/live/socket_option.hpp>
 #include <steadyrest/apps/cli/live/verb_run.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
@@ -25,12 +23,9 @@
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
-#include <steadyrest/record/record_writer.hpp>
-#include <steadyrest/record/recording_port.hpp>
-#include <steadyrest/record/run_folder.hpp>
 
-// The loop runs in this thread, the socket in one of its own. A signal asks for the end; the layer
-// hands back first.
+// The loop runs in this thread, the socket in another. A signal asks for the end; the layer hands
+// back first.
 namespace steadyrest::apps::cli {
 namespace live {
 namespace {
@@ -46,11 +41,6 @@ struct Options {
   std::string record;  ///< folder; empty: no record
   double for_s = 0.0;
 };
-
-std::string text_of_file(const std::string& name) {
-  std::ifstream in(name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::atomic<Loop*> running{nullptr};
 
@@ -111,68 +101,13 @@ Loop::Config loop_config(const Options& options, const kernel::machine::Machine&
   Loop::Config config{.period_s = port.period_s,
                       .contour_limit_mm = machine.contour.limit_mm,
                       .mode = steadyrest::live::mode_of(options.mode).value_or(machine.mode),
-                      .finished = port.finished,
-                      .port_paces = port.paces};
+                      .port_paces = port.paces,
+                      .finished = port.finished};
   if (options.for_s > 0.0) {
     config.most_cycles = std::max<std::uint64_t>(
         1, static_cast<std::uint64_t>(std::llround(options.for_s / port.period_s)));
   }
   return config;
-}
-
-/// A run that is recorded.
-struct Recorded {
-  Recorded(std::unique_ptr<record::RecordWriter> made, kernel::port::Port& machine,
-           std::string name)
-      : writer(std::move(made)), port(machine, *writer), file(std::move(name)) {}
-  void listen(Loop::Config& config) {
-    config.on_mode = [this](kernel::machine::Mode mode) {
-      writer->event(record::EventKind::mode, steadyrest::live::word(mode));
-    };
-    config.on_command = [this](const kernel::signal::Command& command) { port.record(command); };
-  }
-  std::unique_ptr<record::RecordWriter> writer;
-  record::RecordingPort port;
-  std::string file;
-};
-
-/// Null where no record is asked for.
-Result<std::unique_ptr<Recorded>> start_record(const Options& options,
-                                               const kernel::machine::Machine& machine,
-                                               const LivePort& port) {
-  if (options.record.empty()) {
-    return nullptr;
-  }
-  record::RunInfo info;
-  info.start_utc = record::utc_now();
-  info.machine = machine.name;
-  info.machine_text = text_of_file(options.machine);
-  info.program = options.program.file;
-  info.program_text = options.program.file.empty() ? "" : text_of_file(options.program.file);
-  info.cycle_s = port.period_s;
-  info.capability = port.port->capability();
-  std::error_code fault;
-  std::filesystem::create_directories(options.record, fault);
-  std::string file =
-      (std::filesystem::path(options.record) / record::run_name(info.start_utc)).string();
-  auto writer = record::RecordWriter::make({.file = file, .info = std::move(info)});
-  if (!writer) {
-    return std::unexpected(writer.error());
-  }
-  return std::make_unique<Recorded>(std::move(*writer), *port.port, std::move(file));
-}
-
-void put_record(Answer& answer, Recorded& recorded) {
-  recorded.writer->flush();
-  const auto fault = recorded.writer->fault();
-  answer.json["record"] = {{"file", recorded.file},
-                           {"dropped", recorded.writer->dropped()},
-                           {"fault", fault ? Json(fault->what) : Json(nullptr)}};
-  answer.text +=
-      fmt::format("record: {}, {} cycles lost\n", recorded.file, recorded.writer->dropped());
-  if (fault) {
-    answer.text += "the record ended before the run: " + fault->what + "\n";
-  }
 }
 
 Outcome run(const Options& options) {
@@ -193,14 +128,18 @@ Outcome run(const Options& options) {
     return refused(checked.error());
   }
   steadyrest::live::MonotonicPace pace(config.period_s);
-  auto record = start_record(options, *machine, *port);
+  auto record = RunRecord::start({.folder = options.record,
+                                  .machine_file = options.machine,
+                                  .machine = machine->name,
+                                  .program_file = options.program.file},
+                                 *port);
   if (!record) {
     return refused(record.error());
   }
   if (*record) {
-    (*record)->listen(config);
+    (*record)->listen_to(config);
   }
-  Loop loop(*record ? (*record)->port : *port->port, *layer, pace, config);
+  Loop loop(*record ? (*record)->port() : *port->port, *layer, pace, config);
   const std::string word(passport::word(machine->port));
   const auto socket = steadyrest::live::ControlSocket::open(
       options.socket,
@@ -219,7 +158,7 @@ Outcome run(const Options& options) {
   answer.json["real_time_priority"] = real_time.priority;
   answer.text = text_of(figures, answer.json);
   if (*record) {
-    put_record(answer, **record);
+    (*record)->put(answer);
   }
   for (const std::string& refused : real_time.refused) {
     answer.text += refused + "\n";
@@ -240,7 +179,7 @@ void add_verb_run(Session& session, Verb& verb) {
   verb.add_option("--for-s", options->for_s, "End after so many seconds; default: when told to")
       ->check(within(0.001, 1e8));
   verb.add_option("--record", options->record,
-                  "Record the run in a file of its own in this folder (SQLite)")
+                  "Record the run in a new file in this folder (SQLite)")
       ->type_name("FOLDER");
   live::add_socket_option(verb, options->socket);
   add_optional_program(verb, options->program,

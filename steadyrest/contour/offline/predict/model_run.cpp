@@ -104,7 +104,7 @@ class Runner {
     mean_ = mean;
     sample(s, motion, command, on_sample);
   }
-  /// The command has ended: from where it stands until the tool is there.
+  /// The command has ended; the tool goes on until it has arrived.
   void arrive(const Setpoint& end, const std::function<void(const ModelSample&)>& on_sample) {
     do {
       setpoint(end, on_sample);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/cli/live/run_record.hpp>
+#include <steadyrest/live/status_json.hpp>
+#include <steadyrest/passport/text/text_file.hpp>
+#include <steadyrest/record/run_folder.hpp>
+
+namespace steadyrest::apps::cli::live {
+
+RunRecord::RunRecord(std::unique_ptr<record::RecordWriter> writer, kernel::port::Port& machine,
+                     std::string file)
+    : writer_(std::move(writer)), port_(machine, *writer_), file_(std::move(file)) {}
+
+Result<std::unique_ptr<RunRecord>> RunRecord::start(const Of& of, const LivePort& port) {
+  if (of.folder.empty()) {
+    return nullptr;
+  }
+  auto machine = passport::read_text(of.machine_file);
+  auto program =
+      of.program_file.empty() ? Result<std::string>() : passport::read_text(of.program_file);
+  if (!machine || !program) {
+    return std::unexpected(machine ? program.error() : machine.error());
+  }
+  record::RunInfo info;
+  info.start_utc = record::utc_now();
+  info.machine = of.machine;
+  info.machine_text = std::move(*machine);
+  info.program = of.program_file;
+  info.program_text = std::move(*program);
+  info.cycle_s = port.period_s;
+  info.capability = port.port->capability();
+  // What goes wrong here shows when the file is made.
+  std::error_code fault;
+  std::filesystem::create_directories(of.folder, fault);
+  std::string file = (std::filesystem::path(of.folder) / record::run_name(info.start_utc)).string();
+  auto writer = record::RecordWriter::make({.file = file, .info = std::move(info)});
+  if (!writer) {
+    return std::unexpected(writer.error());
+  }
+  return std::unique_ptr<RunRecord>(new RunRecord(std::move(*writer), *port.port, std::move(file)));
+}
+
+void RunRecord::listen_to(steadyrest::live::Loop::Config& config) {
+  config.on_mode = [this](kernel::machine::Mode mode) {
+    writer_->event(record::EventKind::mode, steadyrest::live::word(mode));
+  };
+  config.on_command = [this](const kernel::signal::Command& command) { port_.record(command); };
+}
+
+void RunRecord::put(Answer& answer) {
+  writer_->flush();
+  const auto fault = writer_->fault();
+  answer.json["record"] = {{"file", file_},
+                           {"dropped", writer_->dropped()},
+                           {"fault", fault ? Json(fault->what) : Json(nullptr)}};
+  answer.text += fmt::format("record: {}, {} cycles lost\n", file_, writer_->dropped());
+  if (fault) {
+    answer.text += "the record ended before the run: " + fault->what + "\n";
+  }
+}
+
+}  // namespace steadyrest::apps::cli::live
