@@ -49,6 +49,8 @@ template <class T>
   }
   if constexpr (std::is_same_v<T, kernel::signal::Motion>) {
     return bits <= to_bits(kernel::signal::Motion::spindle_wait);
+  } else if constexpr (std::is_same_v<T, kernel::signal::ProgramState>) {
+    return bits <= to_bits(kernel::signal::ProgramState::paused);
   } else if constexpr (std::is_same_v<T, kernel::signal::Geometry>) {
     return bits <= to_bits(kernel::signal::Geometry::arc);
   }
@@ -68,6 +70,7 @@ void axis_columns(int i, kernel::signal::AxisSample& axis, Visit& visit) {
   visit(ColumnName{"axis.command_mm", i}, axis.command_mm);
   visit(ColumnName{"axis.actual_mm", i}, axis.actual_mm);
   visit(ColumnName{"axis.following_error_mm", i}, axis.following_error_mm);
+  visit(ColumnName{"axis.offset_mm", i}, axis.offset_mm);
   visit(ColumnName{"axis.encoder_shown", i}, axis.encoder_shown);
   visit(ColumnName{"axis.count", i}, axis.count);
   visit(ColumnName{"axis.edge_s", i}, axis.edge_s);
@@ -102,6 +105,7 @@ void frame_columns(kernel::signal::Frame& frame, Visit& visit) {
   override_columns(2, frame.spindle, visit);
   visit(ColumnName{"motion"}, frame.motion);
   visit(ColumnName{"program_line"}, frame.program_line);
+  visit(ColumnName{"program"}, frame.program);
   visit(ColumnName{"programmed_feed_mm_s"}, frame.programmed_feed_mm_s);
   visit(ColumnName{"path_speed_mm_s"}, frame.path_speed_mm_s);
   visit(ColumnName{"feed_per_revolution"}, frame.feed_per_revolution);

@@ -8,12 +8,12 @@ namespace steadyrest::record {
 /// `STRY` in the file's head, so that `file` and we know a record from any other database.
 inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
-inline constexpr std::int64_t kFormat = 1;
+inline constexpr std::int64_t kFormat = 2;
 
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;
-PRAGMA user_version = 1;
+PRAGMA user_version = 2;
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = NORMAL;
 CREATE TABLE run (

@@ -314,6 +314,7 @@ kernel::signal::Frame MachineBody::frame() const noexcept {
     frame.axis[i] = {.command_mm = s.command_mm,
                      .actual_mm = s.encoder_mm,
                      .following_error_mm = s.command_mm - s.encoder_mm,
+                     .offset_mm = offset_mm_[i],
                      .encoder_shown = counters_[i].shown,
                      .count = s.count,
                      .edge_s = counters_[i].edge_s,

@@ -26,17 +26,20 @@ enum class Column : std::uint8_t {
   layer_feed,     ///< motion.adaptive-feed in force
   layer_spindle,  ///< behind the ramp
   layer_alive,    ///< the watchdog's verdict
+  mode_auto,      ///< a program may run; false: by hand
+  program_running,
+  program_paused,
 };
 
 /// What the cfg string of the sampler must be for channel 0; u, s, b and f name a pin's type.
-inline constexpr const char* kStateTypes = "fssfffffbfffffb";
-inline constexpr std::size_t kStateColumns = 15;
+inline constexpr const char* kStateTypes = "fssfffffbfffffbbbb";
+inline constexpr std::size_t kStateColumns = 18;
 
-/// The other channels hold the tick and, for each axis, command, actual position and following
-/// error. A channel takes 20 pins.
+/// The other channels hold the tick and, for each axis, command, actual position, following error
+/// and the offset in force. A channel takes 20 pins.
 inline constexpr std::size_t kMaxColumns = 20;
-inline constexpr std::size_t kAxisColumns = 3;
-inline constexpr std::size_t kAxesPerChannel = 6;
+inline constexpr std::size_t kAxisColumns = 4;
+inline constexpr std::size_t kAxesPerChannel = 4;
 inline constexpr std::size_t kMaxChannels = 3;
 
 [[nodiscard]] constexpr std::size_t channels_of(std::size_t axes) noexcept {
@@ -60,6 +63,7 @@ struct Sample {
     double command = 0.0;
     double actual = 0.0;
     double following_error = 0.0;
+    double offset = 0.0;
   };
   std::array<Axis, kernel::signal::kMaxAxes> axis{};
 

@@ -66,7 +66,7 @@ SampleQueue::Got SampleQueue::take(Sample& sample) noexcept {
   for (std::size_t a = 0; a < axes_; ++a) {
     const Row& row = row_[1 + a / kAxesPerChannel];
     const std::size_t column = 1 + kAxisColumns * (a % kAxesPerChannel);
-    sample.axis[a] = {row[column], row[column + 1], row[column + 2]};
+    sample.axis[a] = {row[column], row[column + 1], row[column + 2], row[column + 3]};
   }
   return Got::sample;
 }

@@ -11,6 +11,7 @@ namespace {
 
 using kernel::signal::Frame;
 using kernel::signal::Motion;
+using kernel::signal::ProgramState;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kMostSpindleFactor = 2.0;
@@ -39,6 +40,16 @@ Motion motion_of(const Sample& sample) noexcept {
   }
 }
 
+/// By halui, up to 21 ms late.
+ProgramState program_of(const Sample& sample) noexcept {
+  if (sample[Column::mode_auto] == 0.0) {
+    return ProgramState::stopped;
+  }
+  return sample[Column::program_paused] != 0.0    ? ProgramState::paused
+         : sample[Column::program_running] != 0.0 ? ProgramState::running
+                                                  : ProgramState::stopped;
+}
+
 /// F × scale over F is what is in force, whether or not M52 lets the layer in; without an active
 /// block it is what would be.
 double effective(const Sample& sample, const Units& units, double panel) noexcept {
@@ -64,10 +75,12 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
     frame.axis[a].command_mm = scale * sample.axis[a].command;
     frame.axis[a].actual_mm = scale * sample.axis[a].actual;
     frame.axis[a].following_error_mm = scale * sample.axis[a].following_error;
+    frame.axis[a].offset_mm = scale * sample.axis[a].offset;
   }
   frame.motion = motion_of(sample);
   const double line = sample[Column::program_line];
   frame.program_line = line > 0.0 ? static_cast<std::uint32_t>(line) : 0;
+  frame.program = program_of(sample);
   frame.path_speed_mm_s = sample[Column::path_speed] * units.linear_unit_mm;
   frame.programmed_feed_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
 

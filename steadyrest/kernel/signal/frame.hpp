@@ -20,6 +20,8 @@ struct AxisSample {
   double actual_mm = 0.0;           ///< position by the encoder
   double following_error_mm = 0.0;  ///< command − actual, as the control reports it; shown as
                                     ///< Ed, no decision uses it
+  double offset_mm = 0.0;           ///< in force on this axis, a part of both positions; 0 where the
+                                    ///< control does not show it
   bool encoder_shown = false;       ///< `count` is valid
   std::int64_t count = 0;           ///< of the encoder at `time_s`, ×4 decoded
   /// Time of the last edge up to now, in the frame's time; NaN: none yet, or no time stamps.
@@ -74,6 +76,7 @@ struct Frame {
   OverrideState spindle;
   Motion motion = Motion::idle;
   std::uint32_t program_line = 0;
+  ProgramState program = ProgramState::unknown;
   double programmed_feed_mm_s = 0.0;      ///< F of the active block at 100 %
   double path_speed_mm_s = 0.0;           ///< commanded path speed now
   bool feed_per_revolution = false;       ///< F follows the spindle by itself

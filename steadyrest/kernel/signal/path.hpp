@@ -27,6 +27,14 @@ enum class Motion : std::uint8_t {
   spindle_wait  ///< waiting for the spindle to reach its speed
 };
 
+/// Whether the control runs an NC program.
+enum class ProgramState : std::uint8_t {
+  unknown,  ///< the control does not show it
+  stopped,  ///< none: standstill, jogging, single blocks by hand (MDI)
+  running,
+  paused  ///< feed hold of the program, M0, M1, single block
+};
+
 /// A tool is at work: an offset that moves now leaves a step in the part.
 [[nodiscard]] constexpr bool in_cut(Motion motion) noexcept {
   return motion == Motion::feed || motion == Motion::thread || motion == Motion::tap;

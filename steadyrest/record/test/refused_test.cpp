@@ -71,7 +71,7 @@ TEST(RefusedRecord, ADatabaseOfAnotherProgram) {
 TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
-  change(file, "PRAGMA user_version = 2");
+  change(file, "PRAGMA user_version = 3");
   EXPECT_THAT(refusal(file), testing::HasSubstr("has format 2; this program reads format 1"));
 }
 

@@ -27,7 +27,7 @@ class FakeHal final : public HalSide {
   void write_pins(const Pins& pins) noexcept override { written.push_back(pins); }
   void pause() noexcept override { ++pauses; }
 
-  /// A row of each channel of a machine with up to six axes.
+  /// A row of each channel of a machine with up to four axes.
   void push(const Sample& sample) {
     push_state(sample);
     push_axes(sample);
@@ -40,9 +40,10 @@ class FakeHal final : public HalSide {
   void push_axes(const Sample& sample) {
     Row row{static_cast<double>(sample.tick)};
     for (std::size_t a = 0; a < kAxesPerChannel; ++a) {
-      row[1 + 3 * a] = sample.axis[a].command;
-      row[2 + 3 * a] = sample.axis[a].actual;
-      row[3 + 3 * a] = sample.axis[a].following_error;
+      row[1 + kAxisColumns * a] = sample.axis[a].command;
+      row[2 + kAxisColumns * a] = sample.axis[a].actual;
+      row[3 + kAxisColumns * a] = sample.axis[a].following_error;
+      row[4 + kAxisColumns * a] = sample.axis[a].offset;
     }
     rows[1].push_back(row);
   }
@@ -72,6 +73,8 @@ inline Sample cutting(std::uint64_t tick) {
   sample[Column::layer_feed] = 1.0;
   sample[Column::layer_spindle] = 1.0;
   sample[Column::layer_alive] = 1.0;
+  sample[Column::mode_auto] = 1.0;
+  sample[Column::program_running] = 1.0;
   sample.axis[0] = {10.0, 9.0, 1.0};
   return sample;
 }

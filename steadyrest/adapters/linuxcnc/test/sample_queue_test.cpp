@@ -93,10 +93,11 @@ TEST(SampleQueue, SpreadsEightAxesOverTwoChannels) {
   Sample sample;
   hal.push(cutting(7));
   EXPECT_EQ(queue.next(hal, sample), Got::none);
-  hal.rows[2].push_back({7.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
+  hal.rows[2].push_back({7.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0});
   ASSERT_EQ(queue.next(hal, sample), Got::sample);
-  EXPECT_EQ(sample.axis[6].command, 1.0);
-  EXPECT_EQ(sample.axis[7].following_error, 6.0);
+  EXPECT_EQ(sample.axis[4].command, 1.0);
+  EXPECT_EQ(sample.axis[5].following_error, 7.0);
+  EXPECT_EQ(sample.axis[5].offset, 8.0);
 }
 
 }  // namespace

@@ -62,6 +62,20 @@ TEST(TranslateLinuxCnc, NamesEachKindOfMotion) {
   EXPECT_EQ(frame_of(sample, kMillUnits).program_line, 0U);
 }
 
+TEST(TranslateLinuxCnc, KnowsWhetherAProgramRuns) {
+  using kernel::signal::ProgramState;
+  Sample sample = cutting(1);
+  EXPECT_EQ(frame_of(sample, kMillUnits).program, ProgramState::running);
+  sample[Column::program_running] = 0.0;
+  EXPECT_EQ(frame_of(sample, kMillUnits).program, ProgramState::stopped);
+  sample[Column::program_paused] = 1.0;
+  EXPECT_EQ(frame_of(sample, kMillUnits).program, ProgramState::paused);
+  // A block typed by hand shows as running there.
+  sample[Column::program_running] = 1.0;
+  sample[Column::mode_auto] = 0.0;
+  EXPECT_EQ(frame_of(sample, kMillUnits).program, ProgramState::stopped);
+}
+
 TEST(TranslateLinuxCnc, ShowsWhatIsInForceNotWhatWasWritten) {
   Sample sample = cutting(1);
   sample[Column::feed_panel] = 0.8;

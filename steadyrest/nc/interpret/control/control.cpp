@@ -22,6 +22,9 @@ Control::Control(Config start) : config(std::move(start)), rules(rules_of(config
   state.home = config.home;
   state.unit_mm = config.inch ? kMmPerInch : 1.0;
   state.feed_unit_mm = state.unit_mm;
+  state.incremental = config.incremental;
+  state.path_mode = config.path_mode;
+  state.path_tolerance_mm = config.path_tolerance_mm;
   state.tool_in_spindle = config.tool_in_spindle;
   state.selected_tool = config.tool_in_spindle;
   state.retract_to_initial = rules.starts_with_g98;

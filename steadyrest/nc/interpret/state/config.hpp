@@ -40,6 +40,9 @@ struct Config {
   bool block_delete = false;  ///< the operator's switch: lines that begin with / are left out
   DecimalRule decimal_rule = DecimalRule::calculator;
   bool inch = false;            ///< units in force at the start (G20)
+  bool incremental = false;     ///< G91 in force at the start
+  PathMode path_mode = PathMode::continuous;  ///< in force at the start, with its tolerance
+  double path_tolerance_mm = 0.0;
   bool external_offset = true;  ///< fanuc: G10 L2 P0 is the external offset; false: G52 (Haas)
   Axes external{};              ///< fanuc: external work offset in force at the start
   std::string axes = "XYZABC";  ///< letters of the machine's axes
@@ -67,6 +70,8 @@ struct Config {
   std::int32_t tool_in_spindle = 0;
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none
   std::int32_t modulation_off = 0;
+
+  friend bool operator==(const Config&, const Config&) = default;
 };
 
 }  // namespace steadyrest::nc::interpret

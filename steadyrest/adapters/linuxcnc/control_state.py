@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints what LinuxCNC has loaded: one JSON object a line, at each change and every second; {"error": …} ends it.
+
+Lengths in mm, angles in degrees. A process of its own: it imports LinuxCNC's modules (GPL-2.0+), which the layer never links.
+"""
+import json
+import os
+import sys
+import time
+
+try:
+    import linuxcnc
+except ImportError as fault:
+    print(json.dumps({"error": "LinuxCNC's Python module is missing: %s" % fault}), flush=True)
+    sys.exit(1)
+
+POLL_S = 0.1
+REPEAT_S = 1.0
+LINEAR = (0, 1, 2, 6, 7, 8)
+PATH_MODES = {610: "exact_path", 611: "exact_stop", 640: "continuous"}
+OFFSETS = ("xoffset", "yoffset", "zoffset", "aoffset", "boffset", "coffset", "uoffset", "voffset", "woffset")
+
+
+class Lengths:
+    """Turns the control's units into mm."""
+
+    def __init__(self, status):
+        self.mm = 1.0 / status.linear_units if status.linear_units > 0 else 1.0
+
+    def of_axes(self, values):
+        return [v * self.mm if i in LINEAR else v for i, v in enumerate(values[:9])]
+
+
+def tools(status, lengths):
+    return [
+        {
+            "number": tool.id,
+            "offset": lengths.of_axes([getattr(tool, name) for name in OFFSETS]),
+            "diameter_mm": tool.diameter * lengths.mm,
+            "front_deg": tool.frontangle,
+            "back_deg": tool.backangle,
+            "orientation": tool.orientation,
+        }
+        for tool in status.tool_table[1:]
+        if tool.id > 0
+    ]
+
+
+def files(ini):
+    """The variable file and the folders of subprograms, as the INI file names them."""
+    config = linuxcnc.ini(ini)
+    home = os.path.dirname(os.path.abspath(ini))
+
+    def absolute(name):
+        return os.path.normpath(os.path.join(home, os.path.expanduser(name)))
+
+    variables = config.find("RS274NGC", "PARAMETER_FILE")
+    folders = [config.find("DISPLAY", "PROGRAM_PREFIX")]
+    folders += (config.find("RS274NGC", "SUBROUTINE_PATH") or "").split(":")
+    return absolute(variables) if variables else "", [absolute(f) for f in folders if f]
+
+
+def state(status, lengths, ini_files):
+    codes = set(status.gcodes[1:])
+    stopped = status.task_mode != linuxcnc.MODE_AUTO or status.interp_state == linuxcnc.INTERP_IDLE
+    # What the program itself sets shows here too while it runs; the layer takes what held at its start.
+    return {
+        "program": os.path.abspath(status.file) if status.file else "",
+        "stopped": stopped,
+        "position": lengths.of_axes(status.position) if stopped else None,
+        "work_offset": status.g5x_index,
+        "work_offset_mm": lengths.of_axes(status.g5x_offset),
+        "rotation_deg": status.rotation_xy,
+        "g92_mm": lengths.of_axes(status.g92_offset),
+        "tool_offset_mm": lengths.of_axes(status.tool_offset),
+        "tool": max(status.tool_in_spindle, 0),
+        "tools": tools(status, lengths),
+        "block_delete": bool(status.block_delete),
+        "inch": 200 in codes,
+        "incremental": 910 in codes,
+        "path_mode": next((PATH_MODES[c] for c in codes if c in PATH_MODES), "continuous"),
+        "machine_inch": lengths.mm != 1.0,
+        "variables": ini_files[0],
+        "folders": ini_files[1],
+    }
+
+
+def watch():
+    status = linuxcnc.stat()
+    status.poll()
+    lengths = Lengths(status)
+    ini_files = files(status.ini_filename)
+    told, told_s, before = None, 0.0, None
+    while True:
+        status.poll()
+        now = state(status, lengths, ini_files)
+        # A position that moves is not told before it rests.
+        moves, before = before is not None and now["position"] != before, now["position"]
+        if moves and told is not None:
+            now["position"] = told["position"]
+        if now != told or time.monotonic() - told_s >= REPEAT_S:
+            told, told_s = now, time.monotonic()
+            print(json.dumps(now), flush=True)
+        time.sleep(POLL_S)
+
+
+try:
+    watch()
+except (BrokenPipeError, KeyboardInterrupt):
+    pass
+except Exception as fault:  # the reader shows it, whatever it is
+    print(json.dumps({"error": "LinuxCNC's status: %s" % fault}), flush=True)

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <steadyrest/live/followed_port.hpp>
+
+// The cycle says which route it looks at before it looks; a route is freed when it is neither that
+// one nor the newest.
+namespace steadyrest::live {
+
+using kernel::outcome::Result;
+using kernel::signal::Frame;
+using nc::follow::Place;
+
+Result<Frame> FollowedPort::read() noexcept {
+  auto frame = machine_.read();
+  if (!frame) {
+    return frame;
+  }
+  take();
+  const auto found = locator_.update(*frame);
+  place_.store(found.place);
+  frame->path = {};
+  if (found.place == Place::on_path) {
+    frame->path = now_->path();
+    frame->path_index = found.index;
+    frame->path_position_mm = found.position_mm;
+  }
+  return frame;
+}
+
+void FollowedPort::take() noexcept {
+  const Route* const route = offered_.load();
+  if (route == now_) {
+    return;
+  }
+  locator_.follow(nullptr);
+  now_ = nullptr;
+  used_.store(route);
+  if (offered_.load() == route) {
+    now_ = route;
+    locator_.follow(route);
+  }
+}
+
+void FollowedPort::offer(std::shared_ptr<const Route> route) {
+  offered_.store(route.get());
+  const Route* const used = used_.load();
+  std::erase_if(kept_, [&](const auto& kept) { return kept.get() != used; });
+  if (route) {
+    kept_.push_back(std::move(route));
+  }
+}
+
+}  // namespace steadyrest::live

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kWait_s = 0.2;
+/// A start from elsewhere alone changes the first block; a long program is not read again for that.
+constexpr double kLongPlan_s = 1.0;
+
+}  // namespace
+
+ProgramWatch::ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source)
+    : port_(port), machine_(std::move(machine)), source_(std::move(source)), thread_([this] {
+        watch();
+      }) {}
+
+ProgramWatch::~ProgramWatch() {
+  ends_.store(true);
+  thread_.join();
+}
+
+ProgramWatch::Status ProgramWatch::status() const {
+  const std::scoped_lock lock(mutex_);
+  return status_;
+}
+
+void ProgramWatch::say(Status status) {
+  const std::scoped_lock lock(mutex_);
+  status_ = std::move(status);
+}
+
+void ProgramWatch::withdraw(const std::string& file, std::string words) {
+  port_.offer(nullptr);
+  say({.file = file, .segments = 0, .words = std::move(words)});
+}
+
+ProgramWatch::Stamp ProgramWatch::stamp_of(const std::string& file) {
+  std::error_code fault;
+  Stamp stamp;
+  stamp.time = fs::last_write_time(file, fault);
+  stamp.size = fs::file_size(file, fault);
+  return fault ? Stamp{} : stamp;
+}
+
+void ProgramWatch::watch() {
+  std::optional<LoadedProgram> loaded;
+  while (!ends_.load()) {
+    auto seen = source_(kWait_s);
+    if (!seen) {
+      withdraw(planned_.file, kernel::outcome::text(seen.error()));
+      loaded.reset();
+      stamp_.reset();
+      continue;
+    }
+    if (*seen) {
+      loaded = std::move(*seen);
+    }
+    if (loaded) {
+      look(*loaded);
+    }
+  }
+}
+
+void ProgramWatch::look(const LoadedProgram& loaded) {
+  if (loaded.file.empty()) {
+    if (stamp_ || status().words.empty()) {
+      withdraw({}, "the control has no program loaded");
+    }
+    stamp_.reset();
+    return;
+  }
+  const Stamp stamp = stamp_of(loaded.file);
+  const bool same_file = stamp_ && loaded.file == planned_.file;
+  if (same_file && !loaded.stopped) {
+    if (stamp != *stamp_ && !withdrawn_) {
+      withdrawn_ = true;
+      withdraw(loaded.file, loaded.file + " has changed while it runs; the control may run either text");
+    }
+    return;
+  }
+  LoadedProgram as_planned = planned_;
+  if (plan_s_ > kLongPlan_s) {
+    as_planned.start.start = loaded.start.start;
+  }
+  as_planned.stopped = loaded.stopped;
+  if (same_file && !withdrawn_ && stamp == *stamp_ && loaded == as_planned) {
+    return;
+  }
+  plan(loaded, stamp);
+}
+
+void ProgramWatch::plan(const LoadedProgram& loaded, const Stamp& stamp) {
+  if (!stamp_ || loaded.file != planned_.file || stamp != *stamp_) {
+    withdraw(loaded.file, "the program is being read");
+  }
+  planned_ = loaded;
+  stamp_ = stamp;
+  withdrawn_ = false;
+  const auto begin = std::chrono::steady_clock::now();
+  auto path = nc::plan::plan_file(loaded.file, loaded.start, machine_);
+  plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!path) {
+    withdraw(loaded.file, kernel::outcome::text(path.error()));
+    return;
+  }
+  auto route = std::make_shared<const nc::follow::Route>(std::move(path->segments));
+  say({.file = loaded.file, .segments = route->path().size(), .words = {}});
+  port_.offer(std::move(route));
+}
+
+}  // namespace steadyrest::live

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/nc/interpret/state/config.hpp>
+
+namespace steadyrest::live {
+
+/// What a control has loaded.
+struct LoadedProgram {
+  std::string file;             ///< empty: none
+  nc::interpret::Config start;  ///< what the interpreter must know; taken while no program runs
+  bool stopped = true;          ///< no program runs
+
+  friend bool operator==(const LoadedProgram&, const LoadedProgram&) = default;
+};
+
+/// Keeps a FollowedPort's path that of the loaded program, in a thread of its own: reads and plans
+/// it when another one is loaded, when its text changes and when the control's offsets do. A
+/// program whose text changes while it runs has no path until it has ended.
+class ProgramWatch {
+ public:
+  /// The newest state of the control; nothing when none came within the time. Called in the
+  /// watch's thread alone.
+  using Source = std::function<kernel::outcome::Result<std::optional<LoadedProgram>>(double wait_s)>;
+  struct Status {
+    std::string file;          ///< empty: none loaded
+    std::size_t segments = 0;  ///< of the path; 0: there is none
+    std::string words;         ///< why there is none; empty otherwise
+  };
+
+  ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source);
+  ProgramWatch(const ProgramWatch&) = delete;
+  ProgramWatch& operator=(const ProgramWatch&) = delete;
+  ~ProgramWatch();
+
+  [[nodiscard]] Status status() const;
+
+ private:
+  /// Tells two texts of a file apart.
+  struct Stamp {
+    std::filesystem::file_time_type time;
+    std::uintmax_t size = 0;
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  [[nodiscard]] static Stamp stamp_of(const std::string& file);
+
+  void watch();
+  void look(const LoadedProgram& loaded);
+  void plan(const LoadedProgram& loaded, const Stamp& stamp);
+  void withdraw(const std::string& file, std::string words);
+  void say(Status status);
+
+  FollowedPort& port_;
+  kernel::machine::Machine machine_;
+  Source source_;
+  // Of the thread.
+  LoadedProgram planned_;
+  std::optional<Stamp> stamp_;  ///< of the text that was planned, or refused
+  double plan_s_ = 0.0;         ///< that took so long
+  bool withdrawn_ = false;      ///< its text has changed
+  mutable std::mutex mutex_;
+  Status status_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;  ///< last: it uses the others
+};
+
+}  // namespace steadyrest::live

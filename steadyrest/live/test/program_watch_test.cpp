@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <condition_variable>
+#include <fstream>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "desk.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/live/program_watch.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::file::testing::OwnFolder;
+using kernel::outcome::Result;
+using nc::follow::Place;
+using testing::HasSubstr;
+
+/// A control that says what the test tells it; each state is looked at before the next is told.
+class FakeControl {
+ public:
+  [[nodiscard]] ProgramWatch::Source source() {
+    return [this](double wait_s) { return wait(wait_s); };
+  }
+  /// Returns when the watch has done with it.
+  void tell(Result<std::optional<LoadedProgram>> state) {
+    std::unique_lock lock(mutex_);
+    state_ = std::move(state);
+    waiting_ = false;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return waiting_ && !state_; });
+  }
+
+ private:
+  Result<std::optional<LoadedProgram>> wait(double wait_s) {
+    std::unique_lock lock(mutex_);
+    waiting_ = true;
+    changed_.notify_all();
+    changed_.wait_for(lock, std::chrono::duration<double>(wait_s),
+                      [this] { return state_.has_value(); });
+    if (!state_) {
+      return std::optional<LoadedProgram>();
+    }
+    auto state = std::move(*state_);
+    state_.reset();
+    waiting_ = false;
+    return state;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Result<std::optional<LoadedProgram>>> state_;
+  bool waiting_ = false;
+};
+
+struct Watched {
+  Watched() : watch(port, desk.machine, control.source()) {}
+
+  LoadedProgram loaded(bool stopped = true) const {
+    LoadedProgram program;
+    program.file = folder.at("part.mpf");
+    program.start.dialect = desk.machine.control.dialect;
+    program.start.axes = "XYZ";
+    program.stopped = stopped;
+    return program;
+  }
+  void write(const std::string& text) const { std::ofstream(folder.at("part.mpf")) << text; }
+
+  OwnFolder folder;
+  test::Desk desk;
+  FollowedPort port{*desk.port};
+  FakeControl control;
+  ProgramWatch watch;
+};
+
+const std::string kPart = "G17 G90 G94 G71\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 F4000\nM30\n";
+
+TEST(ProgramWatch, PlansWhatTheControlHasLoaded) {
+  Watched watched;
+  watched.control.tell(std::optional<LoadedProgram>(LoadedProgram{}));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("no program"));
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().words, "");
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+  EXPECT_EQ(watched.port.read()->path.size(), 0U) << "not found yet";
+  EXPECT_NE(watched.port.place(), Place::no_route);
+}
+
+TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
+  Watched watched;
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("part.mpf"));
+  watched.write("G0 X10\nG999\nM30\n");
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("part.mpf:2"));
+  EXPECT_EQ(watched.watch.status().segments, 0U);
+  // Mended, it is read again.
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+TEST(ProgramWatch, TakesANewOffsetOnlyWhileNoProgramRuns) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  auto shifted = watched.loaded(false);
+  shifted.start.work_offset[0][0] = 5.0;
+  watched.control.tell(std::optional(shifted));
+  const auto found = [&] {
+    int frames = 0;
+    for (int i = 0; i < 60; ++i) {
+      frames += watched.port.read()->path.empty() ? 0 : 1;
+    }
+    return frames;
+  };
+  // The desk's machine cuts the program without an offset.
+  EXPECT_GT(found(), 40);
+  shifted.stopped = true;
+  watched.control.tell(std::optional(shifted));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+  EXPECT_EQ(found(), 0);
+}
+
+TEST(ProgramWatch, WithdrawsFromAProgramThatIsEditedWhileItRuns) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  watched.control.tell(std::optional(watched.loaded(false)));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+  watched.write(kPart + "; a later thought\n");
+  watched.control.tell(std::optional(watched.loaded(false)));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("has changed while it runs"));
+  (void)watched.port.read();
+  EXPECT_EQ(watched.port.place(), Place::no_route);
+  // Back to the old text does not help: the control may have read either.
+  watched.control.tell(std::optional(watched.loaded(false)));
+  EXPECT_EQ(watched.watch.status().segments, 0U);
+  watched.control.tell(std::optional(watched.loaded(true)));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+TEST(ProgramWatch, WithdrawsWhenTheControlIsNoLongerHeard) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  watched.control.tell(kernel::outcome::refuse("the channel is gone", "start it"));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("the channel is gone"));
+  (void)watched.port.read();
+  EXPECT_EQ(watched.port.place(), Place::no_route);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+}  // namespace
+}  // namespace steadyrest::live

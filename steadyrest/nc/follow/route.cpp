@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <steadyrest/nc/follow/route.hpp>
+
+namespace steadyrest::nc::follow {
+
+Route::Route(std::vector<kernel::signal::PathSegment> path)
+    : path_(std::move(path)), by_line_(path_.size()) {
+  std::iota(by_line_.begin(), by_line_.end(), 0U);
+  std::ranges::stable_sort(by_line_, {}, [this](std::uint32_t i) { return path_[i].line; });
+}
+
+std::span<const std::uint32_t> Route::of_line(std::uint32_t line) const noexcept {
+  const auto line_of = [this](std::uint32_t i) { return path_[i].line; };
+  const auto end = std::ranges::upper_bound(by_line_, line, {}, line_of);
+  if (end == by_line_.begin()) {
+    return {};
+  }
+  const auto begin = std::ranges::lower_bound(by_line_.begin(), end, line_of(*(end - 1)), {}, line_of);
+  return {begin, end};
+}
+
+}  // namespace steadyrest::nc::follow
