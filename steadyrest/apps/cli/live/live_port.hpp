@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <steadyrest/apps/cli/shared/program_options.hpp>
+#include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/port/port.hpp>
 
@@ -15,6 +16,9 @@ namespace steadyrest::apps::cli::live {
 struct LivePort {
   std::shared_ptr<void> beside;  ///< what the port needs, as long as it lives
   std::unique_ptr<kernel::port::Port> port;
+  std::shared_ptr<void> watch;  ///< a thread that uses the port: it ends before it
+  /// What is known of the program that the control runs; empty: the port shows its path itself.
+  std::function<Json()> program;
   double period_s = 0.001;
   bool paces = false;              ///< read() waits for the control's next sample
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never

@@ -141,9 +141,11 @@ Outcome run(const Options& options) {
   }
   Loop loop(*record ? (*record)->port() : *port->port, *layer, pace, config);
   const std::string word(passport::word(machine->port));
-  const auto socket = steadyrest::live::ControlSocket::open(
-      options.socket,
-      [&](std::string_view line) { return steadyrest::live::answer(loop, word, line); });
+  const auto socket =
+      steadyrest::live::ControlSocket::open(options.socket, [&](std::string_view line) {
+        return steadyrest::live::answer({.loop = loop, .port = word, .program = port->program},
+                                        line);
+      });
   if (!socket) {
     return refused(socket.error());
   }
@@ -154,6 +156,9 @@ Outcome run(const Options& options) {
   answer.json = steadyrest::live::figures_json(figures);
   answer.json["machine"] = machine->name;
   answer.json["port"] = word;
+  if (port->program) {
+    answer.json["program"] = port->program();
+  }
   answer.json["memory_locked"] = real_time.memory_locked;
   answer.json["real_time_priority"] = real_time.priority;
   answer.text = text_of(figures, answer.json);
