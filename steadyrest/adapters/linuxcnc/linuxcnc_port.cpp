@@ -54,6 +54,10 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
     return refuse("linear unit (allowed: above 0 mm)",
                   "give 1 for [TRAJ] LINEAR_UNITS = mm, 25.4 for inch");
   }
+  if (!(units.max_feed_mm_s > 0.0)) {
+    return refuse("largest feed (allowed: above 0)",
+                  "give max_feed_mm_min; it is [TRAJ] MAX_LINEAR_VELOCITY in the INI file");
+  }
   if (!(config.lost_after_s > units.servo_period_s && config.lost_after_s <= 10.0)) {
     return refuse("time without a sample (allowed: above the servo period, up to 10 s)",
                   "give about 0.1 s");

@@ -50,12 +50,22 @@ ProgramState program_of(const Sample& sample) noexcept {
                                                   : ProgramState::stopped;
 }
 
-/// F × scale over F is what is in force, whether or not M52 lets the layer in; without an active
-/// block it is what would be.
+/// F of the active block, as far as the control can reach it.
+double reachable_mm_s(const Sample& sample, const Units& units) noexcept {
+  return std::min(sample[Column::requested_speed] * units.linear_unit_mm, units.max_feed_mm_s);
+}
+
+/// F × all that scales it over F is what is in force, whether or not M52 lets the layer in; without
+/// an active block it is what would be.
 double effective(const Sample& sample, const Units& units, double panel) noexcept {
-  const double requested_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
-  return requested_mm_s > 0.0 ? sample[Column::feed_mm_s] / requested_mm_s
-                              : panel * sample[Column::layer_feed];
+  const double reach_mm_s = reachable_mm_s(sample, units);
+  if (!(reach_mm_s > 0.0)) {
+    return panel * sample[Column::layer_feed];
+  }
+  const double ratio = sample[Column::feed_mm_s] / reach_mm_s;
+  return reach_mm_s < sample[Column::requested_speed] * units.linear_unit_mm
+             ? std::min(ratio, panel)
+             : ratio;
 }
 
 /// A machine axis's unit (mm or rad) in one of the control's units.
@@ -82,7 +92,7 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
   frame.program_line = line > 0.0 ? static_cast<std::uint32_t>(line) : 0;
   frame.program = program_of(sample);
   frame.path_speed_mm_s = sample[Column::path_speed] * units.linear_unit_mm;
-  frame.programmed_feed_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
+  frame.programmed_feed_mm_s = reachable_mm_s(sample, units);
 
   const double feed_panel = sample[Column::feed_panel];
   const double rapid_panel = sample[Column::rapid_panel];
@@ -116,6 +126,8 @@ Pins pins_of(const kernel::signal::Command& command, const Sample& sample, const
   Pins pins = before;
   pins.feed =
       command.feed_masks_panel ? feed_factor(command.feed_ratio, sample[Column::feed_panel]) : 1.0;
+  const double requested_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
+  pins.scale = requested_mm_s > units.max_feed_mm_s ? units.max_feed_mm_s / requested_mm_s : 1.0;
   const double spindle = command.spindle_ratio / sample[Column::spindle_panel];
   pins.spindle = command.spindle_masks_panel && std::isfinite(spindle)
                      ? std::clamp(spindle, 0.0, kMostSpindleFactor)

@@ -97,6 +97,10 @@ std::span<const Key<Control>> control_keys() noexcept {
       Key<Control>{"corner_acceleration_share", &Control::corner_acceleration_share, 0.01, 1,
                    "Continuous mode: share of the acceleration left next to an unrounded corner, "
                    "and before a stop."},
+      Key<Control>{"clips_programmed_feed", &Control::clips_programmed_feed, 0, 0,
+                   "An F above max_feed_mm_min counts as that feed before the override multiplies "
+                   "it: so it is with the layer on LinuxCNC. Otherwise an override acts on such a "
+                   "block only once the product is below max_feed_mm_min."},
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
                    "The control stops between G0 and a feed move."},
   };

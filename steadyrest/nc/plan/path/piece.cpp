@@ -185,6 +185,9 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
   if (move.feed_mode == FeedMode::inverse_time) {
     p.feed_mm_s = move.feed_mm_s * out.segment.length_mm;
   }
+  if (machine_.control.clips_programmed_feed && !p.rapid && !p.per_revolution) {
+    p.feed_mm_s = std::min(p.feed_mm_s, machine_.control.max_feed_mm_s);
+  }
   const double spindle = spindle_of(out.segment, move);
   p.spindle_rev_s = move.surface_speed_mm_s != 0.0 ? spindle : 0.0;
   out.segment.feed_mm_s = p.per_revolution ? p.feed_mm_s * std::abs(spindle) : p.feed_mm_s;

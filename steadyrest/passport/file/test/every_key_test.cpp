@@ -55,6 +55,7 @@ TEST(EveryKey, PathPlanner) {
   EXPECT_DOUBLE_EQ(c.merge_share, 0.55);
   EXPECT_DOUBLE_EQ(c.junction_share, 0.56);
   EXPECT_DOUBLE_EQ(c.corner_acceleration_share, 0.57);
+  EXPECT_TRUE(c.clips_programmed_feed);
   EXPECT_TRUE(c.stop_between_rapid_and_feed);
 }
 

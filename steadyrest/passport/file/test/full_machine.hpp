@@ -32,6 +32,7 @@ min_block_cycles = 4
 merge_share = 0.55
 junction_share = 0.56
 corner_acceleration_share = 0.57
+clips_programmed_feed = true
 stop_between_rapid_and_feed = true
 [[axis]]
 name = "X"
