@@ -93,13 +93,12 @@ int run(const Options& options) {
   const auto hal = HalProcess::make({.name = options.name,
                                      .replaces = options.replaces,
                                      .servo_period_s = options.servo_period_s,
-                                     .offsets_connected = true,
                                      .writes = options.ratio >= 0.0});
   if (!hal) {
     return refused(hal.error());
   }
-  const auto port = LinuxCncPort::make(
-      {.units = {.servo_period_s = options.servo_period_s}, .offsets_connected = true}, **hal);
+  const auto port =
+      LinuxCncPort::make({.units = {.servo_period_s = options.servo_period_s}}, **hal);
   if (!port) {
     return refused(port.error());
   }

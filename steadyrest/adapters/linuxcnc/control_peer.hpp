@@ -10,13 +10,14 @@
 
 namespace steadyrest::adapters::linuxcnc {
 
-/// The process that reads LinuxCNC's status channel (control_state.py). Belongs to one thread, which
-/// is not the cycle's.
+/// The process that reads LinuxCNC's status channel (control_state.py). Belongs to one thread,
+/// which is not the cycle's.
 class ControlPeer {
  public:
   struct Config {
     std::string python = "/usr/bin/python3";  ///< the one that has LinuxCNC's modules
-    std::string script = {};  ///< its text; empty: control_state.py  NOLINT(readability-redundant-member-init)
+    std::string script =
+        {};  ///< its text; empty: control_state.py  NOLINT(readability-redundant-member-init)
   };
 
   /// Refused (unavailable): the process cannot be started.

@@ -23,11 +23,11 @@ struct ControlState {
     double back_deg = 0.0;
     int orientation = 0;
   };
-  std::string program;         ///< absolute path; empty: none
-  bool stopped = true;         ///< no program runs
-  ControlAxes position{};      ///< of the machine, while it is stopped
+  std::string program;     ///< absolute path; empty: none
+  bool stopped = true;     ///< no program runs
+  ControlAxes position{};  ///< of the machine, while it is stopped
   bool position_known = false;
-  int work_offset = 1;         ///< 1: G54 … 9: G59.3
+  int work_offset = 1;  ///< 1: G54 … 9: G59.3
   ControlAxes work_offset_mm{};
   double rotation_deg = 0.0;
   ControlAxes g92_mm{};

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,6 +34,8 @@ struct SharedPins {
   struct Axis {
     hal_float_t* offset;
     hal_float_t* path_offset;
+    hal_float_t* share;         ///< [AXIS_L] OFFSET_AV_RATIO
+    hal_float_t* acceleration;  ///< [AXIS_L] MAX_ACCELERATION
   };
   std::array<Axis, kernel::signal::kMaxAxes> axis;
   hal_bit_t* heartbeat;
@@ -109,18 +112,21 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
   if (pins == nullptr) {
     return unavailable("the HAL's shared memory is full", "restart LinuxCNC");
   }
-  offsets = config.offsets_connected ? config.axes : 0;
   const char* name = config.name.c_str();
   int code = hal_pin_float_newf(HAL_OUT, &pins->feed, component, "%s.feed", name);
   code |= hal_pin_float_newf(HAL_OUT, &pins->scale, component, "%s.scale", name);
   code |= hal_pin_float_newf(HAL_OUT, &pins->spindle, component, "%s.spindle", name);
   code |= hal_pin_bit_newf(HAL_OUT, &pins->heartbeat, component, "%s.heartbeat", name);
   code |= hal_pin_bit_newf(HAL_OUT, &pins->armed, component, "%s.armed", name);
-  for (std::size_t a = 0; a < offsets; ++a) {
+  for (std::size_t a = 0; a < config.axes; ++a) {
     const int n = static_cast<int>(a);
     code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].offset, component, "%s.offset-%d", name, n);
     code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].path_offset, component, "%s.path-offset-%d",
                                name, n);
+    code |=
+        hal_pin_float_newf(HAL_IN, &pins->axis[a].share, component, "%s.offset-share-%d", name, n);
+    code |= hal_pin_float_newf(HAL_IN, &pins->axis[a].acceleration, component,
+                               "%s.axis-acceleration-%d", name, n);
   }
   if (code != 0) {
     return unavailable(fmt::format("the pins of {} cannot be made ({})", name, code),
@@ -152,8 +158,16 @@ Result<void> HalProcess::Hal::connect(const Config& config) {
       return linked;
     }
   }
+  // A HAL without layer_offsets.hal has none of these signals.
+  if (!link(config, "offset-0")) {
+    return {};
+  }
+  offsets = config.axes;
   for (std::size_t a = 0; a < offsets; ++a) {
-    for (const char* pin : {"offset", "path-offset"}) {
+    for (const char* pin : {"offset", "path-offset", "offset-share", "axis-acceleration"}) {
+      if (a == 0 && std::string_view(pin) == "offset") {
+        continue;
+      }
       if (auto linked = link(config, fmt::format("{}-{}", pin, a)); !linked) {
         return linked;
       }
@@ -248,6 +262,18 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
   // After the values: who sees the beat finds them in place.
   *hal_->pins->armed = pins.armed;
   *hal_->pins->heartbeat = pins.heartbeat;
+}
+
+bool HalProcess::offsets_connected() const noexcept {
+  return hal_->offsets > 0;
+}
+
+kernel::signal::AxisValues HalProcess::offset_acceleration() const noexcept {
+  kernel::signal::AxisValues out{};
+  for (std::size_t a = 0; a < hal_->offsets; ++a) {
+    out[a] = *hal_->pins->axis[a].share * *hal_->pins->axis[a].acceleration;
+  }
+  return out;
 }
 
 void HalProcess::pause() noexcept {

@@ -24,8 +24,7 @@ class HalProcess final : public HalSide {
     std::string replaces;
     std::size_t axes = 3;
     double servo_period_s = 0.001;
-    bool offsets_connected = false;  ///< layer_offsets.hal is loaded
-    bool writes = true;              ///< false: no pins, reading only
+    bool writes = true;  ///< false: no pins, reading only
   };
 
   static kernel::outcome::Result<std::unique_ptr<HalProcess>> make(const Config& config);
@@ -34,6 +33,8 @@ class HalProcess final : public HalSide {
   bool read_row(std::size_t channel, Row& row) noexcept override;
   [[nodiscard]] std::size_t waiting(std::size_t channel) const noexcept override;
   void write_pins(const Pins& pins) noexcept override;
+  [[nodiscard]] bool offsets_connected() const noexcept override;
+  [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override;
   void pause() noexcept override;
 
  private:

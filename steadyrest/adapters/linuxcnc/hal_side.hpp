@@ -20,6 +20,10 @@ class HalSide {
   /// Rows that wait in a channel.
   [[nodiscard]] virtual std::size_t waiting(std::size_t channel) const noexcept = 0;
   virtual void write_pins(const Pins& pins) noexcept = 0;
+  /// layer_offsets.hal is loaded.
+  [[nodiscard]] virtual bool offsets_connected() const noexcept = 0;
+  /// Of each axis for its offset, in the control's units; 0: not known.
+  [[nodiscard]] virtual kernel::signal::AxisValues offset_acceleration() const noexcept = 0;
   /// Lets a tenth of a servo period pass.
   virtual void pause() noexcept = 0;
 };

@@ -68,8 +68,8 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
 kernel::port::Capability LinuxCncPort::capability() const noexcept {
   return {.feed_override = true,
           .spindle_override = config_.spindle_connected,
-          .axis_offset = config_.offsets_connected,
-          .path_offset = config_.offsets_connected,
+          .axis_offset = offsets_connected_,
+          .path_offset = offsets_connected_,
           .latched_word = true};
 }
 
@@ -117,13 +117,15 @@ Result<void> LinuxCncPort::write(const kernel::signal::Command& command) noexcep
     return refuse("a command that must not be written", "write in the mode act only");
   }
   pins_ = pins_of(command, sample_, config_.units, pins_);
-  if (!config_.offsets_connected) {
+  if (!offsets_connected_) {
     pins_.offset.fill(0.0);
     pins_.path_offset.fill(0.0);
   }
   pins_.heartbeat = !pins_.heartbeat;
   arm();
-  hal_.write_pins(pins_);
+  Pins given = pins_;
+  course_.apply(given, sample_[Column::enabled] != 0.0, sample_.tick, config_.units.servo_period_s);
+  hal_.write_pins(given);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <steadyrest/adapters/linuxcnc/hal_side.hpp>
+#include <steadyrest/adapters/linuxcnc/offset_course.hpp>
 #include <steadyrest/adapters/linuxcnc/sample_queue.hpp>
 #include <steadyrest/adapters/linuxcnc/translate.hpp>
 #include <steadyrest/kernel/port/port.hpp>
@@ -23,10 +24,9 @@ class LinuxCncPort final : public kernel::port::Port {
  public:
   struct Config {
     Units units;
-    bool spindle_connected = true;   ///< layer.hal's factor lies before the drive
-    bool offsets_connected = false;  ///< layer_offsets.hal is loaded
-    double lost_after_s = 0.1;       ///< without a sample: the link is lost; > servo period
-    std::size_t most_waiting = 20;   ///< servo cycles
+    bool spindle_connected = true;  ///< layer.hal's factor lies before the drive
+    double lost_after_s = 0.1;      ///< without a sample: the link is lost; > servo period
+    std::size_t most_waiting = 20;  ///< servo cycles
   };
 
   static kernel::outcome::Result<std::unique_ptr<LinuxCncPort>> make(const Config& config,
@@ -47,14 +47,20 @@ class LinuxCncPort final : public kernel::port::Port {
 
  private:
   LinuxCncPort(const Config& config, HalSide& hal) noexcept
-      : config_(config), hal_(hal), queue_(config.units.axes) {}
+      : config_(config),
+        hal_(hal),
+        queue_(config.units.axes),
+        course_(hal.offset_acceleration()),
+        offsets_connected_(hal.offsets_connected()) {}
   void arm() noexcept;
 
   Config config_;
   HalSide& hal_;
   SampleQueue queue_;
   Sample sample_;
-  Pins pins_;
+  OffsetCourse course_;
+  bool offsets_connected_;
+  Pins pins_;  ///< as asked for; the HAL gets the course's offsets
   std::uint64_t skipped_ = 0;
   std::uint64_t rearmed_ = 0;
   std::uint32_t beats_ = 0;  ///< since the watchdog was armed or released

@@ -52,10 +52,11 @@ kernel::outcome::Result<std::optional<ControlState>> first_of(ControlPeer& peer)
 }
 
 TEST(ControlPeer, HandsOutTheNewestOfSeveralLines) {
-  const std::string script = "old = '''" + kLine +
-                             "'''\n"
-                             "print(old + chr(10) + old.replace('part', 'next'), flush=True)\n"
-                             "import time; time.sleep(60)\n";
+  const std::string script =
+      "old = '''" + kLine +
+      "'''\n"
+      "import os; os.write(1, (old + chr(10) + old.replace('part', 'next') + chr(10)).encode())\n"
+      "import time; time.sleep(60)\n";
   const auto peer = ControlPeer::start({.script = script});
   ASSERT_TRUE(peer.has_value()) << peer.error().what;
   const auto state = first_of(**peer);

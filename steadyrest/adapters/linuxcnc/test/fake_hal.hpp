@@ -26,6 +26,10 @@ class FakeHal final : public HalSide {
   }
   void write_pins(const Pins& pins) noexcept override { written.push_back(pins); }
   void pause() noexcept override { ++pauses; }
+  [[nodiscard]] bool offsets_connected() const noexcept override { return with_offsets; }
+  [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
+    return {};
+  }
 
   /// A row of each channel of a machine with up to four axes.
   void push(const Sample& sample) {
@@ -52,6 +56,7 @@ class FakeHal final : public HalSide {
   std::array<std::size_t, kMaxChannels> next{};
   std::vector<Pins> written;
   std::size_t pauses = 0;
+  bool with_offsets = false;
 };
 
 /// Cuts at 66.7 mm/s with all switches at 100 %.

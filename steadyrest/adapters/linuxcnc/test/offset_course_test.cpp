@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/adapters/linuxcnc/offset_course.hpp>
+
+namespace steadyrest::adapters::linuxcnc {
+namespace {
+
+constexpr double kPeriod_s = 0.001;
+
+/// LinuxCNC 2.9's planner of external offsets (simple_tp), written from its documented law.
+class OffsetPlanner {
+ public:
+  OffsetPlanner(double speed, double acceleration) : speed_(speed), acceleration_(acceleration) {}
+  double update(double target) {
+    const double dv = acceleration_ * kPeriod_s;
+    const double error = target - at_;
+    double wish = 0.0;
+    if (std::abs(error) > dv * kPeriod_s * 0.001) {
+      wish = std::copysign(std::sqrt(2.0 * acceleration_ * std::abs(error) + dv * dv) - dv, error);
+    }
+    wish = std::clamp(wish, -speed_, speed_);
+    now_ += std::clamp(wish - now_, -dv, dv);
+    at_ += now_ * kPeriod_s;
+    return at_;
+  }
+
+ private:
+  double speed_;
+  double acceleration_;
+  double now_ = 0.0;
+  double at_ = 0.0;
+};
+
+/// Largest distance from 0.56·sin(6.67·t) mm that the planner's output keeps: the offset that a
+/// circle of 10 mm at F4000 needs with a position loop of 20 1/s.
+double worst_mm(double acceleration) {
+  OffsetCourse course({acceleration});
+  OffsetPlanner planner(40.0, 400.0);
+  double worst = 0.0;
+  for (std::uint64_t tick = 1; tick < 5000; ++tick) {
+    Pins pins;
+    pins.offset[0] = 0.02;
+    pins.path_offset[0] = 0.56 * std::sin(6.67 * kPeriod_s * static_cast<double>(tick));
+    const double asked = pins.offset[0] + pins.path_offset[0];
+    course.apply(pins, true, tick, kPeriod_s);
+    const double got = planner.update(pins.offset[0] + pins.path_offset[0]);
+    if (tick > 200) {
+      worst = std::max(worst, std::abs(got - asked));
+    }
+  }
+  return worst;
+}
+
+TEST(OffsetCourse, LeadsByWhatThePlannerLags) {
+  EXPECT_GT(worst_mm(0.0), 0.015) << "v²/2a is 17 µm";
+  EXPECT_LT(worst_mm(400.0), 0.0005);
+}
+
+TEST(OffsetCourse, PassesOnWhatRests) {
+  OffsetCourse course({400.0});
+  for (std::uint64_t tick = 1; tick < 5; ++tick) {
+    Pins pins;
+    pins.offset[0] = 0.03;
+    pins.path_offset[2] = -0.01;
+    course.apply(pins, true, tick, kPeriod_s);
+    EXPECT_EQ(pins.offset[0], 0.03);
+    EXPECT_EQ(pins.path_offset[0], 0.0);
+    EXPECT_EQ(pins.path_offset[2], -0.01);
+  }
+}
+
+// Off and on bakes an offset into the position (LinuxCNC 2.9): it must be 0 when the machine comes
+// on again, and grow from there.
+TEST(OffsetCourse, GrowsFromNothingAfterTheMachineWasOff) {
+  OffsetCourse course;
+  const auto given = [&](std::uint64_t tick, bool enabled) {
+    Pins pins;
+    pins.offset[1] = -0.03;
+    pins.path_offset[0] = 0.01;
+    course.apply(pins, enabled, tick, kPeriod_s);
+    return pins;
+  };
+  EXPECT_EQ(given(1, true).offset[1], -0.03);
+  for (std::uint64_t tick = 2; tick < 10; ++tick) {
+    EXPECT_EQ(given(tick, false).offset[1], 0.0);
+    EXPECT_EQ(given(tick, false).path_offset[0], 0.0);
+  }
+  double before = 0.0;
+  for (std::uint64_t tick = 10; tick < 60; ++tick) {
+    const double now = given(tick, true).offset[1];
+    EXPECT_LE(std::abs(now - before), 0.001 + 1e-12);
+    before = now;
+  }
+  EXPECT_EQ(before, -0.03);
+}
+
+}  // namespace
+}  // namespace steadyrest::adapters::linuxcnc
