@@ -92,9 +92,22 @@ Result<kernel::signal::Frame> LinuxCncPort::read() noexcept {
     }
     waiting = hal_.waiting(0);
   }
+  remember_offsets();
   kernel::signal::Frame frame = frame_of(sample_, config_.units);
   frame.age_s = static_cast<double>(waiting) * config_.units.servo_period_s;
   return frame;
+}
+
+/// LinuxCNC shows an offset two servo cycles before it is in the joint's command (measured on
+/// 2.9.0~pre1): the frame has the one that its positions contain.
+void LinuxCncPort::remember_offsets() noexcept {
+  kernel::signal::AxisValues shown{};
+  for (std::size_t a = 0; a < shown.size(); ++a) {
+    shown[a] = sample_.axis[a].offset;
+    sample_.axis[a].offset = offsets_[1][a];
+  }
+  offsets_[1] = offsets_[0];
+  offsets_[0] = shown;
 }
 
 void LinuxCncPort::arm() noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -53,11 +54,14 @@ class LinuxCncPort final : public kernel::port::Port {
         course_(hal.offset_acceleration()),
         offsets_connected_(hal.offsets_connected()) {}
   void arm() noexcept;
+  void remember_offsets() noexcept;
 
   Config config_;
   HalSide& hal_;
   SampleQueue queue_;
   Sample sample_;
+  /// Offsets in force as the last samples showed them, newest first.
+  std::array<kernel::signal::AxisValues, 2> offsets_{};
   OffsetCourse course_;
   bool offsets_connected_;
   Pins pins_;  ///< as asked for; the HAL gets the course's offsets
