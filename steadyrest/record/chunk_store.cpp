@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <utility>
 
 #include <steadyrest/record/chunk_store.hpp>
@@ -31,10 +32,13 @@ constexpr const char* kText[sql_count] = {
     "UPDATE totals SET samples = ?, dropped = ?, closed = ?",
 };
 
+constexpr double kMicrosecond_s = 1e-6;
+
 std::int64_t bits(const kernel::port::Capability& capability) {
   return (capability.feed_override ? 1 : 0) | (capability.spindle_override ? 2 : 0) |
          (capability.axis_offset ? 4 : 0) | (capability.path_offset ? 8 : 0) |
-         (capability.latched_word ? 16 : 0);
+         (capability.latched_word ? 16 : 0) |
+         (std::llround(capability.path_offset_delay_s / kMicrosecond_s) << kDelayShift);
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ kernel::port::Capability capability_of(std::int64_t bits) {
           .spindle_override = (bits & 2) != 0,
           .axis_offset = (bits & 4) != 0,
           .path_offset = (bits & 8) != 0,
+          .path_offset_delay_s = 1e-6 * static_cast<double>(bits >> kDelayShift),
           .latched_word = (bits & 16) != 0};
 }
 

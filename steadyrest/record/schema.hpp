@@ -10,6 +10,9 @@ inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
 inline constexpr std::int64_t kFormat = 2;
 
+/// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others.
+inline constexpr int kDelayShift = 16;
+
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;

@@ -52,11 +52,11 @@ Result<std::optional<Room>> room(bool on, const Config& config) {
 }
 
 /// It asks for no offset that the port cannot take.
-Result<std::optional<contour::online::FeedGovernor>> contour_room(const machine::Machine& machine,
-                                                                  bool feed_override,
-                                                                  bool path_offset) {
+Result<std::optional<contour::online::FeedGovernor>> contour_room(
+    const machine::Machine& machine, bool feed_override, const kernel::port::Capability& port) {
   auto config = contour::online::FeedGovernor::Config::of(machine);
-  if (!path_offset) {
+  config.path_offset_delay_s = port.path_offset_delay_s;
+  if (!port.path_offset) {
     config.envelope.max_path_offset_mm = 0.0;
   }
   return room<contour::online::FeedGovernor>(machine.contour.enabled && feed_override, config);
@@ -125,7 +125,7 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
     return std::unexpected(std::move(motion.error()));
   }
   Supervisor supervisor(machine, capability, *clock, std::move(*motion), *offset, *path_offset);
-  auto contour = contour_room(machine, feed->has_value(), capability.path_offset);
+  auto contour = contour_room(machine, feed->has_value(), capability);
   if (!contour) {
     return std::unexpected(std::move(contour.error()));
   }

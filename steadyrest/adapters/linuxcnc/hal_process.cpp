@@ -29,7 +29,6 @@ constexpr double kPausesPerPeriod = 10.0;
 /// In the HAL's shared memory, where the HAL rewrites the pointers when pins are linked.
 struct SharedPins {
   hal_float_t* feed;
-  hal_float_t* scale;
   hal_float_t* spindle;
   struct Axis {
     hal_float_t* offset;
@@ -114,7 +113,6 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
   }
   const char* name = config.name.c_str();
   int code = hal_pin_float_newf(HAL_OUT, &pins->feed, component, "%s.feed", name);
-  code |= hal_pin_float_newf(HAL_OUT, &pins->scale, component, "%s.scale", name);
   code |= hal_pin_float_newf(HAL_OUT, &pins->spindle, component, "%s.spindle", name);
   code |= hal_pin_bit_newf(HAL_OUT, &pins->heartbeat, component, "%s.heartbeat", name);
   code |= hal_pin_bit_newf(HAL_OUT, &pins->armed, component, "%s.armed", name);
@@ -133,7 +131,6 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
                        "give another name of the component");
   }
   *pins->feed = 1.0;
-  *pins->scale = 1.0;
   *pins->spindle = 1.0;
   *pins->armed = false;
   return {};
@@ -153,7 +150,7 @@ Result<void> HalProcess::Hal::link(const Config& config, const std::string& pin)
 }
 
 Result<void> HalProcess::Hal::connect(const Config& config) {
-  for (const char* pin : {"feed", "scale", "spindle", "heartbeat", "armed"}) {
+  for (const char* pin : {"feed", "spindle", "heartbeat", "armed"}) {
     if (auto linked = link(config, pin); !linked) {
       return linked;
     }
@@ -253,7 +250,6 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
     return;
   }
   *hal_->pins->feed = pins.feed;
-  *hal_->pins->scale = pins.scale;
   *hal_->pins->spindle = pins.spindle;
   for (std::size_t a = 0; a < hal_->offsets; ++a) {
     *hal_->pins->axis[a].offset = pins.offset[a];

@@ -23,7 +23,7 @@ enum class Column : std::uint8_t {
   feed_panel,
   spindle_panel,
   rapid_panel,
-  layer_feed,     ///< behind the ramp
+  layer_feed,     ///< motion.adaptive-feed in force
   layer_spindle,  ///< behind the ramp
   layer_alive,    ///< the watchdog's verdict
   mode_auto,      ///< a program may run; false: by hand
@@ -75,8 +75,7 @@ struct Sample {
 
 /// What the adapter tells LinuxCNC.
 struct Pins {
-  double feed = 1.0;   ///< factor on the feed that the panel permits, 0 … 1
-  double scale = 1.0;  ///< the largest feed over an F above it; times `feed`: motion.adaptive-feed
+  double feed = 1.0;     ///< factor on the feed, 0 … 1, for motion.adaptive-feed
   double spindle = 1.0;  ///< factor on the speed between spindle.0.speed-out and the drive
   kernel::signal::AxisValues offset{};       ///< in the control's units; kept when the layer dies
   kernel::signal::AxisValues path_offset{};  ///< the same; ramps to 0 when the layer dies

@@ -15,6 +15,7 @@ using kernel::signal::ProgramState;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kMostSpindleFactor = 2.0;
+constexpr double kSameRatio = 1e-6;
 
 /// motion.motion-type. A tap and a thread show as feed: LinuxCNC itself ignores feed overrides
 /// there.
@@ -50,22 +51,23 @@ ProgramState program_of(const Sample& sample) noexcept {
                                                   : ProgramState::stopped;
 }
 
-/// F of the active block, as far as the control can reach it.
-double reachable_mm_s(const Sample& sample, const Units& units) noexcept {
-  return std::min(sample[Column::requested_speed] * units.linear_unit_mm, units.max_feed_mm_s);
-}
-
-/// F × all that scales it over F is what is in force, whether or not M52 lets the layer in; without
-/// an active block it is what would be.
+/// What scales the active block's feed, whether or not M52 lets the layer in; without a block it is
+/// what would. LinuxCNC multiplies what the axes permit of F (`requested`), but shows the product
+/// with F itself (`feed`). Where F is within that, the quotient tells whether M52, M49 and M50 let
+/// layer and panel in; with an F beyond, it tells nothing, and both are taken for let in.
 double effective(const Sample& sample, const Units& units, double panel) noexcept {
-  const double reach_mm_s = reachable_mm_s(sample, units);
-  if (!(reach_mm_s > 0.0)) {
-    return panel * sample[Column::layer_feed];
+  const double with_layer = panel * sample[Column::layer_feed];
+  const double requested_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
+  if (!(requested_mm_s > 0.0)) {
+    return with_layer;
   }
-  const double ratio = sample[Column::feed_mm_s] / reach_mm_s;
-  return reach_mm_s < sample[Column::requested_speed] * units.linear_unit_mm
-             ? std::min(ratio, panel)
-             : ratio;
+  const double quotient = sample[Column::feed_mm_s] / requested_mm_s;
+  for (const double ratio : {panel, sample[Column::layer_feed], 1.0, 0.0}) {
+    if (std::abs(quotient - ratio) <= kSameRatio * ratio) {
+      return ratio;
+    }
+  }
+  return with_layer;
 }
 
 /// A machine axis's unit (mm or rad) in one of the control's units.
@@ -92,7 +94,7 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
   frame.program_line = line > 0.0 ? static_cast<std::uint32_t>(line) : 0;
   frame.program = program_of(sample);
   frame.path_speed_mm_s = sample[Column::path_speed] * units.linear_unit_mm;
-  frame.programmed_feed_mm_s = reachable_mm_s(sample, units);
+  frame.programmed_feed_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
 
   const double feed_panel = sample[Column::feed_panel];
   const double rapid_panel = sample[Column::rapid_panel];
@@ -126,8 +128,6 @@ Pins pins_of(const kernel::signal::Command& command, const Sample& sample, const
   Pins pins = before;
   pins.feed =
       command.feed_masks_panel ? feed_factor(command.feed_ratio, sample[Column::feed_panel]) : 1.0;
-  const double requested_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
-  pins.scale = requested_mm_s > units.max_feed_mm_s ? units.max_feed_mm_s / requested_mm_s : 1.0;
   const double spindle = command.spindle_ratio / sample[Column::spindle_panel];
   pins.spindle = command.spindle_masks_panel && std::isfinite(spindle)
                      ? std::clamp(spindle, 0.0, kMostSpindleFactor)

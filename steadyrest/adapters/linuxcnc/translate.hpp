@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 
 #include <steadyrest/adapters/linuxcnc/sample.hpp>
 #include <steadyrest/kernel/signal/command.hpp>
@@ -15,8 +14,6 @@ namespace steadyrest::adapters::linuxcnc {
 struct Units {
   std::size_t axes = 3;         ///< joints 0 …, in the order of the machine file; 1 … 8
   double servo_period_s = 0.0;  ///< [EMCMOT] SERVO_PERIOD; must be given
-  /// [TRAJ] MAX_LINEAR_VELOCITY: a larger F counts as this.
-  double max_feed_mm_s = std::numeric_limits<double>::infinity();
   double linear_unit_mm = 1.0;  ///< [TRAJ] LINEAR_UNITS: 1, or 25.4 for inches
   std::array<bool, kernel::signal::kMaxAxes> rotary{};  ///< counted in degrees
 };

@@ -100,6 +100,7 @@ class FeedGovernor {
     double work_share = 0.1;             ///< share of a control cycle for one search
     std::size_t exhaustive_steps = 32;   ///< tables up to this size are searched in full
     double forecast_step_s = 0.0;        ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
+    double path_offset_delay_s = 0.0;    ///< of the port
     double (*objective)(const Candidate&) noexcept = combined_objective;
 
     /// These sections of a passport, the rest with the defaults above.

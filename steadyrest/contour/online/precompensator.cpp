@@ -18,6 +18,8 @@ using kernel::signal::OffsetRequest;
 using kernel::signal::Point;
 using kernel::signal::Room;
 
+constexpr double kLongestDelay_s = 0.02;
+constexpr double kMostCycles = 20.0;
 /// Of a command that is at rest: nothing moves, so the offsets may begin at their full size.
 constexpr double kStill_mm_s = 1e-6;
 
@@ -35,6 +37,11 @@ kernel::outcome::Result<Precompensator> Precompensator::make(const Config& confi
     return refuse("the largest path offset is " + std::to_string(config.max_offset_mm) +
                       " mm; allowed: 0 or more",
                   "correct max_path_offset_um in [envelope]");
+  }
+  if (!(config.delay_s >= 0.0 && config.delay_s <= kLongestDelay_s)) {
+    return refuse(
+        "path offsets act " + std::to_string(config.delay_s) + " s late; allowed: 0 … 0.02 s",
+        "correct the delay that the port states");
   }
   if (!(config.fade_in_s > 0.0)) {
     return refuse("fade_in_s is " + std::to_string(config.fade_in_s) + "; allowed: above 0",
@@ -85,10 +92,15 @@ OffsetRequest Precompensator::update(const Input& input) noexcept {
   if (!(input.step_s > 0.0)) {
     return request;  // the length of a cycle is not known yet
   }
-  const double next_mm = std::clamp(position_mm + (speed_mm_s + 0.5 * change_mm_s) * input.step_s,
-                                    position_mm, std::max(position_mm, input.path.known_to_mm()));
+  double next_mm = position_mm;
   ToolPoint::State next = state_.tool;
-  point_.advance(input.path, position_mm, next_mm, input.step_s, next);
+  const double cycles = std::clamp(std::round(config_.delay_s / input.step_s), 0.0, kMostCycles);
+  for (double i = 0.0; i <= cycles; i += 1.0) {
+    const double from_mm = next_mm;
+    next_mm = std::clamp(from_mm + (speed_mm_s + (i + 0.5) * change_mm_s) * input.step_s, from_mm,
+                         std::max(from_mm, input.path.known_to_mm()));
+    point_.advance(input.path, from_mm, next_mm, input.step_s, next);
+  }
   const Cell& cell = input.path.cell(input.path.find(next_mm, next.cell));
   const Point command = on_cell(cell, next_mm - cell.position_mm);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {

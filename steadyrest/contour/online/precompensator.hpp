@@ -18,8 +18,9 @@ namespace steadyrest::contour::online {
 
 /// Cancels the contour error at full feed: axis offsets that keep the tool on the path.
 ///
-/// Law: tool_point.hpp. An offset asked for now acts with the next command, so the command is
-/// predicted by one cycle, s_c + (v + ½Δv)·T, and the offset is
+/// Law: tool_point.hpp. An offset asked for now acts with the next command, or n cycles later where
+/// the port says so; so the command is predicted by n + 1 cycles of constant acceleration, the
+/// first of them s_c + (v + ½Δv)·T, and the offset is
 ///   o = w·(c′ − c)   at that place,
 /// with w = 0 … 1 growing over `fade_in_s` where it comes into force on a moving machine.
 ///
@@ -33,6 +34,7 @@ class Precompensator {
     std::vector<kernel::machine::Axis> axes;  ///< X, Y, Z first
     double max_offset_mm = 0.0;               ///< 0: it never asks
     double fade_in_s = 0.2;
+    double delay_s = 0.0;  ///< of an offset beyond one cycle; 0 … 0.02
   };
 
   struct Input {

@@ -34,9 +34,9 @@ struct Control {
   double corner_acceleration_share =
       1.0;  ///< continuous mode: share of the acceleration available next to a corner that could
             ///< not be rounded and before a stop
-  double blend_gap_cycles = 0.0;  ///< what a corner arc leaves of the line before it keeps the
-                                  ///< arc's limits when it is shorter than this many periods
-  bool clips_programmed_feed = false;  ///< F counts as max_feed_mm_s at most, before the override
+  double blend_gap_cycles = 0.0;       ///< what a corner arc leaves of the line before it keeps the
+                                       ///< arc's limits when it is shorter than this many periods
+  bool clips_programmed_feed = false;  ///< F counts as what the axes permit, before the override
   bool stop_between_rapid_and_feed = false;
 };
 

@@ -12,7 +12,8 @@ struct Capability {
   bool feed_override = false;
   bool spindle_override = false;
   bool axis_offset = false;
-  bool path_offset = false;  ///< takes a second offset that may change in every cycle
+  bool path_offset = false;          ///< takes a second offset that may change in every cycle
+  double path_offset_delay_s = 0.0;  ///< until such an offset is in the command, beyond one cycle
   bool latched_word = true;  ///< an override word of several bits takes effect as a whole; else it
                              ///< must walk step by step
 };

@@ -98,9 +98,9 @@ std::span<const Key<Control>> control_keys() noexcept {
                    "Continuous mode: share of the acceleration left next to an unrounded corner, "
                    "and before a stop."},
       Key<Control>{"clips_programmed_feed", &Control::clips_programmed_feed, 0, 0,
-                   "An F above max_feed_mm_min counts as that feed before the override multiplies "
-                   "it: so it is with the layer on LinuxCNC. Otherwise an override acts on such a "
-                   "block only once the product is below max_feed_mm_min."},
+                   "An F beyond the speeds of axes and control counts as what they permit before "
+                   "the override multiplies it, as on LinuxCNC. Otherwise an override acts on such "
+                   "a block only once the product is below them."},
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
                    "The control stops between G0 and a feed move."},
   };

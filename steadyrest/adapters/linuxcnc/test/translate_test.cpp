@@ -84,6 +84,18 @@ TEST(TranslateLinuxCnc, ShowsWhatIsInForceNotWhatWasWritten) {
   EXPECT_NEAR(frame_of(sample, kMillUnits).feed.effective_ratio, 0.8, 1e-12);
   sample[Column::feed_mm_s] = 0.4 * 66.7;
   EXPECT_NEAR(frame_of(sample, kMillUnits).feed.effective_ratio, 0.4, 1e-12);
+  sample[Column::feed_mm_s] = 0.5 * 66.7;  // M49: the panel is not let in
+  EXPECT_NEAR(frame_of(sample, kMillUnits).feed.effective_ratio, 0.5, 1e-12);
+}
+
+// 3D_Chips.ngc has F4500000; the axes permit 200 mm/s, and the ratios multiply that.
+TEST(TranslateLinuxCnc, AnFBeyondTheAxesTellsNoRatio) {
+  Sample sample = cutting(1);
+  sample[Column::requested_speed] = 200.0;
+  sample[Column::layer_feed] = 0.25;
+  sample[Column::feed_mm_s] = 75000.0 * 0.25;
+  EXPECT_EQ(frame_of(sample, kMillUnits).feed.effective_ratio, 0.25);
+  EXPECT_EQ(frame_of(sample, kMillUnits).programmed_feed_mm_s, 200.0);
 }
 
 TEST(TranslateLinuxCnc, SeparatesTheSpindlesProgramFromItsOverrides) {
@@ -130,25 +142,6 @@ TEST(FeedFactor, LeavesThePanelInChargeWhenItTurnsBetweenReadingAndActing) {
 TEST(FeedFactor, IsThatOfAFullPanelWhileThePanelIsAtZero) {
   EXPECT_EQ(feed_factor(0.4, 0.0), 0.4);
   EXPECT_EQ(feed_factor(0.0, 0.0), 0.0);
-}
-
-// 3D_Chips.ngc has F1000000: without the scale the layer's steps would all be above what the axes
-// can do.
-TEST(TranslateLinuxCnc, AnFBeyondTheLargestFeedCountsAsThat) {
-  Units units = kMillUnits;
-  units.max_feed_mm_s = 250.0;
-  Sample sample = cutting(1);
-  sample[Column::requested_speed] = 16000.0;
-  sample[Column::feed_mm_s] = 16000.0;
-  EXPECT_EQ(frame_of(sample, units).programmed_feed_mm_s, 250.0);
-  EXPECT_EQ(frame_of(sample, units).feed.effective_ratio, 1.0);
-  const Command command{.feed_ratio = 0.4, .feed_masks_panel = true, .write = true};
-  const Pins pins = pins_of(command, sample, units, {});
-  EXPECT_NEAR(16000.0 * pins.feed * pins.scale, 100.0, 1e-9);
-  sample[Column::feed_mm_s] = 16000.0 * pins.feed * pins.scale;
-  EXPECT_NEAR(frame_of(sample, units).feed.effective_ratio, 0.4, 1e-12);
-  sample[Column::requested_speed] = 200.0;
-  EXPECT_EQ(pins_of(command, sample, units, {}).scale, 1.0);
 }
 
 TEST(PinsOfLinuxCnc, FollowThePanelWithoutAMask) {

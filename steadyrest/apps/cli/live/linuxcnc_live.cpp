@@ -95,7 +95,6 @@ Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine)
   }
   adapter::LinuxCncPort::Config config;
   config.units.axes = machine.axes.size();
-  config.units.max_feed_mm_s = machine.control.max_feed_mm_s;
   config.units.servo_period_s = machine.control.servo_period_s;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), config.units.rotary.size()); ++i) {
     config.units.rotary[i] = machine.axes[i].rotary;

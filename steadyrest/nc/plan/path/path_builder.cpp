@@ -66,6 +66,7 @@ const PlaneLimits& PathStream::plane_of(const Point& normal) noexcept {
 }
 
 void PathStream::emit(Piece& out) {
+  pieces_.clip_feed(out);
   out.segment.position_mm = position_mm_;
   out.plan.exit_speed_limit_mm_s = out.segment.exit_speed_limit_mm_s;
   position_mm_ += out.segment.length_mm;

@@ -185,12 +185,28 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
   if (move.feed_mode == FeedMode::inverse_time) {
     p.feed_mm_s = move.feed_mm_s * out.segment.length_mm;
   }
-  if (machine_.control.clips_programmed_feed && !p.rapid && !p.per_revolution) {
-    p.feed_mm_s = std::min(p.feed_mm_s, machine_.control.max_feed_mm_s);
-  }
   const double spindle = spindle_of(out.segment, move);
   p.spindle_rev_s = move.surface_speed_mm_s != 0.0 ? spindle : 0.0;
   out.segment.feed_mm_s = p.per_revolution ? p.feed_mm_s * std::abs(spindle) : p.feed_mm_s;
+}
+
+void PieceMaker::clip_feed(Piece& out) const {
+  if (machine_.control.clips_programmed_feed && !out.plan.rapid && !out.plan.per_revolution) {
+    out.plan.feed_mm_s = std::min(out.plan.feed_mm_s, reachable_mm_s(out.segment));
+    out.segment.feed_mm_s = out.plan.feed_mm_s;
+  }
+}
+
+/// What the speeds of axes and control permit of F, whatever the curvature.
+double PieceMaker::reachable_mm_s(const PathSegment& segment) const {
+  double speed = machine_.control.max_feed_mm_s;
+  if (segment.geometry == Geometry::line) {
+    return std::min(speed, limits_.line(line_direction(segment)).speed_mm_s);
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine_.axes.size()); ++i) {
+    speed = std::min(speed, machine_.axes[i].max_speed_au_s);
+  }
+  return speed;
 }
 
 void PieceMaker::limit(Piece& out) const {

@@ -49,9 +49,13 @@ class PieceMaker {
   void limit(Piece& out) const;
   /// The same with given limits.
   void limit(Piece& out, const SpeedLimits& limits) const;
+  /// The control's law for an F that the axes cannot reach (Control::clips_programmed_feed). Of a
+  /// finished piece: pieces of one F merge.
+  void clip_feed(Piece& out) const;
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 
  private:
+  [[nodiscard]] double reachable_mm_s(const kernel::signal::PathSegment& segment) const;
   [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Move& move,
                                                             const interpret::Axes& work) const;
   [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,
