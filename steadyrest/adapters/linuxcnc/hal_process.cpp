@@ -25,6 +25,8 @@ using kernel::outcome::Result;
 constexpr int kSamplerKey = 0x48534130;  ///< SAMPLER_SHMEM_KEY, channel 0
 constexpr std::size_t kLongestName = 30;
 constexpr double kPausesPerPeriod = 10.0;
+constexpr int kVibrationChannel = 7;  ///< the last that the sampler has
+constexpr std::size_t kMostReadings = 256;
 
 /// In the HAL's shared memory, where the HAL rewrites the pointers when pins are linked.
 struct SharedPins {
@@ -37,6 +39,14 @@ struct SharedPins {
     hal_float_t* acceleration;  ///< [AXIS_L] MAX_ACCELERATION
   };
   std::array<Axis, kernel::signal::kMaxAxes> axis;
+  struct Sensor {
+    hal_float_t* value;
+  };
+  std::array<Sensor, kernel::signal::kMaxTemperatures> temperature;
+  hal_float_t* probe_number;
+  hal_float_t* probe_axis;
+  hal_float_t* probe_displacement;
+  hal_float_t* vibration_rate;
   hal_bit_t* heartbeat;
   hal_bit_t* armed;
 };
@@ -61,6 +71,9 @@ struct HalProcess::Hal {
     for (std::size_t c = 0; c < attached; ++c) {
       hal_stream_detach(&stream[c]);
     }
+    if (has_vibration) {
+      hal_stream_detach(&vibration_stream);
+    }
     if (component > 0) {
       hal_exit(component);
     }
@@ -69,6 +82,8 @@ struct HalProcess::Hal {
   Result<void> attach(std::size_t axes);
   Result<void> make_pins(const Config& config);
   Result<void> connect(const Config& config);
+  int make_inputs(const char* name);
+  void connect_inputs(const Config& config);
   Result<void> link(const Config& config, const std::string& pin);
 
   int component = -1;
@@ -78,6 +93,11 @@ struct HalProcess::Hal {
   std::array<std::size_t, kMaxChannels> columns{};
   SharedPins* pins = nullptr;
   std::size_t offsets = 0;
+  std::array<bool, kernel::signal::kMaxTemperatures> has_temperature{};
+  bool has_probe = false;
+  hal_stream_t vibration_stream{};
+  bool has_vibration = false;
+  std::array<double, kMostReadings> vibration{};
   long pause_ns = 100'000;
 };
 
@@ -126,6 +146,7 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
     code |= hal_pin_float_newf(HAL_IN, &pins->axis[a].acceleration, component,
                                "%s.axis-acceleration-%d", name, n);
   }
+  code |= make_inputs(name);
   if (code != 0) {
     return unavailable(fmt::format("the pins of {} cannot be made ({})", name, code),
                        "give another name of the component");
@@ -134,6 +155,32 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
   *pins->spindle = 1.0;
   *pins->armed = false;
   return {};
+}
+
+int HalProcess::Hal::make_inputs(const char* name) {
+  int code = 0;
+  for (std::size_t i = 0; i < pins->temperature.size(); ++i) {
+    code |= hal_pin_float_newf(HAL_IN, &pins->temperature[i].value, component, "%s.temperature-%d",
+                               name, static_cast<int>(i));
+  }
+  code |= hal_pin_float_newf(HAL_IN, &pins->probe_number, component, "%s.probe-number", name);
+  code |= hal_pin_float_newf(HAL_IN, &pins->probe_axis, component, "%s.probe-axis", name);
+  code |= hal_pin_float_newf(HAL_IN, &pins->probe_displacement, component, "%s.probe-displacement",
+                             name);
+  code |= hal_pin_float_newf(HAL_IN, &pins->vibration_rate, component, "%s.vibration-rate", name);
+  return code;
+}
+
+/// A HAL without these signals has no such sensor.
+void HalProcess::Hal::connect_inputs(const Config& config) {
+  for (std::size_t i = 0; i < has_temperature.size(); ++i) {
+    has_temperature[i] = link(config, fmt::format("temperature-{}", i)).has_value();
+  }
+  has_probe = link(config, "probe-number") && link(config, "probe-axis") &&
+              link(config, "probe-displacement");
+  has_vibration =
+      link(config, "vibration-rate") &&
+      hal_stream_attach(&vibration_stream, component, kSamplerKey + kVibrationChannel, "f") >= 0;
 }
 
 Result<void> HalProcess::Hal::link(const Config& config, const std::string& pin) {
@@ -155,6 +202,7 @@ Result<void> HalProcess::Hal::connect(const Config& config) {
       return linked;
     }
   }
+  connect_inputs(config);
   // A HAL without layer_offsets.hal has none of these signals.
   if (!link(config, "offset-0")) {
     return {};
@@ -239,6 +287,38 @@ bool HalProcess::read_row(std::size_t channel, Row& row) noexcept {
     }
   }
   return true;
+}
+
+Inputs HalProcess::read_inputs() noexcept {
+  Inputs inputs;
+  if (hal_->pins == nullptr) {
+    return inputs;
+  }
+  const SharedPins& pins = *hal_->pins;
+  for (std::size_t i = 0; i < pins.temperature.size(); ++i) {
+    if (hal_->has_temperature[i]) {
+      inputs.temperature_c[i] = *pins.temperature[i].value;
+    }
+  }
+  const double number = hal_->has_probe ? *pins.probe_number : 0.0;
+  const double axis = hal_->has_probe ? *pins.probe_axis : -1.0;
+  if (number >= 1.0 && axis >= 0.0 && axis < static_cast<double>(kernel::signal::kMaxAxes)) {
+    inputs.probe.number = static_cast<std::uint64_t>(number);
+    inputs.probe.axis = static_cast<std::uint8_t>(axis);
+    inputs.probe.displacement_mm = *pins.probe_displacement;
+  }
+  if (hal_->has_vibration) {
+    std::size_t count = 0;
+    hal_stream_data row{};
+    unsigned ignored = 0;
+    while (count < hal_->vibration.size() && hal_stream_readable(&hal_->vibration_stream) &&
+           hal_stream_read(&hal_->vibration_stream, &row, &ignored) >= 0) {
+      hal_->vibration[count++] = row.f;
+    }
+    inputs.vibration = std::span<const double>(hal_->vibration).first(count);
+    inputs.vibration_rate_hz = *pins.vibration_rate;
+  }
+  return inputs;
 }
 
 std::size_t HalProcess::waiting(std::size_t channel) const noexcept {

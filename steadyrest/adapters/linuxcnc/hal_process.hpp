@@ -12,6 +12,10 @@ namespace steadyrest::adapters::linuxcnc {
 
 /// This process as a HAL component beside a LinuxCNC that has loaded layer.hal.
 ///
+/// It reads temperatures (signals `layer-temperature-N`), probe readings (`layer-probe-number`,
+/// `-axis`, `-displacement`) and a vibration sensor (sampler channel 7, `layer-vibration-rate`)
+/// where the HAL has these signals.
+///
 /// It makes the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat and .armed,
 /// connects them to the signals of layer.hal and attaches to the sampler's channels. Destroyed in
 /// good order it disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
@@ -31,6 +35,7 @@ class HalProcess final : public HalSide {
   ~HalProcess() override;
 
   bool read_row(std::size_t channel, Row& row) noexcept override;
+  Inputs read_inputs() noexcept override;
   [[nodiscard]] std::size_t waiting(std::size_t channel) const noexcept override;
   void write_pins(const Pins& pins) noexcept override;
   [[nodiscard]] bool offsets_connected() const noexcept override;

@@ -17,6 +17,8 @@ class HalSide {
 
   /// Takes the oldest row that waits in a channel; false: none waits.
   virtual bool read_row(std::size_t channel, Row& row) noexcept = 0;
+  /// Temperatures, probe readings and vibration, where the HAL has them.
+  virtual Inputs read_inputs() noexcept = 0;
   /// Rows that wait in a channel.
   [[nodiscard]] virtual std::size_t waiting(std::size_t channel) const noexcept = 0;
   virtual void write_pins(const Pins& pins) noexcept = 0;

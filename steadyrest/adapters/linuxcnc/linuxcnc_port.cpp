@@ -93,6 +93,12 @@ Result<kernel::signal::Frame> LinuxCncPort::read() noexcept {
   }
   remember_offsets();
   kernel::signal::Frame frame = frame_of(sample_, config_.units);
+  const Inputs inputs = hal_.read_inputs();
+  frame.temperature_c = inputs.temperature_c;
+  frame.probe = inputs.probe;
+  frame.probe.displacement_mm *= config_.units.linear_unit_mm;
+  frame.vibration = inputs.vibration;
+  frame.vibration_rate_hz = inputs.vibration_rate_hz;
   frame.age_s = static_cast<double>(waiting) * config_.units.servo_period_s;
   return frame;
 }

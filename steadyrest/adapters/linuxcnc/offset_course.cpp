@@ -8,38 +8,55 @@ namespace steadyrest::adapters::linuxcnc {
 namespace {
 
 constexpr double kReturn_s = 1.0;  ///< of the control's units
+constexpr double kUsedShare = 0.9;
+constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 
 }  // namespace
 
 void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double period_s) noexcept {
-  const double dt_s = static_cast<double>(std::max<std::uint64_t>(tick - tick_, 1)) * period_s;
-  const bool follows = begun_ && tick > tick_ && enabled;
+  const std::uint64_t cycles = begun_ && tick > tick_ ? std::min(tick - tick_, kLongestGap) : 1;
+  const double dt_s = static_cast<double>(cycles) * period_s;
   tick_ = tick;
   begun_ = true;
   if (!enabled) {
     was_off_ = true;
-    given_ = {};
-    asked_ = {};
+    axis_ = {};
     pins.offset = {};
     pins.path_offset = {};
     return;
   }
   bool back = true;
-  for (std::size_t a = 0; a < acceleration_.size(); ++a) {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
     if (was_off_) {
       const double step = kReturn_s * dt_s;
-      given_[a] += std::clamp(pins.offset[a] - given_[a], -step, step);
-      back = back && given_[a] == pins.offset[a];
-      pins.offset[a] = given_[a];
+      axis_[a].given += std::clamp(pins.offset[a] - axis_[a].given, -step, step);
+      back = back && axis_[a].given == pins.offset[a];
+      pins.offset[a] = axis_[a].given;
     }
-    const double asked = pins.offset[a] + pins.path_offset[a];
-    const double speed = follows ? (asked - asked_[a]) / dt_s : 0.0;
-    asked_[a] = asked;
     if (acceleration_[a] > 0.0) {
-      pins.path_offset[a] += 0.5 * speed * std::abs(speed) / acceleration_[a];
+      const double asked = pins.offset[a] + pins.path_offset[a];
+      pins.path_offset[a] = target(a, asked, dt_s) - pins.offset[a];
     }
   }
   was_off_ = was_off_ && !back;
+}
+
+double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcept {
+  Axis& now = axis_[axis];
+  const double most = kUsedShare * acceleration_[axis];
+  const double step = most * dt_s;
+  const double away = asked - now.at;
+  const double asked_speed = (asked - now.asked) / dt_s;
+  // The speed that closes the gap in this cycle, but never more than it can brake from.
+  const double closing =
+      std::copysign(std::min(std::abs(away - asked_speed * dt_s) / dt_s,
+                             std::sqrt(2.0 * most * std::abs(away) + step * step) - step),
+                    away);
+  const double wish = asked_speed + closing;
+  now.asked = asked;
+  now.speed += std::clamp(wish - now.speed, -step, step);
+  now.at += now.speed * dt_s;
+  return now.at + 0.5 * now.speed * std::abs(now.speed) / acceleration_[axis];
 }
 
 }  // namespace steadyrest::adapters::linuxcnc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <steadyrest/adapters/linuxcnc/sample.hpp>
@@ -9,13 +10,17 @@ namespace steadyrest::adapters::linuxcnc {
 
 /// Makes LinuxCNC's external offsets follow what the layer asks for.
 ///
-/// Its planner moves an offset o towards the target T with the acceleration a of the axis's share:
-/// v = √(2a·(T − o) + (a·Δt)²) − a·Δt. A target that moves is followed late, by v²/2a; so the
-/// target leads by that. While the machine is off LinuxCNC takes the offset in force into the
-/// commanded position: the target is 0 then and grows from 0 at 1 mm/s afterwards.
+/// Its planner moves an offset o towards the target T with the acceleration a of the axis's share,
+///   v = √(2a·(T − o) + (a·Δt)²) − a·Δt,
+/// so it stays v²/2a behind a target that moves. Here p follows what is asked for with at most
+/// 0.9·a, w being its speed, and the target leads it: T = p + w·|w|/2a. Where the layer asks for no
+/// more than the axis can do, p is what it asks for; where it asks for more, p does not overshoot.
+///
+/// While the machine is off LinuxCNC takes the offset in force into the commanded position: the
+/// target is 0 then, and the offset against heat grows from 0 at 1 mm/s afterwards.
 class OffsetCourse {
  public:
-  /// mm/s² (rad/s²) of each axis for offsets; 0: not known, no lead.
+  /// Of each axis for offsets, in the control's units; 0: not known, no lead.
   explicit OffsetCourse(const kernel::signal::AxisValues& acceleration = {}) noexcept
       : acceleration_(acceleration) {}
 
@@ -23,12 +28,21 @@ class OffsetCourse {
   void apply(Pins& pins, bool enabled, std::uint64_t tick, double period_s) noexcept;
 
  private:
+  struct Axis {
+    double asked = 0.0;  ///< the last sum of both offsets
+    double at = 0.0;     ///< p
+    double speed = 0.0;  ///< w
+    double given = 0.0;  ///< of the offset against heat, after the machine was off
+  };
+
+  /// T for this axis.
+  [[nodiscard]] double target(std::size_t axis, double asked, double dt_s) noexcept;
+
   kernel::signal::AxisValues acceleration_;
-  kernel::signal::AxisValues asked_{};  ///< the last sum of both offsets
+  std::array<Axis, kernel::signal::kMaxAxes> axis_{};
   std::uint64_t tick_ = 0;
   bool begun_ = false;
   bool was_off_ = false;
-  kernel::signal::AxisValues given_{};  ///< of the offset against heat, after the machine was off
 };
 
 }  // namespace steadyrest::adapters::linuxcnc

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
@@ -29,11 +31,12 @@ enum class Column : std::uint8_t {
   mode_auto,      ///< a program may run; false: by hand
   program_running,
   program_paused,
+  modulation,  ///< a digital output of the program: the spindle's speed may swing
 };
 
 /// What the cfg string of the sampler must be for channel 0; u, s, b and f name a pin's type.
-inline constexpr const char* kStateTypes = "fssfffffbfffffbbbb";
-inline constexpr std::size_t kStateColumns = 18;
+inline constexpr const char* kStateTypes = "fssfffffbfffffbbbbb";
+inline constexpr std::size_t kStateColumns = 19;
 
 /// The other channels hold the tick and, for each axis, command, actual position, following error
 /// and the offset in force. A channel takes 20 pins.
@@ -71,6 +74,14 @@ struct Sample {
     return state[static_cast<std::size_t>(column)];
   }
   double& operator[](Column column) noexcept { return state[static_cast<std::size_t>(column)]; }
+};
+
+/// What comes without a servo cycle's number.
+struct Inputs {
+  kernel::signal::Temperatures temperature_c = kernel::signal::unknown_temperatures();
+  kernel::signal::ProbeReading probe;  ///< in the control's units
+  std::span<const double> vibration;   ///< since the last call; valid until the next
+  double vibration_rate_hz = 0.0;
 };
 
 /// What the adapter tells LinuxCNC.

@@ -93,6 +93,7 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
   const double line = sample[Column::program_line];
   frame.program_line = line > 0.0 ? static_cast<std::uint32_t>(line) : 0;
   frame.program = program_of(sample);
+  frame.speed_modulation = sample[Column::modulation] != 0.0;
   frame.path_speed_mm_s = sample[Column::path_speed] * units.linear_unit_mm;
   frame.programmed_feed_mm_s = sample[Column::requested_speed] * units.linear_unit_mm;
 

@@ -25,6 +25,7 @@ class FakeHal final : public HalSide {
     return rows[channel].size() - next[channel];
   }
   void write_pins(const Pins& pins) noexcept override { written.push_back(pins); }
+  Inputs read_inputs() noexcept override { return inputs; }
   void pause() noexcept override { ++pauses; }
   [[nodiscard]] bool offsets_connected() const noexcept override { return with_offsets; }
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
@@ -57,6 +58,7 @@ class FakeHal final : public HalSide {
   std::vector<Pins> written;
   std::size_t pauses = 0;
   bool with_offsets = false;
+  Inputs inputs;
 };
 
 /// Cuts at 66.7 mm/s with all switches at 100 %.

@@ -165,5 +165,45 @@ TEST(LinuxCncPort, AllocatesNothingInACycle) {
   }
 }
 
+TEST(LinuxCncPort, ShowsWhatTheHalHasOfSensorsAndProbe) {
+  FakeHal hal;
+  const auto port =
+      LinuxCncPort::make({.units = {.servo_period_s = 0.001, .linear_unit_mm = 25.4}}, hal);
+  ASSERT_TRUE(port.has_value());
+  const std::array<double, 3> heard{0.1, -0.2, 0.3};
+  hal.inputs.temperature_c[1] = 31.5;
+  hal.inputs.probe = {.number = 3, .axis = 2, .displacement_mm = 0.001};
+  hal.inputs.vibration = heard;
+  hal.inputs.vibration_rate_hz = 10000.0;
+  Sample sample = cutting(1);
+  sample[Column::modulation] = 1.0;
+  hal.push(sample);
+  const auto frame = (*port)->read();
+  ASSERT_TRUE(frame.has_value());
+  EXPECT_TRUE(frame->speed_modulation);
+  EXPECT_TRUE(std::isnan(frame->temperature_c[0]));
+  EXPECT_EQ(frame->temperature_c[1], 31.5);
+  EXPECT_EQ(frame->probe.number, 3U);
+  EXPECT_DOUBLE_EQ(frame->probe.displacement_mm, 0.0254);
+  EXPECT_EQ(frame->vibration.size(), 3U);
+  EXPECT_EQ(frame->vibration_rate_hz, 10000.0);
+}
+
+// The joint's command contains the offset that was shown two servo cycles before.
+TEST(LinuxCncPort, ShowsTheOffsetThatThePositionsContain) {
+  FakeHal hal;
+  const auto port = LinuxCncPort::make({.units = {.servo_period_s = 0.001}}, hal);
+  ASSERT_TRUE(port.has_value());
+  for (std::uint64_t tick = 1; tick <= 5; ++tick) {
+    Sample sample = cutting(tick);
+    sample.axis[2].offset = 0.01 * static_cast<double>(tick);
+    hal.push(sample);
+    const auto frame = (*port)->read();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_DOUBLE_EQ(frame->axis[2].offset_mm,
+                     tick < 3 ? 0.0 : 0.01 * static_cast<double>(tick - 2));
+  }
+}
+
 }  // namespace
 }  // namespace steadyrest::adapters::linuxcnc
