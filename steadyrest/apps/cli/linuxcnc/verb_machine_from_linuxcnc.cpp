@@ -44,15 +44,20 @@ std::expected<config::MachineText, Refusals> made_text(const config::IniFile& in
 /// Lines of the text that hold a guess, for people who do not open the file.
 std::vector<std::string> assumed_lines(std::string_view text) {
   std::vector<std::string> out;
-  std::string section;
+  std::string axis;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.starts_with("name = ") && line.size() > 8) {
+      axis = fmt::format("axis {}: ", line[8]);
+    } else if (line.empty()) {
+      axis.clear();
+    }
     const std::size_t mark = line.find("# ASSUMED: ");
     if (mark != std::string_view::npos) {
       const std::string_view key = line.substr(0, line.find_last_not_of(' ', mark - 1) + 1);
-      out.push_back(fmt::format("{} ({})", key, line.substr(mark + 11)));
+      out.push_back(fmt::format("{}{} ({})", axis, key, line.substr(mark + 11)));
     }
   }
   return out;
