@@ -57,8 +57,8 @@ Result<double> unit(const IniFile& ini, const char* key, std::span<const NamedUn
   }
   const auto number = ini.number("TRAJ", key);
   if (!number || (*number)->value <= 0.0) {
-    return refuse((*entry)->file, (*entry)->line,
-                  fmt::format("{} is not a unit", (*entry)->text()), allowed);
+    return refuse((*entry)->file, (*entry)->line, fmt::format("{} is not a unit", (*entry)->text()),
+                  allowed);
   }
   return 1.0 / (*number)->value;
 }
@@ -97,10 +97,10 @@ Result<std::string> letters_of_joints(const IniFile& ini) {
   }
   const auto words = words_of((*entry)->value);
   if (words.empty() || words.front() != "trivkins") {
-    return refuse((*entry)->file, (*entry)->line,
-                  fmt::format("{}: its joints are not its axes; allowed: trivkins",
-                              (*entry)->text()),
-                  "the layer needs a joint for each axis; it cannot work on this machine");
+    return refuse(
+        (*entry)->file, (*entry)->line,
+        fmt::format("{}: its joints are not its axes; allowed: trivkins", (*entry)->text()),
+        "the layer needs a joint for each axis; it cannot work on this machine");
   }
   std::string letters(kLetters);
   for (const std::string& word : words) {
@@ -180,10 +180,10 @@ Result<std::vector<ConfiguredAxis>> axes_of(const IniFile& ini) {
       }
     }
     if (wanted && axis.joints.empty()) {
-      return refuse(entry.file, entry.line,
-                    fmt::format("{}, but the {} joints of [KINS] have no {}", entry.text(),
-                                *joints, letter),
-                    "make [TRAJ] COORDINATES, [KINS] JOINTS and coordinates= agree");
+      return refuse(
+          entry.file, entry.line,
+          fmt::format("{}, but the {} joints of [KINS] have no {}", entry.text(), *joints, letter),
+          "make [TRAJ] COORDINATES, [KINS] JOINTS and coordinates= agree");
     }
     if (auto checked = wanted ? check_sections(ini, axis) : Result<void>{}; !checked) {
       return std::unexpected(checked.error());
@@ -225,12 +225,15 @@ Result<double> servo_period_ms(const IniFile& ini) {
 
 Result<Configuration> configuration_of(const IniFile& ini) {
   static constexpr std::array kLinear = {
-      NamedUnit{"mm", 1.0},       NamedUnit{"metric", 1.0},    NamedUnit{"in", 25.4},
-      NamedUnit{"inch", 25.4},    NamedUnit{"imperial", 25.4},
+      NamedUnit{"mm", 1.0},    NamedUnit{"metric", 1.0},    NamedUnit{"in", 25.4},
+      NamedUnit{"inch", 25.4}, NamedUnit{"imperial", 25.4},
   };
   static constexpr std::array kAngular = {
-      NamedUnit{"deg", 1.0}, NamedUnit{"degree", 1.0}, NamedUnit{"grad", 0.9},
-      NamedUnit{"gon", 0.9}, NamedUnit{"rad", 180.0 / std::numbers::pi},
+      NamedUnit{"deg", 1.0},
+      NamedUnit{"degree", 1.0},
+      NamedUnit{"grad", 0.9},
+      NamedUnit{"gon", 0.9},
+      NamedUnit{"rad", 180.0 / std::numbers::pi},
   };
   auto axes = axes_of(ini);
   if (!axes) {

@@ -80,12 +80,15 @@ class HalReader {
         return done;
       }
     }
-    for (const auto& [key, is_file] : {std::pair{"HALCMD", false},
-                                       std::pair{"POSTGUI_HALFILE", true},
-                                       std::pair{"POSTGUI_HALCMD", false}}) {
+    for (const auto& [key, is_file] :
+         {std::pair{"HALCMD", false}, std::pair{"POSTGUI_HALFILE", true},
+          std::pair{"POSTGUI_HALCMD", false}}) {
       for (const IniEntry* entry : ini_.all("HAL", key)) {
-        Where where{.file = entry->file, .line = entry->line, .last = entry->line,
-                    .stage = Where::Stage::after, .halfile = nullptr};
+        Where where{.file = entry->file,
+                    .line = entry->line,
+                    .last = entry->line,
+                    .stage = Where::Stage::after,
+                    .halfile = nullptr};
         auto done = is_file ? file_of(*entry, Where::Stage::after) : command(entry->value, where);
         if (!done) {
           return done;
@@ -116,9 +119,10 @@ class HalReader {
                         : "put its commands into a .hal file and name that as HALFILE");
     }
     const std::string path = hal_file_path(ini_, name);
-    const auto text = path.empty() ? refuse(by, line, name + " is neither beside the INI file nor in " + kLibrary,
-                                            "give the file, or delete the line")
-                                   : read_text(path);
+    const auto text =
+        path.empty() ? refuse(by, line, name + " is neither beside the INI file nor in " + kLibrary,
+                              "give the file, or delete the line")
+                     : read_text(path);
     if (!text) {
       return std::unexpected(text.error());
     }
@@ -147,11 +151,10 @@ class HalReader {
       }
       const bool round = close + 1 < out.size() && out[close + 1] == '(';
       const std::size_t begin = close + (round ? 2 : 1);
-      const std::size_t end = std::min(
-          round ? out.find(')', begin) : out.find_first_of(",.=:+ \t", begin), out.size());
-      const IniEntry* const entry =
-          ini_.find(std::string_view(out).substr(at + 1, close - at - 1),
-                    std::string_view(out).substr(begin, end - begin));
+      const std::size_t end =
+          std::min(round ? out.find(')', begin) : out.find_first_of(",.=:+ \t", begin), out.size());
+      const IniEntry* const entry = ini_.find(std::string_view(out).substr(at + 1, close - at - 1),
+                                              std::string_view(out).substr(begin, end - begin));
       if (entry != nullptr) {
         out.replace(at, std::min(end + (round ? 1 : 0), out.size()) - at, entry->value);
       }

@@ -74,7 +74,8 @@ class HalUse {
   std::map<std::string, Where> names_;
 };
 
-/// Where LinuxCNC finds the file of a HALFILE entry, `LIB:` and its library included; empty: nowhere.
+/// Where LinuxCNC finds the file of a HALFILE entry, `LIB:` and its library included; empty:
+/// nowhere.
 [[nodiscard]] std::string hal_file_path(const IniFile& ini, const std::string& name);
 
 }  // namespace steadyrest::adapters::linuxcnc::config

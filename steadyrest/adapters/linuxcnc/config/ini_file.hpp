@@ -71,7 +71,7 @@ class IniFile {
   std::string path_;
   std::vector<std::string> included_;
   std::vector<Section> sections_;
-  std::vector<IniEntry> entries_;  ///< of the first section of each name
+  std::vector<IniEntry> entries_;   ///< of the first section of each name
   std::vector<int> section_after_;  ///< by line of the INI file; -1: before the first section
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 
@@ -25,6 +26,12 @@ std::size_t axis_channels(const LayerHal& layer) {
 
 std::string of_axis(const char* stem, const LayerAxis& axis) {
   return fmt::format("layer.{}-{}", stem, lower(axis.letter));
+}
+
+/// Without an exponent, which halcmd's readers need not know.
+std::string decimal(double value) {
+  std::string out = fmt::format("{:.10f}", value);
+  return out.erase(out.find_last_not_of('0') + 1);
 }
 
 /// `speed-out-rps` has the name that the first version had.
@@ -65,9 +72,8 @@ class Text {
   }
   void line(const std::string& text = "") { text_ += text + "\n"; }
   void addf(const std::string& function, int position = 0) {
-    line(position == 0
-             ? fmt::format("addf {} servo-thread", name(function))
-             : fmt::format("addf {} servo-thread {}", name(function), position));
+    line(position == 0 ? fmt::format("addf {} servo-thread", name(function))
+                       : fmt::format("addf {} servo-thread {}", name(function), position));
   }
   void setp(const std::string& shipped, const std::string& value) {
     line(fmt::format("setp {} {}", pin(shipped), value));
@@ -116,7 +122,8 @@ void load(Text& text, const LayerHal& layer) {
 }
 
 void run(Text& text, const LayerHal& layer) {
-  text.line("# Before the motion controller, so that a ratio acts in the servo cycle that finds it.");
+  text.line(
+      "# Before the motion controller, so that a ratio acts in the servo cycle that finds it.");
   text.addf("watchdog.set-timeouts", 1);
   text.addf("watchdog.process", 2);
   int position = 3;
@@ -137,7 +144,9 @@ void run(Text& text, const LayerHal& layer) {
 }
 
 void ratios(Text& text, const LayerHal& layer) {
-  text.line("# No heartbeat for 20 ms: the ratios go to 1. Only a disarmed and armed watchdog lets the layer in again.");
+  text.line(
+      "# No heartbeat for 20 ms: the ratios go to 1. Only a disarmed and armed watchdog lets the "
+      "layer in again.");
   text.setp("watchdog.timeout-0", "0.020");
   text.reads("layer-heartbeat", {"watchdog.input-0"});
   text.reads("layer-armed", {"watchdog.enable-in"});
@@ -154,7 +163,9 @@ void ratios(Text& text, const LayerHal& layer) {
   text.net("layer-feed-falls", "layer.feed-falls.out", {"layer.feed-ramp.load"});
   text.net("layer-feed-in-force", "layer.feed-ramp.out",
            {"layer.feed-falls.in1", "motion.adaptive-feed", "sampler.0.pin.12"});
-  text.line("\n# Spindle: the drive gets speed-out × ratio. Connect layer-drive-rps to it instead of spindle.0.speed-out-rps.");
+  text.line(
+      "\n# Spindle: the drive gets speed-out × ratio. Connect layer-drive-rps to it instead of "
+      "spindle.0.speed-out-rps.");
   text.setp("layer.spindle-choice.in0", "1.0");
   text.setp("layer.spindle-ramp.min", "0.0");
   text.setp("layer.spindle-ramp.max", "2.0");
@@ -235,7 +246,9 @@ void samples(Text& text, const LayerHal& layer) {
     text.line("# The spindle's measured speed.");
     text.reads(measured->second, {"sampler.0.pin.7"});
   } else {
-    text.line("# sampler.0.pin.7 takes the spindle's measured speed: the signal that goes to spindle.0.speed-in.");
+    text.line(
+        "# sampler.0.pin.7 takes the spindle's measured speed: the signal that goes to "
+        "spindle.0.speed-in.");
   }
 }
 
@@ -314,15 +327,17 @@ std::string offsets_text(const LayerHal& layer) {
       }
     }
   }
-  text.line(fmt::format(
-      "\n# The sum goes out in counts of {:g} of the machine's unit. The path offset goes to 0 at {:g} 1/s of it when the\n"
-      "# heartbeat stops; the offset against heat stays.",
-      layer.offset_count, layer.path_ramp_s));
+  text.line(
+      fmt::format("\n# The sum goes out in counts of {:g} of the machine's unit. The path offset "
+                  "goes to 0 at {:g} 1/s of it when the\n"
+                  "# heartbeat stops; the offset against heat stays.",
+                  layer.offset_count, layer.path_ramp_s));
   for (std::size_t i = 0; i < layer.axes.size(); ++i) {
     const LayerAxis& axis = layer.axes[i];
     if (!axis.joint || axis.rotary) {
       // The layer's process connects its pins for every axis.
-      text.line(fmt::format("\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float", i));
+      text.line(
+          fmt::format("\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float", i));
       continue;
     }
     const char l = lower(axis.letter);
@@ -331,7 +346,7 @@ std::string offsets_text(const LayerHal& layer) {
     text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_s));
     text.setp(of_axis("offset", axis) + ".gain0", gain);
     text.setp(of_axis("offset", axis) + ".gain1", gain);
-    text.setp(fmt::format("axis.{}.eoffset-scale", l), fmt::format("{:.10f}", layer.offset_count));
+    text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));
     text.setp(fmt::format("axis.{}.eoffset-enable", l), "1");
     text.reads(fmt::format("layer-path-offset-{}", i), {of_axis("path", axis) + ".in1"});
     text.reads("layer-alive", {of_axis("path", axis) + ".sel"});
@@ -346,6 +361,37 @@ std::string offsets_text(const LayerHal& layer) {
              {fmt::format("axis.{}.eoffset-counts", l)});
   }
   return text.take();
+}
+
+namespace {
+
+LayerHal three_axes() {
+  LayerHal layer;
+  layer.axes = {{'X', 0, false}, {'Y', 1, false}, {'Z', 2, false}};
+  return layer;
+}
+
+}  // namespace
+
+std::string shipped_layer_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp; `cmake --build --preset release --target layer_hal` "
+         "writes it. For three axes and one\n"
+         "# spindle: a further HALFILE after the machine's own. `steadyrest linuxcnc setup` makes "
+         "one for any other machine.\n"
+         "# The machine's own files must leave motion.adaptive-feed free and load none of these "
+         "components.\n" +
+         layer_text(three_axes());
+}
+
+std::string shipped_offsets_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp, as layer.hal. Axis offsets of three linear axes: a "
+         "HALFILE after layer.hal, where the\n"
+         "# machine does not use axis.L.eoffset itself. Each [AXIS_L] section of the INI file "
+         "needs OFFSET_AV_RATIO: the share of its\n"
+         "# speed and acceleration kept for offsets.\n" +
+         offsets_text(three_axes());
 }
 
 }  // namespace steadyrest::adapters::linuxcnc::config

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
-
-#include <cstddef>
 
 namespace steadyrest::adapters::linuxcnc::config {
 
@@ -27,7 +26,7 @@ struct Needed {
 
 /// What the layer's HAL file must fit in with. By default a machine with nothing in the way.
 struct LayerHal {
-  std::vector<LayerAxis> axes;  ///< in the order of the machine file
+  std::vector<LayerAxis> axes;    ///< in the order of the machine file
   bool offset_components = true;  ///< load what offsets_text() needs
   double offset_count = 1e-5;     ///< length of one count of eoffset, in the machine's units
   double path_ramp_s = 5.0;       ///< how fast a dead layer's path offset goes, units/s
@@ -49,6 +48,10 @@ struct LayerHal {
 [[nodiscard]] std::string layer_text(const LayerHal& layer);
 /// layer_offsets.hal: comes after the other.
 [[nodiscard]] std::string offsets_text(const LayerHal& layer);
+
+/// The files beside this folder, for X, Y and Z on a machine with nothing in the way.
+[[nodiscard]] std::string shipped_layer_hal();
+[[nodiscard]] std::string shipped_offsets_hal();
 
 /// `layer-drive-rps` for `speed-out-rps`, and so on.
 [[nodiscard]] std::string drive_signal(const std::string& output);

@@ -53,8 +53,7 @@ Result<End> end_of(const IniFile& ini, const ConfiguredAxis& axis, const char* k
     if (!number) {
       return std::unexpected(number.error());
     }
-    if (*number &&
-        (!out.tightest || sign * (*number)->value < sign * out.tightest->value)) {
+    if (*number && (!out.tightest || sign * (*number)->value < sign * out.tightest->value)) {
       out.tightest = **number;
     }
   }
@@ -110,27 +109,24 @@ Result<AxisLimits> limits_of(const IniFile& ini, const Configuration& machine,
   const std::string section = fmt::format("AXIS_{}", axis.letter);
   const auto speed =
       rate(ini, section, "MAX_VELOCITY", factor, axis.rotary ? kSpeed_deg_s : kSpeed_mm_s);
-  const auto acceleration =
-      speed ? rate(ini, section, "MAX_ACCELERATION", factor,
-                   axis.rotary ? kAcceleration_deg_s2 : kAcceleration_mm_s2)
-            : std::unexpected(speed.error());
-  const auto lower = acceleration ? end_of(ini, axis, "MIN_LIMIT", -1.0)
-                                  : std::unexpected(acceleration.error());
-  const auto upper =
-      lower ? end_of(ini, axis, "MAX_LIMIT", 1.0) : std::unexpected(lower.error());
-  const auto slower = upper ? slower_joint(ini, axis, speed->value, factor)
-                            : std::unexpected(upper.error());
+  const auto acceleration = speed ? rate(ini, section, "MAX_ACCELERATION", factor,
+                                         axis.rotary ? kAcceleration_deg_s2 : kAcceleration_mm_s2)
+                                  : std::unexpected(speed.error());
+  const auto lower =
+      acceleration ? end_of(ini, axis, "MIN_LIMIT", -1.0) : std::unexpected(acceleration.error());
+  const auto upper = lower ? end_of(ini, axis, "MAX_LIMIT", 1.0) : std::unexpected(lower.error());
+  const auto slower =
+      upper ? slower_joint(ini, axis, speed->value, factor) : std::unexpected(upper.error());
   if (!slower) {
     return std::unexpected(slower.error());
   }
   if (lower->tightest && upper->tightest && lower->tightest->value >= upper->tightest->value) {
     const IniEntry& max = *upper->tightest->entry;
     const IniEntry& min = *lower->tightest->entry;
-    return refuse(max.file, max.line,
-                  fmt::format("{} is not above {} ({}:{})", max.text(), min.text(), min.file,
-                              min.line),
-                  fmt::format("give the axis {} room between MIN_LIMIT and MAX_LIMIT",
-                              axis.letter));
+    return refuse(
+        max.file, max.line,
+        fmt::format("{} is not above {} ({}:{})", max.text(), min.text(), min.file, min.line),
+        fmt::format("give the axis {} room between MIN_LIMIT and MAX_LIMIT", axis.letter));
   }
   const double none = axis.rotary ? kNoLimit_deg : kNoLimit_mm;
   return AxisLimits{.speed_s = *speed,

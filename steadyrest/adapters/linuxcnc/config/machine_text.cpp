@@ -43,8 +43,8 @@ std::string toml_string(std::string_view name) {
     // E0 and F0 have over-long forms and surrogates behind them, which TOML refuses.
     const bool odd = size > 2 && static_cast<unsigned char>(name[0]) % 16 == 0 &&
                      static_cast<unsigned char>(name[1]) < 0xA0;
-    const bool surrogate = name.starts_with('\xED') && size == 3 &&
-                           static_cast<unsigned char>(name[1]) >= 0xA0;
+    const bool surrogate =
+        name.starts_with('\xED') && size == 3 && static_cast<unsigned char>(name[1]) >= 0xA0;
     out += size == 0 || control || odd || surrogate ? std::string_view("?") : name.substr(0, size);
     name.remove_prefix(std::max<std::size_t>(size, 1));
   }
@@ -64,7 +64,8 @@ class Writer {
 
   Result<MachineText> write() {
     head();
-    for (const auto part : {&Writer::control, &Writer::axes, &Writer::overrides, &Writer::spindle}) {
+    for (const auto part :
+         {&Writer::control, &Writer::axes, &Writer::overrides, &Writer::spindle}) {
       if (auto done = (this->*part)(); !done) {
         return std::unexpected(done.error());
       }
@@ -116,8 +117,12 @@ class Writer {
   void head() {
     line(fmt::format("# Made by `steadyrest machine from-linuxcnc` from {}.",
                      comment_of(std::filesystem::path(ini_.path()).filename().string())));
-    line("# Lines with ASSUMED hold what no INI file says: measure it, put the value in, delete the word.");
-    line("# `steadyrest doctor --machine FILE` checks the result; port = \"sim\" tries it without the machine.");
+    line(
+        "# Lines with ASSUMED hold what no INI file says: measure it, put the value in, delete the "
+        "word.");
+    line(
+        "# `steadyrest doctor --machine FILE` checks the result; port = \"sim\" tries it without "
+        "the machine.");
     line(fmt::format("name = {}", toml_string(machine_.name)));
     line("port = \"linuxcnc\"");
     line("mode = \"observe\"");
@@ -141,8 +146,8 @@ class Writer {
       return done;
     }
     // Two lines meet in one arc, so the depth counts both.
-    if (auto done = setting("look_ahead_blocks", "ARC_BLEND_OPTIMIZATION_DEPTH", 2.0, 1.0, 10000.0,
-                            50.0);
+    if (auto done =
+            setting("look_ahead_blocks", "ARC_BLEND_OPTIMIZATION_DEPTH", 2.0, 1.0, 10000.0, 50.0);
         !done) {
       return done;
     }
@@ -158,11 +163,14 @@ class Writer {
     }
     line("# The laws of LinuxCNC's trajectory planner, measured on version 2.9.");
     if (*enabled && (*enabled)->value == 0.0) {
-      line("# [TRAJ] ARC_BLEND_ENABLE = 0: without arcs at corners; these laws are then an estimate.");
+      line(
+          "# [TRAJ] ARC_BLEND_ENABLE = 0: without arcs at corners; these laws are then an "
+          "estimate.");
     }
     line("corner_tolerance_mm = 10");
     line("junction_deviation_mm = 0");
-    if (auto done = setting("junction_share", "ARC_BLEND_KINK_RATIO", 1.0, 0.001, 1.0, 0.1); !done) {
+    if (auto done = setting("junction_share", "ARC_BLEND_KINK_RATIO", 1.0, 0.001, 1.0, 0.1);
+        !done) {
       return done;
     }
     line("centripetal_share = 0.866");
@@ -232,7 +240,9 @@ class Writer {
     if (!most) {
       return std::unexpected(most.error());
     }
-    line("\n# motion.adaptive-feed (after M52 P1): a number that acts in the same servo cycle. 2.9 clamps it to 100 %, so");
+    line(
+        "\n# motion.adaptive-feed (after M52 P1): a number that acts in the same servo cycle. 2.9 "
+        "clamps it to 100 %, so");
     line("# the layer can only lower the feed" +
          (*most ? fmt::format("; the panel goes to {:.10g} % ({}).", (*most)->value,
                               comment_of((*most)->from))
@@ -266,7 +276,8 @@ class Writer {
       steps += fmt::format(", {:g}", at);
     }
     steps += low < high_percent_ ? fmt::format(", {:g}", high_percent_) : "";
-    line("\n# The spindle's factor in the layer's HAL file, 0 ... 200 %, within the panel's range:");
+    line(
+        "\n# The spindle's factor in the layer's HAL file, 0 ... 200 %, within the panel's range:");
     line(*least ? "# " + comment_of((*least)->from)
                 : "# [DISPLAY] MIN_SPINDLE_OVERRIDE is missing: from 50 %");
     line(*most ? "# " + comment_of((*most)->from)
@@ -302,7 +313,8 @@ class Writer {
       assumed("max_rpm", std::max(24000.0, *least ? (*least)->value : 0.0),
               "no [SPINDLE_0] MAX_FORWARD_VELOCITY; the fastest the spindle may turn");
     }
-    assumed("acceleration_rpm_s", 8000.0, "speed / time of a run-up (halscope on the spindle's speed)");
+    assumed("acceleration_rpm_s", 8000.0,
+            "speed / time of a run-up (halscope on the spindle's speed)");
     assumed("inertia_kg_m2", 0.0004, "the maker's data of rotor, chuck and tool");
     assumed("rated_power_kw", 2.2, "the motor's plate");
     assumed("max_torque_n_m", 1.2, "the motor's plate");

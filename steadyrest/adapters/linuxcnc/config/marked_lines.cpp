@@ -80,8 +80,7 @@ std::string with_blocks(std::string_view text, const std::vector<Edit>& edits,
 
 Result<Unmarked> without_blocks(std::string_view text, const std::string& file,
                                 const std::string& ini_name) {
-  constexpr const char* kRestore =
-      "put the block back as setup wrote it, or take it out by hand";
+  constexpr const char* kRestore = "put the block back as setup wrote it, or take it out by hand";
   const auto lines = lines_of(text);
   Unmarked out;
   for (std::size_t i = 0; i < lines.size(); ++i) {

@@ -31,7 +31,8 @@ void spindle(const IniFile& ini, const HalUse& use, std::vector<Note>& notes) {
                      "if the spindle has a drive, net layer-drive-rps (rev/s) to it"});
   }
   if (use.linked("spindle.0.speed-in") == nullptr) {
-    notes.push_back({ini.path(), 0, "spindle.0.speed-in has no signal: the layer sees no measured speed",
+    notes.push_back({ini.path(), 0,
+                     "spindle.0.speed-in has no signal: the layer sees no measured speed",
                      "net the spindle's speed in rev/s to spindle.0.speed-in, if it is measured"});
   }
 }
@@ -51,8 +52,8 @@ void add_notes(const IniFile& ini, const Configuration& machine, const HalUse& u
                        "nothing"});
     }
     if (options.offsets && axis.present() && axis.rotary) {
-      notes.push_back({"", 0, fmt::format("the rotary axis {} gets no offsets", axis.letter),
-                       "nothing"});
+      notes.push_back(
+          {"", 0, fmt::format("the rotary axis {} gets no offsets", axis.letter), "nothing"});
     }
   }
   for (const std::string& component : layer.loaded) {

@@ -61,10 +61,10 @@ class Planner {
  private:
   void describe() {
     for (const ConfiguredAxis& axis : machine_.axes) {
-      layer_.axes.push_back({.letter = axis.letter,
-                             .joint = axis.present() ? std::optional(axis.joints.front())
-                                                     : std::nullopt,
-                             .rotary = axis.rotary});
+      layer_.axes.push_back(
+          {.letter = axis.letter,
+           .joint = axis.present() ? std::optional(axis.joints.front()) : std::nullopt,
+           .rotary = axis.rotary});
     }
     layer_.offset_components = options_.offsets;
     // Finer than any machine resolves: 0.01 µm, or half a millionth of an inch.
@@ -163,7 +163,8 @@ class Planner {
     }
     const Where& where = *halfile_[file];
     if (where.sourced) {
-      return refuse(file, where.line, "is loaded by `source`, and a line in it would have to change",
+      return refuse(file, where.line,
+                    "is loaded by `source`, and a line in it would have to change",
                     "name the file as HALFILE in the INI file");
     }
     const std::string changed = with_blocks(*text, edits, ini_name(path_));
@@ -183,13 +184,12 @@ class Planner {
                                 entry.text()),
                     "move the line to the [HAL] section of the INI file");
     }
-    const std::string name = fs::path(layer_file_name(path_)).stem().string() + "-" +
-                             fs::path(file).filename().string();
+    const std::string name =
+        fs::path(layer_file_name(path_)).stem().string() + "-" + fs::path(file).filename().string();
     if (auto done = create(name, own_file(changed, ini_name(path_))); !done) {
       return done;
     }
-    ini_edits_.push_back(
-        {.first = entry.line, .removed = 1, .added = {"HALFILE = " + name}});
+    ini_edits_.push_back({.first = entry.line, .removed = 1, .added = {"HALFILE = " + name}});
     return {};
   }
 
@@ -211,7 +211,8 @@ class Planner {
 
   Result<void> layer_file() {
     std::string text = fmt::format(
-        "# The layer's side of LinuxCNC for {}: axes, signals and components as its own files have them.\n",
+        "# The layer's side of LinuxCNC for {}: axes, signals and components as its own files have "
+        "them.\n",
         ini_name(path_));
     text += layer_text(layer_);
     if (options_.offsets) {
@@ -266,11 +267,11 @@ class Planner {
     }
     const std::size_t line = ini_.section_line(section);
     if (!ini_.in_section_after(line, section)) {
-      return refuse(path_, line,
-                    fmt::format("[{}] is in an included file with other sections behind it",
-                                section),
-                    fmt::format("put OFFSET_AV_RATIO = {:g} into [{}] there",
-                                options_.offset_share, section));
+      return refuse(
+          path_, line,
+          fmt::format("[{}] is in an included file with other sections behind it", section),
+          fmt::format("put OFFSET_AV_RATIO = {:g} into [{}] there", options_.offset_share,
+                      section));
     }
     ini_edits_.push_back({.first = line + 1,
                           .removed = 0,
@@ -287,7 +288,7 @@ class Planner {
   LayerHal layer_;
   SetupPlan plan_;
   std::vector<Edit> ini_edits_;
-  std::map<std::string, std::vector<Edit>> edits_;   ///< of the machine's HAL files
+  std::map<std::string, std::vector<Edit>> edits_;  ///< of the machine's HAL files
   std::map<std::string, const Where*> halfile_;
 };
 

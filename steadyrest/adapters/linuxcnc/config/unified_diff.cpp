@@ -79,17 +79,17 @@ std::vector<DiffLine> diff_lines(const std::vector<std::string>& a,
 
 std::string hunk(const std::vector<DiffLine>& lines, std::size_t begin, std::size_t end) {
   const auto count = [&lines](std::size_t from, std::size_t to, char other) {
-    return static_cast<std::size_t>(std::count_if(
-        lines.begin() + static_cast<std::ptrdiff_t>(from),
-        lines.begin() + static_cast<std::ptrdiff_t>(to),
-        [other](const DiffLine& line) { return line.sign != other; }));
+    return static_cast<std::size_t>(
+        std::count_if(lines.begin() + static_cast<std::ptrdiff_t>(from),
+                      lines.begin() + static_cast<std::ptrdiff_t>(to),
+                      [other](const DiffLine& line) { return line.sign != other; }));
   };
   const std::size_t old_lines = count(begin, end, '+');
   const std::size_t new_lines = count(begin, end, '-');
   // An empty side begins at the line before it.
-  std::string out = fmt::format("@@ -{},{} +{},{} @@\n",
-                                count(0, begin, '+') + (old_lines > 0 ? 1 : 0), old_lines,
-                                count(0, begin, '-') + (new_lines > 0 ? 1 : 0), new_lines);
+  std::string out =
+      fmt::format("@@ -{},{} +{},{} @@\n", count(0, begin, '+') + (old_lines > 0 ? 1 : 0),
+                  old_lines, count(0, begin, '-') + (new_lines > 0 ? 1 : 0), new_lines);
   for (std::size_t i = begin; i < end; ++i) {
     out += lines[i].sign + lines[i].text;
     out += lines[i].text.ends_with('\n') ? "" : "\n\\ No newline at end of file\n";

@@ -49,7 +49,8 @@ Answer answer_of(const config::SetupPlan& plan, const Options& options) {
         {{"file", note.file}, {"line", note.line}, {"what", note.what}, {"to_do", note.to_do}});
     answer.text += "note: ";
     if (!note.file.empty()) {
-      answer.text += note.line == 0 ? note.file + ": " : fmt::format("{}:{}: ", note.file, note.line);
+      answer.text +=
+          note.line == 0 ? note.file + ": " : fmt::format("{}:{}: ", note.file, note.line);
     }
     answer.text += note.what;
     answer.text += note.to_do == "nothing" ? "\n" : "; " + note.to_do + "\n";
@@ -92,8 +93,7 @@ void add_verb_linuxcnc_setup(Session& session, Verb& verb) {
       ->check(CLI::Range(0.01, 0.9))
       ->needs(offsets)
       ->excludes(undo);
-  session.on(verb,
-             [options](Progress& /*progress*/) { return linuxcnc_setup::run(*options); });
+  session.on(verb, [options](Progress& /*progress*/) { return linuxcnc_setup::run(*options); });
 }
 
 }  // namespace steadyrest::apps::cli
