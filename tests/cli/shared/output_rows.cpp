@@ -173,7 +173,7 @@ void PrintTo(const OutputRow& row, std::ostream* out) {
 
 std::string test_name(const testing::TestParamInfo<OutputRow>& info) {
   std::string name = info.param.verb;
-  std::ranges::replace(name, ' ', '_');
+  std::ranges::replace_if(name, [](char c) { return c == ' ' || c == '-'; }, '_');
   return name;
 }
 
