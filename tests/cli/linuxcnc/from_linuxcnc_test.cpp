@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/machine/unlimited.hpp>
-#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::test {
@@ -21,7 +20,6 @@ namespace {
 
 using kernel::machine::Axis;
 using testing::HasSubstr;
-using testing::MatchesRegex;
 
 constexpr double kTurn = std::numbers::pi / 180.0;
 
@@ -164,34 +162,6 @@ TEST(FromLinuxCnc, ReplacesNoIncludedFile) {
   const std::string ini = scratch.file("m.ini", "#INCLUDE traj.inc\n" + inch_lathe());
   EXPECT_EQ(run({"machine", "from-linuxcnc", ini, "-o", inc}).code, 2);
   EXPECT_EQ(text_of_file(inc), "[[axis]]\n");
-}
-
-// Every configuration of the package: a file that reads back, or a refusal that says what and
-// where.
-TEST(FromLinuxCnc, TakesEveryStockConfigurationOrSaysWhyNot) {
-  const auto inis = stock_inis();
-  if (inis.empty()) {
-    GTEST_SKIP() << "the sample configurations of LinuxCNC are not installed";
-  }
-  const Scratch scratch;
-  std::size_t made = 0;
-  std::size_t done = 0;
-  for (const auto& ini : kernel::testing::cases(inis, 20)) {
-    const std::string output = scratch.at(std::to_string(done++) + ".toml");
-    const Finished finished = run({"machine", "from-linuxcnc", ini.string(), "-o", output});
-    if (finished.code == 0) {
-      ++made;
-      const auto machine = passport::read(output);
-      ASSERT_TRUE(machine) << ini << machine.error().what;
-      EXPECT_EQ(machine->port, kernel::machine::PortKind::linuxcnc);
-    } else {
-      EXPECT_EQ(finished.code, 2) << ini;
-      EXPECT_THAT(finished.err, MatchesRegex("steadyrest: /.*(ini|inc)(:[0-9]+)?: .*; .*\n"))
-          << ini;
-    }
-  }
-  // Robots, deltas and nine-axis demos are refused.
-  EXPECT_GT(made, done * 3 / 4);
 }
 
 }  // namespace

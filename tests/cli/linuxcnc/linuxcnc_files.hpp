@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "scratch.hpp"
 
 /// Configurations for the tests of the LinuxCNC verbs.
 namespace steadyrest::test {
@@ -32,6 +35,18 @@ inline std::string crowded_hal() {
          "net path-speed motion.current-vel => gui.speed\n"
          "net spindle-cmd spindle.0.speed-out => pwm.value\n"
          "net spindle-seen encoder.rps => spindle.0.speed-in\n";
+}
+
+/// The files below a folder, by path from there.
+using FolderTexts = std::map<std::string, std::string>;
+inline FolderTexts texts_in(const std::filesystem::path& folder) {
+  FolderTexts out;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      out[std::filesystem::relative(entry.path(), folder).string()] = text_of_file(entry.path());
+    }
+  }
+  return out;
 }
 
 /// The INI files of the LinuxCNC package; none where it is not installed.

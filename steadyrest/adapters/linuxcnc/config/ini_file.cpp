@@ -43,7 +43,7 @@ class IniReader {
       out_.section_after_.resize(line.last + 1, now());
     }
     if (out_.sections_.empty()) {
-      return refuse(out_.path_, 1, "is not an INI file: no line is a [SECTION]",
+      return refuse(out_.path_, std::size_t{1}, "is not an INI file: no line is a [SECTION]",
                     "name the INI file that LinuxCNC is started with");
     }
     return {};

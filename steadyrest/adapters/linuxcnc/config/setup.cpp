@@ -58,7 +58,7 @@ Result<void> remove_own(const std::string& ini_path, const std::string& name, Se
     return std::unexpected(text.error());
   }
   if (is_own_file(*text) != Own::yes) {
-    return refuse(path, 1, "was edited since setup, so undo would lose something",
+    return refuse(path, std::size_t{1}, "was edited since setup, so undo would lose something",
                   "keep your lines in a HAL file of another name, delete this one, and undo again");
   }
   if (const std::string other = other_user(ini_path, name); !other.empty()) {
