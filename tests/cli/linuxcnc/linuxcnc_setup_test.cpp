@@ -172,6 +172,18 @@ TEST_F(LinuxCncSetup, KeepsAFileThatAnotherConfigurationLoads) {
   EXPECT_TRUE(fs::exists(scratch_.at("m-layer.hal")));
 }
 
+// Its HAL file has the layer's instances from the other's setup.
+TEST_F(LinuxCncSetup, RefusesAFileThatIsSetUpForAnotherConfiguration) {
+  scratch_.file("other.ini", inch_lathe());
+  const std::vector<std::string> other{"linuxcnc", "setup", scratch_.at("other.ini")};
+  ASSERT_EQ(run(other).code, 0);
+  expect_setup_refused("m.hal:3", "is set up for another INI file");
+  ASSERT_EQ(run({other[0], other[1], other[2], "--undo"}).code, 0);
+  scratch_.file("m.hal", "loadrt mux2 count=2\n");
+  ASSERT_EQ(run(other).code, 0);
+  expect_setup_refused("m.hal:1", "is set up for another INI file");
+}
+
 TEST_F(LinuxCncSetup, DryRunWritesNothing) {
   const Texts before = texts_in(scratch_.path());
   const Finished dry = setup({"--dry-run"});
@@ -207,7 +219,9 @@ TEST_F(LinuxCncSetup, RefusesWhatIsTaken) {
 TEST_F(LinuxCncSetup, RefusesWhatItCannotReadOrPlace) {
   replace("m.ini", "HALFILE = m.hal", "HALFILE = m.tcl");
   expect_setup_refused("m.ini:21", "Tcl");
-  replace("m.ini", "HALFILE = m.tcl", "HALFILE = m.hal\nTWOPASS = on");
+  replace("m.ini", "HALFILE = m.tcl", "HALFILE =");
+  expect_setup_refused("m.ini:21", "is empty");
+  replace("m.ini", "HALFILE =\n", "HALFILE = m.hal\nTWOPASS = on\n");
   expect_setup_refused("m.ini:22", "TWOPASS");
   replace("m.ini", "HALFILE = m.hal\nTWOPASS = on", "HALFILE = m.hal\nPOSTGUI_HALFILE = gui.hal");
   scratch_.file("gui.hal", "loadrt sum2 names=mine\n");

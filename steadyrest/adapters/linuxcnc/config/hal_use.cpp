@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
@@ -55,6 +56,11 @@ std::string hal_file_path(const IniFile& ini, const std::string& name) {
     const fs::path path = library / name.substr(4);
     return fs::is_regular_file(path, error) ? path.string() : std::string{};
   }
+  const char* const home = std::getenv("HOME");
+  if (name.starts_with("~/") && home != nullptr) {
+    const fs::path path = fs::path(home) / name.substr(2);
+    return fs::is_regular_file(path, error) ? path.string() : std::string{};
+  }
   // LinuxCNC's own order: beside the INI file, then its library. An absolute name replaces both.
   for (const fs::path& path : {fs::path(ini.path()).parent_path() / name, library / name}) {
     if (fs::is_regular_file(path, error)) {
@@ -101,6 +107,11 @@ class HalReader {
  private:
   Result<void> file_of(const IniEntry& entry, Where::Stage stage) {
     const auto words = words_of(entry.value);
+    if (words.empty() && stage == Where::Stage::before) {
+      return refuse(entry.file, entry.line,
+                    "HALFILE is empty: LinuxCNC reads no HALFILE that comes after it",
+                    "delete the line");
+    }
     if (words.empty()) {
       return {};
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <steadyrest/adapters/linuxcnc/config/hal_use.hpp>
 #include <steadyrest/adapters/linuxcnc/config/ini_file.hpp>
 #include <steadyrest/adapters/linuxcnc/config/marked_lines.hpp>
 #include <steadyrest/adapters/linuxcnc/config/setup.hpp>
@@ -75,8 +76,8 @@ Result<void> remove_own(const std::string& ini_path, const std::string& name, Se
 Result<void> undo_hal_files(const std::string& ini_path, const IniFile& ini, SetupPlan& plan) {
   for (const IniEntry* entry : ini.all("HAL", "HALFILE")) {
     const auto words = words_of(entry->value);
-    const std::string path = words.empty() ? "" : beside(ini_path, words.front());
-    const auto text = words.empty() ? Result<std::string>("") : read_text(path);
+    const std::string path = words.empty() ? "" : hal_file_path(ini, words.front());
+    const auto text = path.empty() ? Result<std::string>("") : read_text(path);
     const bool seen = std::ranges::any_of(
         plan.files, [&path](const FileChange& change) { return change.file == path; });
     if (!text || seen || first_block(*text) == 0) {

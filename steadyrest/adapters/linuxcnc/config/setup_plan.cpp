@@ -32,6 +32,11 @@ std::string joined(const std::vector<std::string>& names) {
   return out;
 }
 
+std::unexpected<kernel::outcome::Refusal> shared(const std::string& file, std::size_t line) {
+  return refuse(file, line, "is set up for another INI file, which loads it, too",
+                "name a copy of the file as it was before in this INI file");
+}
+
 class Planner {
  public:
   Planner(const std::string& path, const std::string& text, const SetupOptions& options,
@@ -82,6 +87,9 @@ class Planner {
   Result<void> nothing_taken() {
     for (const char* prefix : {"layer-", "layer."}) {
       if (const Where* where = use_.named(prefix)) {
+        if (const auto text = read_text(where->file); text && first_block(*text) != 0) {
+          return shared(where->file, first_block(*text));
+        }
         return refuse(where->file, where->line,
                       fmt::format("a name that begins with {} is there already", prefix),
                       "take the layer's lines that were put in by hand out, or rename yours");
@@ -160,6 +168,9 @@ class Planner {
     const auto text = read_text(file);
     if (!text) {
       return std::unexpected(text.error());
+    }
+    if (const std::size_t line = first_block(*text); line != 0) {
+      return shared(file, line);
     }
     const Where& where = *halfile_[file];
     if (where.sourced) {
