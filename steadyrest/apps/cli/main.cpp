@@ -13,6 +13,8 @@
 #include <steadyrest/apps/cli/chatter/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/cli/cut/verb_contour_limit.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
+#include <steadyrest/apps/cli/linuxcnc/verb_linuxcnc_setup.hpp>
+#include <steadyrest/apps/cli/linuxcnc/verb_machine_from_linuxcnc.hpp>
 #include <steadyrest/apps/cli/live/verb_mode.hpp>
 #include <steadyrest/apps/cli/live/verb_run.hpp>
 #include <steadyrest/apps/cli/live/verb_status.hpp>
@@ -75,6 +77,16 @@ constexpr Entry kVerbs[] = {
       "act --for-s 1 --socket steadyrest.sock"}},
     {"status", "Ask a running layer what it sees and does", add_verb_status, {"--json"}},
     {"mode", "Ask a running layer to observe, advise or act", add_verb_mode, {"advise"}},
+    {"machine", "Machine files"},
+    {"machine from-linuxcnc",
+     "Make the machine file of a LinuxCNC configuration",
+     add_verb_machine_from_linuxcnc,
+     {"examples/linuxcnc/mill.ini -o machine.toml"}},
+    {"linuxcnc", "LinuxCNC configurations"},
+    {"linuxcnc setup",
+     "Put the layer into a LinuxCNC configuration, or take it out",
+     add_verb_linuxcnc_setup,
+     {"examples/linuxcnc/mill.ini --dry-run"}},
     {"chatter", "Chatter: stability of a cut"},
     {"chatter simulate",
      "Simulate a cut in time; the tool may leave the material",

@@ -146,10 +146,15 @@ std::vector<OutputRow> of_record() {
   return {{"record export", record, {file("out.csv")}, {record}}};
 }
 
+std::vector<OutputRow> of_machine() {
+  const std::string ini = "examples/linuxcnc/mill.ini";
+  return {{"machine from-linuxcnc", ini, {file("machine.toml")}, {ini}}};
+}
+
 std::vector<OutputRow> all() {
   std::vector<OutputRow> rows;
-  for (const auto& some :
-       {of_cut(), of_chatter(), of_motion(), of_thermal(), of_program(), of_record()}) {
+  for (const auto& some : {of_cut(), of_chatter(), of_motion(), of_thermal(), of_program(),
+                           of_record(), of_machine()}) {
     rows.insert(rows.end(), some.begin(), some.end());
   }
   return rows;
@@ -168,7 +173,7 @@ void PrintTo(const OutputRow& row, std::ostream* out) {
 
 std::string test_name(const testing::TestParamInfo<OutputRow>& info) {
   std::string name = info.param.verb;
-  std::ranges::replace(name, ' ', '_');
+  std::ranges::replace_if(name, [](char c) { return c == ' ' || c == '-'; }, '_');
   return name;
 }
 

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include <fmt/core.h>
+
+#include <steadyrest/adapters/linuxcnc/config/layer_text.hpp>
+
+// The one source of the layer's HAL text: layer.hal and layer_offsets.hal are its output for three
+// axes with nothing in the way.
+namespace steadyrest::adapters::linuxcnc::config {
+namespace {
+
+constexpr std::size_t kAxesPerChannel = 4;
+constexpr std::size_t kAxisColumns = 4;
+constexpr const char* kStateTypes = "fssfffffbfffffbbbb";
+
+char lower(char letter) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+
+std::size_t axis_channels(const LayerHal& layer) {
+  return (layer.axes.size() + kAxesPerChannel - 1) / kAxesPerChannel;
+}
+
+std::string of_axis(const char* stem, const LayerAxis& axis) {
+  return fmt::format("layer.{}-{}", stem, lower(axis.letter));
+}
+
+/// Without an exponent, which halcmd's readers need not know.
+std::string decimal(double value) {
+  std::string out = fmt::format("{:.10f}", value);
+  return out.erase(out.find_last_not_of('0') + 1);
+}
+
+/// `speed-out-rps` has the name that the first version had.
+std::string drive_name(const std::string& output) {
+  if (output == "speed-out-rps") {
+    return "layer.drive";
+  }
+  return output == "speed-out" ? "layer.drive-rpm" : "layer.drive" + output.substr(9);
+}
+
+std::string sampler_arguments(const LayerHal& layer) {
+  std::string depth = "depth=4000";
+  std::string types = fmt::format("cfg={}", kStateTypes);
+  std::size_t left = layer.axes.size();
+  for (std::size_t i = 0; i < axis_channels(layer); ++i) {
+    const std::size_t here = std::min(left, kAxesPerChannel);
+    left -= here;
+    depth += ",4000";
+    types += "," + std::string(1 + kAxisColumns * here, 'f');
+  }
+  return depth + " " + types;
+}
+
+class Text {
+ public:
+  explicit Text(const LayerHal& layer) : layer_(layer) {}
+
+  /// One instance under the name that it has here.
+  [[nodiscard]] std::string name(const std::string& shipped) const {
+    const auto other = layer_.instance.find(shipped);
+    return other == layer_.instance.end() ? shipped : other->second;
+  }
+  /// `layer.tick.out` → the pin of the instance that layer.tick has become.
+  [[nodiscard]] std::string pin(const std::string& shipped) const {
+    const std::size_t dot = shipped.rfind('.');
+    return shipped.starts_with("layer.") ? name(shipped.substr(0, dot)) + shipped.substr(dot)
+                                         : shipped;
+  }
+  void line(const std::string& text = "") { text_ += text + "\n"; }
+  void addf(const std::string& function, int position = 0) {
+    line(position == 0 ? fmt::format("addf {} servo-thread", name(function))
+                       : fmt::format("addf {} servo-thread {}", name(function), position));
+  }
+  void setp(const std::string& shipped, const std::string& value) {
+    line(fmt::format("setp {} {}", pin(shipped), value));
+  }
+  /// Further pins that read a signal of the layer's own.
+  void reads(const std::string& signal, std::initializer_list<std::string> readers) {
+    put(signal, "", readers);
+  }
+  /// A pin of ours, or the machine's output, and who reads it. Where the machine's own file has a
+  /// signal on that pin, that one.
+  void net(const std::string& signal, const std::string& source,
+           const std::vector<std::string>& readers) {
+    const auto own = layer_.signal.find(source);
+    put(own == layer_.signal.end() ? signal : own->second, source, readers);
+  }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  void put(const std::string& signal, const std::string& source,
+           const std::vector<std::string>& readers) {
+    std::string out = "net " + signal;
+    out += source.empty() ? "" : " " + pin(source);
+    out += readers.empty() ? "" : " =>";
+    for (const std::string& reader : readers) {
+      out += " " + pin(reader);
+    }
+    line(out);
+  }
+
+  const LayerHal& layer_;
+  std::string text_;
+};
+
+void load(Text& text, const LayerHal& layer) {
+  for (const Needed& one : needed(layer)) {
+    if (layer.loaded.contains(one.component) || one.component == "conv_float_s32") {
+      continue;
+    }
+    std::string names;
+    for (const std::string& name : one.names) {
+      names += (names.empty() ? "names=" : ",") + name;
+    }
+    text.line(fmt::format("loadrt {} {}{}", one.component, one.arguments, names));
+  }
+  text.line();
+}
+
+void run(Text& text, const LayerHal& layer) {
+  text.line(
+      "# Before the motion controller, so that a ratio acts in the servo cycle that finds it.");
+  text.addf("watchdog.set-timeouts", 1);
+  text.addf("watchdog.process", 2);
+  int position = 3;
+  for (const char* name : {"layer.feed-choice", "layer.feed-falls", "layer.feed-ramp",
+                           "layer.spindle-choice", "layer.spindle-ramp"}) {
+    text.addf(name, position++);
+  }
+  text.line("# After it: the drive's speed, the cycle's number, the samples.");
+  text.addf("layer.drive");
+  for (const std::string& output : layer.drives) {
+    text.addf(drive_name(output));
+  }
+  text.addf("layer.tick");
+  for (std::size_t i = 0; i <= axis_channels(layer); ++i) {
+    text.addf(fmt::format("sampler.{}", i));
+  }
+  text.line();
+}
+
+void ratios(Text& text, const LayerHal& layer) {
+  text.line(
+      "# No heartbeat for 20 ms: the ratios go to 1. Only a disarmed and armed watchdog lets the "
+      "layer in again.");
+  text.setp("watchdog.timeout-0", "0.020");
+  text.reads("layer-heartbeat", {"watchdog.input-0"});
+  text.reads("layer-armed", {"watchdog.enable-in"});
+  text.net("layer-alive", "watchdog.ok-out",
+           {"layer.feed-choice.sel", "layer.spindle-choice.sel", "sampler.0.pin.14"});
+  text.line("\n# Feed: falls at once, rises by 15 1/s at most, from 0 to 1 in 67 ms.");
+  text.setp("layer.feed-choice.in0", "1.0");
+  text.setp("layer.feed-ramp.min", "0.0");
+  text.setp("layer.feed-ramp.max", "1.0");
+  text.setp("layer.feed-ramp.maxv", "15.0");
+  text.reads("layer-feed", {"layer.feed-choice.in1"});
+  text.net("layer-feed-chosen", "layer.feed-choice.out",
+           {"layer.feed-ramp.in", "layer.feed-falls.in0"});
+  text.net("layer-feed-falls", "layer.feed-falls.out", {"layer.feed-ramp.load"});
+  text.net("layer-feed-in-force", "layer.feed-ramp.out",
+           {"layer.feed-falls.in1", "motion.adaptive-feed", "sampler.0.pin.12"});
+  text.line(
+      "\n# Spindle: the drive gets speed-out × ratio. Connect layer-drive-rps to it instead of "
+      "spindle.0.speed-out-rps.");
+  text.setp("layer.spindle-choice.in0", "1.0");
+  text.setp("layer.spindle-ramp.min", "0.0");
+  text.setp("layer.spindle-ramp.max", "2.0");
+  text.setp("layer.spindle-ramp.maxv", "15.0");
+  text.reads("layer-spindle", {"layer.spindle-choice.in1"});
+  text.net("layer-spindle-chosen", "layer.spindle-choice.out", {"layer.spindle-ramp.in"});
+  std::vector<std::string> factors{"layer.drive.in1"};
+  for (const std::string& output : layer.drives) {
+    factors.push_back(drive_name(output) + ".in1");
+  }
+  factors.emplace_back("sampler.0.pin.13");
+  text.net("layer-spindle-in-force", "layer.spindle-ramp.out", factors);
+  text.net("layer-spindle-rps", "spindle.0.speed-out-rps", {"layer.drive.in0", "sampler.0.pin.6"});
+  text.net("layer-drive-rps", "layer.drive.out", {});
+  for (const std::string& output : layer.drives) {
+    text.net("layer-spindle" + output.substr(5), "spindle.0." + output,
+             {drive_name(output) + ".in0"});
+    text.net(drive_signal(output), drive_name(output) + ".out", {});
+  }
+  text.line();
+}
+
+void state_samples(Text& text) {
+  struct Row {
+    const char* signal;
+    const char* source;
+    int pin;
+  };
+  static constexpr Row kRows[] = {
+      {"layer-motion-type", "motion.motion-type", 1},
+      {"layer-program-line", "motion.program-line", 2},
+      {"layer-path-speed", "motion.current-vel", 3},
+      {"layer-requested", "motion.requested-vel", 4},
+      {"layer-feed-mm-s", "motion.feed-mm-per-second", 5},
+      {"layer-enabled", "motion.motion-enabled", 8},
+      {"layer-feed-panel", "halui.feed-override.value", 9},
+      {"layer-spindle-panel", "halui.spindle.0.override.value", 10},
+      {"layer-rapid-panel", "halui.rapid-override.value", 11},
+      {"layer-is-auto", "halui.mode.is-auto", 15},
+      {"layer-is-running", "halui.program.is-running", 16},
+      {"layer-is-paused", "halui.program.is-paused", 17},
+  };
+  for (const Row& row : kRows) {
+    text.net(row.signal, row.source, {fmt::format("sampler.0.pin.{}", row.pin)});
+  }
+}
+
+void samples(Text& text, const LayerHal& layer) {
+  text.line("# The number of the servo cycle, in each channel: samples are joined by it.");
+  text.setp("layer.tick.in0", "1.0");
+  std::vector<std::string> ticks{"layer.tick.in1"};
+  for (std::size_t i = 0; i <= axis_channels(layer); ++i) {
+    ticks.push_back(fmt::format("sampler.{}.pin.0", i));
+  }
+  text.net("layer-tick", "layer.tick.out", ticks);
+  text.line();
+  state_samples(text);
+  text.line("# Columns of an axis: command, actual position, following error, offset.");
+  for (std::size_t i = 0; i < layer.axes.size(); ++i) {
+    const LayerAxis& axis = layer.axes[i];
+    if (!axis.joint) {
+      text.line(fmt::format("# No joint for {}: its columns stay 0.", axis.letter));
+      continue;
+    }
+    const char l = lower(axis.letter);
+    const std::string joint = fmt::format("joint.{}.", *axis.joint);
+    const auto column = [&](std::size_t k) {
+      return fmt::format("sampler.{}.pin.{}", 1 + i / kAxesPerChannel,
+                         1 + kAxisColumns * (i % kAxesPerChannel) + k);
+    };
+    text.net(fmt::format("layer-{}-command", l), joint + "pos-cmd", {column(0)});
+    text.net(fmt::format("layer-{}-actual", l), joint + "pos-fb", {column(1)});
+    text.net(fmt::format("layer-{}-lag", l), joint + "f-error", {column(2)});
+    text.net(fmt::format("layer-{}-eoffset", l), fmt::format("axis.{}.eoffset", l), {column(3)});
+  }
+  const auto measured = layer.signal.find("spindle.0.speed-in");
+  if (measured != layer.signal.end()) {
+    text.line("# The spindle's measured speed.");
+    text.reads(measured->second, {"sampler.0.pin.7"});
+  } else {
+    text.line(
+        "# sampler.0.pin.7 takes the spindle's measured speed: the signal that goes to "
+        "spindle.0.speed-in.");
+  }
+}
+
+}  // namespace
+
+std::string drive_signal(const std::string& output) {
+  return output == "speed-out" ? "layer-drive-rpm" : "layer-drive" + output.substr(9);
+}
+
+std::vector<Needed> needed(const LayerHal& layer) {
+  Needed sums{"sum2", {"layer.tick"}, ""};
+  Needed choices{"mux2", {"layer.feed-choice", "layer.spindle-choice"}, ""};
+  Needed ramps{"limit2", {"layer.feed-ramp", "layer.spindle-ramp"}, ""};
+  Needed drives{"mult2", {"layer.drive"}, ""};
+  Needed counts{"conv_float_s32", {}, ""};
+  for (const std::string& output : layer.drives) {
+    drives.names.push_back(drive_name(output));
+  }
+  for (const LayerAxis& axis : layer.axes) {
+    if (layer.offset_components && axis.joint && !axis.rotary) {
+      sums.names.push_back(of_axis("offset", axis));
+      choices.names.push_back(of_axis("path", axis));
+      ramps.names.push_back(of_axis("path-ramp", axis));
+      counts.names.push_back(of_axis("counts", axis));
+    }
+  }
+  std::vector<Needed> out{sums,
+                          {"watchdog", {}, "num_inputs=1"},
+                          choices,
+                          {"comp", {"layer.feed-falls"}, ""},
+                          ramps,
+                          drives,
+                          {"sampler", {}, sampler_arguments(layer)}};
+  if (layer.offset_components) {
+    out.push_back(counts);
+  }
+  return out;
+}
+
+std::vector<std::string> driven_pins(const LayerHal& layer, bool offsets) {
+  std::vector<std::string> out{"motion.adaptive-feed"};
+  for (const LayerAxis& axis : layer.axes) {
+    if (offsets && axis.joint && !axis.rotary) {
+      for (const char* pin : {"counts", "enable", "scale", "clear"}) {
+        out.push_back(fmt::format("axis.{}.eoffset-{}", lower(axis.letter), pin));
+      }
+    }
+  }
+  return out;
+}
+
+std::string layer_text(const LayerHal& layer) {
+  Text text(layer);
+  load(text, layer);
+  run(text, layer);
+  ratios(text, layer);
+  samples(text, layer);
+  return text.take();
+}
+
+std::string offsets_text(const LayerHal& layer) {
+  Text text(layer);
+  const auto counts = needed(layer).back();
+  if (!layer.loaded.contains(counts.component)) {
+    std::string names;
+    for (const std::string& name : counts.names) {
+      names += (names.empty() ? "" : ",") + name;
+    }
+    text.line(fmt::format("loadrt {} names={}\n", counts.component, names));
+  }
+  int position = 8;
+  for (const LayerAxis& axis : layer.axes) {
+    for (const char* stem : {"path", "path-ramp", "offset", "counts"}) {
+      if (axis.joint && !axis.rotary) {
+        text.addf(of_axis(stem, axis), position++);
+      }
+    }
+  }
+  text.line(
+      fmt::format("\n# The sum goes out in counts of {:g} of the machine's unit. The path offset "
+                  "goes to 0 at {:g} 1/s of it when the\n"
+                  "# heartbeat stops; the offset against heat stays.",
+                  layer.offset_count, layer.path_ramp_s));
+  for (std::size_t i = 0; i < layer.axes.size(); ++i) {
+    const LayerAxis& axis = layer.axes[i];
+    if (!axis.joint || axis.rotary) {
+      // The layer's process connects its pins for every axis.
+      text.line(
+          fmt::format("\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float", i));
+      continue;
+    }
+    const char l = lower(axis.letter);
+    const std::string gain = fmt::format("{:.10g}", 1.0 / layer.offset_count);
+    text.line();
+    text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_s));
+    text.setp(of_axis("offset", axis) + ".gain0", gain);
+    text.setp(of_axis("offset", axis) + ".gain1", gain);
+    text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));
+    text.setp(fmt::format("axis.{}.eoffset-enable", l), "1");
+    text.reads(fmt::format("layer-path-offset-{}", i), {of_axis("path", axis) + ".in1"});
+    text.reads("layer-alive", {of_axis("path", axis) + ".sel"});
+    text.net(fmt::format("layer-path-{}-chosen", l), of_axis("path", axis) + ".out",
+             {of_axis("path-ramp", axis) + ".in"});
+    text.net(fmt::format("layer-path-{}-in-force", l), of_axis("path-ramp", axis) + ".out",
+             {of_axis("offset", axis) + ".in1"});
+    text.reads(fmt::format("layer-offset-{}", i), {of_axis("offset", axis) + ".in0"});
+    text.net(fmt::format("layer-offset-{}-counts-float", l), of_axis("offset", axis) + ".out",
+             {of_axis("counts", axis) + ".in"});
+    text.net(fmt::format("layer-offset-{}-counts", l), of_axis("counts", axis) + ".out",
+             {fmt::format("axis.{}.eoffset-counts", l)});
+  }
+  return text.take();
+}
+
+namespace {
+
+LayerHal three_axes() {
+  LayerHal layer;
+  layer.axes = {{'X', 0, false}, {'Y', 1, false}, {'Z', 2, false}};
+  return layer;
+}
+
+}  // namespace
+
+std::string shipped_layer_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp; `cmake --build --preset release --target layer_hal` "
+         "writes it. For three axes and one\n"
+         "# spindle: a further HALFILE after the machine's own. `steadyrest linuxcnc setup` makes "
+         "one for any other machine.\n"
+         "# The machine's own files must leave motion.adaptive-feed free and load none of these "
+         "components.\n" +
+         layer_text(three_axes());
+}
+
+std::string shipped_offsets_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp, as layer.hal. Axis offsets of three linear axes: a "
+         "HALFILE after layer.hal, where the\n"
+         "# machine does not use axis.L.eoffset itself. Each [AXIS_L] section of the INI file "
+         "needs OFFSET_AV_RATIO: the share of its\n"
+         "# speed and acceleration kept for offsets.\n" +
+         offsets_text(three_axes());
+}
+
+}  // namespace steadyrest::adapters::linuxcnc::config

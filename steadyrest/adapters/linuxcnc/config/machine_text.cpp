@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/core.h>
+
+#include <steadyrest/adapters/linuxcnc/config/limits.hpp>
+#include <steadyrest/adapters/linuxcnc/config/machine_text.hpp>
+
+// Each line names the entry that it is from, so that a reader can check it against the INI file.
+namespace steadyrest::adapters::linuxcnc::config {
+namespace {
+
+using kernel::outcome::Result;
+
+/// Length of a UTF-8 character at the beginning of `text`; 0: not UTF-8.
+std::size_t utf8_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text.front());
+  const std::size_t size = first < 0x80                    ? 1
+                           : first >= 0xC2 && first < 0xE0 ? 2
+                           : first >= 0xE0 && first < 0xF0 ? 3
+                           : first >= 0xF0 && first < 0xF5 ? 4
+                                                           : 0;
+  const bool whole =
+      size != 0 && size <= text.size() &&
+      std::ranges::all_of(text.substr(1, size - 1), [](char c) { return (c & 0xC0) == 0x80; });
+  return whole ? size : 0;
+}
+
+/// As a TOML string of 1 … 80 characters; what is no text becomes `?`.
+std::string toml_string(std::string_view name) {
+  constexpr std::size_t kMostCharacters = 80;
+  std::string out;
+  for (std::size_t i = 0; !name.empty() && i < kMostCharacters; ++i) {
+    const std::size_t size = utf8_length(name);
+    const bool control = size == 1 && (name.front() < ' ' || name.front() == '\x7f');
+    if (name.front() == '"' || name.front() == '\\') {
+      out += '\\';
+    }
+    // E0 and F0 have over-long forms and surrogates behind them, which TOML refuses.
+    const bool odd = size > 2 && static_cast<unsigned char>(name[0]) % 16 == 0 &&
+                     static_cast<unsigned char>(name[1]) < 0xA0;
+    const bool surrogate =
+        name.starts_with('\xED') && size == 3 && static_cast<unsigned char>(name[1]) >= 0xA0;
+    out += size == 0 || control || odd || surrogate ? std::string_view("?") : name.substr(0, size);
+    name.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return '"' + (out.empty() ? std::string("LinuxCNC machine") : out) + '"';
+}
+
+/// Comments take the INI's text; anything but printable ASCII would need TOML's rules there.
+std::string comment_of(std::string_view text) {
+  std::string out(text);
+  std::ranges::replace_if(out, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return out;
+}
+
+class Writer {
+ public:
+  Writer(const IniFile& ini, const Configuration& machine) : ini_(ini), machine_(machine) {}
+
+  Result<MachineText> write() {
+    head();
+    for (const auto part :
+         {&Writer::control, &Writer::axes, &Writer::overrides, &Writer::spindle}) {
+      if (auto done = (this->*part)(); !done) {
+        return std::unexpected(done.error());
+      }
+    }
+    layer();
+    return std::move(out_);
+  }
+
+ private:
+  void line(const std::string& text) { out_.text += text + "\n"; }
+  void noted(const std::string& assignment, const std::string& comment) {
+    line(fmt::format("{:<31} # {}", assignment, comment));
+  }
+  void given(const char* key, double value, const std::string& from) {
+    noted(fmt::format("{} = {:.10g}", key, value), comment_of(from));
+    ++out_.from_ini;
+  }
+  void assumed(const char* key, double value, const char* measure) {
+    noted(fmt::format("{} = {:.10g}", key, value), fmt::format("ASSUMED: {}", measure));
+    ++out_.assumed;
+  }
+  /// A key of the INI file, or a comment that says why it is missing.
+  Result<void> optional(const char* key, const char* section, const char* ini_key, double factor,
+                        const Range& range, double scale, const char* without) {
+    const auto value = figure(ini_, section, ini_key, factor, range);
+    if (!value) {
+      return std::unexpected(value.error());
+    }
+    if (*value) {
+      given(key, (*value)->value * scale, (*value)->from);
+    } else {
+      line(fmt::format("# {}: no [{}] {}; {}", key, section, ini_key, without));
+    }
+    return {};
+  }
+  /// A planner setting with LinuxCNC's own default.
+  Result<void> setting(const char* key, const char* ini_key, double factor, double least,
+                       double most, double by_default) {
+    const auto value = figure(ini_, "TRAJ", ini_key, factor, {least, most, ""});
+    if (!value) {
+      return std::unexpected(value.error());
+    }
+    given(key, *value ? (*value)->value : by_default * factor,
+          *value ? (*value)->from
+                 : fmt::format("[TRAJ] {} is missing: LinuxCNC takes {:g}", ini_key, by_default));
+    return {};
+  }
+
+  void head() {
+    line(fmt::format("# Made by `steadyrest machine from-linuxcnc` from {}.",
+                     comment_of(std::filesystem::path(ini_.path()).filename().string())));
+    line(
+        "# Lines with ASSUMED hold what no INI file says: measure it, put the value in, delete the "
+        "word.");
+    line(
+        "# `steadyrest doctor --machine FILE` checks the result; port = \"sim\" tries it without "
+        "the machine.");
+    line(fmt::format("name = {}", toml_string(machine_.name)));
+    line("port = \"linuxcnc\"");
+    line("mode = \"observe\"");
+  }
+
+  Result<void> control() {
+    line("\n[control]");
+    line("dialect = \"linuxcnc\"");
+    const std::string period = ini_.find("EMCMOT", "SERVO_PERIOD")->text() + " ns";
+    given("interpolator_period_ms", machine_.servo_period_ms, period);
+    given("servo_period_ms", machine_.servo_period_ms, period);
+    const double mm = machine_.mm_per_unit;
+    if (auto done = optional("max_path_acceleration_mm_s2", "TRAJ", "MAX_LINEAR_ACCELERATION", mm,
+                             {1.0, 1e6, "mm/s²"}, 1.0, "the axes' own limits count");
+        !done) {
+      return done;
+    }
+    if (auto done = optional("max_feed_mm_min", "TRAJ", "MAX_LINEAR_VELOCITY", mm,
+                             {1.0 / 60.0, 1e6 / 60.0, "mm/s"}, 60.0, "the axes' own limits count");
+        !done) {
+      return done;
+    }
+    // Two lines meet in one arc, so the depth counts both.
+    if (auto done =
+            setting("look_ahead_blocks", "ARC_BLEND_OPTIMIZATION_DEPTH", 2.0, 1.0, 10000.0, 50.0);
+        !done) {
+      return done;
+    }
+    assumed("tool_change_s", 5.0, "time a tool change");
+    return planner();
+  }
+
+  /// The laws of LinuxCNC's planner do not depend on the machine; two of them have settings.
+  Result<void> planner() {
+    const auto enabled = figure(ini_, "TRAJ", "ARC_BLEND_ENABLE", 1.0, {-1e9, 1e9, ""});
+    if (!enabled) {
+      return std::unexpected(enabled.error());
+    }
+    line("# The laws of LinuxCNC's trajectory planner, measured on version 2.9.");
+    if (*enabled && (*enabled)->value == 0.0) {
+      line(
+          "# [TRAJ] ARC_BLEND_ENABLE = 0: without arcs at corners; these laws are then an "
+          "estimate.");
+    }
+    line("corner_tolerance_mm = 10");
+    line("junction_deviation_mm = 0");
+    if (auto done = setting("junction_share", "ARC_BLEND_KINK_RATIO", 1.0, 0.001, 1.0, 0.1);
+        !done) {
+      return done;
+    }
+    line("centripetal_share = 0.866");
+    line("blend_share = 0.5");
+    if (auto done = setting("blend_gap_cycles", "ARC_BLEND_GAP_CYCLES", 1.0, 0.0, 1000.0, 4.0);
+        !done) {
+      return done;
+    }
+    line("min_block_cycles = 1.02");
+    line("merge_share = 1");
+    line("corner_acceleration_share = 0.5");
+    line("stop_between_rapid_and_feed = true");
+    return {};
+  }
+
+  Result<void> axes() {
+    for (const ConfiguredAxis& axis : machine_.axes) {
+      if (auto done = axis.present() ? one_axis(axis) : Result<void>{}; !done) {
+        return done;
+      }
+    }
+    return {};
+  }
+
+  Result<void> one_axis(const ConfiguredAxis& axis) {
+    const auto limits = limits_of(ini_, machine_, axis);
+    if (!limits) {
+      return std::unexpected(limits.error());
+    }
+    line("\n[[axis]]");
+    std::string joints;
+    for (const std::size_t joint : axis.joints) {
+      joints += fmt::format("{}{}", joints.empty() ? "" : " and ", joint);
+    }
+    noted(fmt::format("name = \"{}\"", axis.letter),
+          fmt::format("joint {}{}", joints,
+                      axis.joints.size() > 1 ? "; the layer reads the first" : ""));
+    assumed("servo_gain_1_s", 20.0,
+            "speed / joint.N.f-error of a long move at constant speed (halscope)");
+    const bool rotary = axis.rotary;
+    given(rotary ? "max_speed_deg_s" : "max_feed_mm_min",
+          limits->speed_s.value * (rotary ? 1.0 : 60.0), limits->speed_s.from);
+    if (!limits->slower_joint.empty()) {
+      line(fmt::format("# {} is lower; LinuxCNC plans with the axis's.",
+                       comment_of(limits->slower_joint)));
+    }
+    given(rotary ? "max_acceleration_deg_s2" : "max_acceleration_mm_s2",
+          limits->acceleration_s2.value, limits->acceleration_s2.from);
+    end(rotary ? "min_deg" : "min_mm", limits->min);
+    end(rotary ? "max_deg" : "max_mm", limits->max);
+    line("[axis.encoder]");
+    assumed(rotary ? "count_deg" : "count_um", rotary ? 0.001 : 1.0,
+            "1 / counts per unit of the encoder (or step) scale in the HAL files");
+    return {};
+  }
+
+  void end(const char* key, const std::optional<Figure>& value) {
+    if (value) {
+      given(key, value->value, value->from);
+    } else {
+      line(fmt::format("# {}: the INI file sets no limit", key));
+    }
+  }
+
+  Result<void> overrides() {
+    const auto most = figure(ini_, "DISPLAY", "MAX_FEED_OVERRIDE", 100.0, {1.0, 1000.0, "%"});
+    if (!most) {
+      return std::unexpected(most.error());
+    }
+    line(
+        "\n# motion.adaptive-feed (after M52 P1): a number that acts in the same servo cycle. 2.9 "
+        "clamps it to 100 %, so");
+    line("# the layer can only lower the feed" +
+         (*most ? fmt::format("; the panel goes to {:.10g} % ({}).", (*most)->value,
+                              comment_of((*most)->from))
+                : std::string(".")));
+    line("[override.feed]");
+    line("coding = \"binary\"");
+    line("binary_max_percent = 100");
+    line("binary_step_percent = 0.5");
+    line(fmt::format("scan_period_ms = {:.10g}", machine_.servo_period_ms));
+    line("dead_time_ms = 0");
+    line("latched_word = true");
+    line("max_percent = 100");
+    return spindle_override();
+  }
+
+  Result<void> spindle_override() {
+    const Range range{0.0, 1000.0, "%"};
+    const auto least = figure(ini_, "DISPLAY", "MIN_SPINDLE_OVERRIDE", 100.0, range);
+    const auto most = least ? figure(ini_, "DISPLAY", "MAX_SPINDLE_OVERRIDE", 100.0, range)
+                            : std::unexpected(least.error());
+    if (!most) {
+      return std::unexpected(most.error());
+    }
+    // 100 % is always a step: it is what the program says.
+    const double low = std::min(100.0, std::ceil(*least ? (*least)->value : 50.0));
+    const double high = std::max(100.0, std::floor(*most ? (*most)->value : 100.0));
+    low_percent_ = low;
+    high_percent_ = std::min(high, 200.0);
+    std::string steps = fmt::format("{:g}", low);
+    for (double at = (std::floor(low / 5.0) + 1.0) * 5.0; at < high_percent_; at += 5.0) {
+      steps += fmt::format(", {:g}", at);
+    }
+    steps += low < high_percent_ ? fmt::format(", {:g}", high_percent_) : "";
+    line(
+        "\n# The spindle's factor in the layer's HAL file, 0 ... 200 %, within the panel's range:");
+    line(*least ? "# " + comment_of((*least)->from)
+                : "# [DISPLAY] MIN_SPINDLE_OVERRIDE is missing: from 50 %");
+    line(*most ? "# " + comment_of((*most)->from)
+               : "# [DISPLAY] MAX_SPINDLE_OVERRIDE is missing: LinuxCNC takes 1");
+    line("[override.spindle]");
+    line("coding = \"binary\"");
+    line(fmt::format("percent = [{}]", steps));
+    noted("scan_period_ms = 20", "halui's loop");
+    line("dead_time_ms = 1");
+    line(fmt::format("max_percent = {:g}", high_percent_));
+    out_.from_ini += 2;
+    return {};
+  }
+
+  Result<void> spindle() {
+    line("\n[spindle]");
+    const Range range{1.0, 1e6, "rpm"};
+    const auto most = figure(ini_, "SPINDLE_0", "MAX_FORWARD_VELOCITY", 1.0, range);
+    const auto least = most ? figure(ini_, "SPINDLE_0", "MIN_FORWARD_VELOCITY", 1.0,
+                                     {0.0, *most ? (*most)->value : 1e6, "rpm"})
+                            : std::unexpected(most.error());
+    if (!least) {
+      return std::unexpected(least.error());
+    }
+    if (*least) {
+      given("min_rpm", (*least)->value, (*least)->from);
+    } else {
+      line("min_rpm = 0");
+    }
+    if (*most) {
+      given("max_rpm", (*most)->value, (*most)->from);
+    } else {
+      assumed("max_rpm", std::max(24000.0, *least ? (*least)->value : 0.0),
+              "no [SPINDLE_0] MAX_FORWARD_VELOCITY; the fastest the spindle may turn");
+    }
+    assumed("acceleration_rpm_s", 8000.0,
+            "speed / time of a run-up (halscope on the spindle's speed)");
+    assumed("inertia_kg_m2", 0.0004, "the maker's data of rotor, chuck and tool");
+    assumed("rated_power_kw", 2.2, "the motor's plate");
+    assumed("max_torque_n_m", 1.2, "the motor's plate");
+    return {};
+  }
+
+  void layer() {
+    line("\n[contour]");
+    line("strategy = \"feed_priority\"");
+    assumed("limit_um", 10.0, "the contour error that your parts permit");
+    line("min_percent = 5");
+    line("max_percent = 100");
+    line("\n[envelope]");
+    line("max_feed_percent = 100");
+    line("feed_fall_percent_s = 10000");
+    line("feed_rise_percent_s = 500");
+    line(fmt::format("min_spindle_percent = {:g}", low_percent_));
+    line(fmt::format("max_spindle_percent = {:g}", high_percent_));
+    line("stale_after_ms = 20");
+  }
+
+  const IniFile& ini_;
+  const Configuration& machine_;
+  MachineText out_;
+  double low_percent_ = 50.0;
+  double high_percent_ = 100.0;
+};
+
+}  // namespace
+
+Result<MachineText> machine_text(const IniFile& ini, const Configuration& machine) {
+  return Writer(ini, machine).write();
+}
+
+}  // namespace steadyrest::adapters::linuxcnc::config

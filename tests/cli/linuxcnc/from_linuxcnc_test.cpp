@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "expectations.hpp"
+#include "linuxcnc/linuxcnc_files.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/machine/unlimited.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using kernel::machine::Axis;
+using testing::HasSubstr;
+
+constexpr double kTurn = std::numbers::pi / 180.0;
+
+/// The machine file of an INI text, read back.
+kernel::machine::Machine machine_of(const Scratch& scratch, const std::string& ini) {
+  const std::string output = scratch.at("machine.toml");
+  const Finished made = run({"machine", "from-linuxcnc", scratch.file("m.ini", ini), "-o", output});
+  EXPECT_EQ(made.code, 0) << made.err;
+  auto machine = passport::read(output);
+  EXPECT_TRUE(machine) << (machine ? "" : machine.error().what);
+  return machine ? *machine : kernel::machine::Machine{};
+}
+
+void expect_axis(const Axis& axis, const char* name, double speed, double acceleration, double min,
+                 double max) {
+  EXPECT_EQ(axis.name, name);
+  EXPECT_TRUE(axis.present) << name;
+  EXPECT_NEAR(axis.max_speed_au_s, speed, 1e-9 * speed) << name;
+  EXPECT_NEAR(axis.max_acceleration_au_s2, acceleration, 1e-9 * acceleration) << name;
+  EXPECT_NEAR(axis.min_au, min, 1e-9 * std::abs(min)) << name;
+  EXPECT_NEAR(axis.max_au, max, 1e-9 * std::abs(max)) << name;
+}
+
+// Inches become mm, travel is what axis and joints leave, the lathe has no Y.
+TEST(FromLinuxCnc, ConvertsEveryFigure) {
+  const Scratch scratch;
+  const auto machine = machine_of(scratch, inch_lathe());
+  EXPECT_EQ(machine.name, "Lathe \"9\\\"");
+  EXPECT_EQ(machine.port, kernel::machine::PortKind::linuxcnc);
+  EXPECT_EQ(machine.mode, kernel::machine::Mode::observe);
+  EXPECT_EQ(machine.control.dialect, kernel::machine::Dialect::linuxcnc);
+  EXPECT_DOUBLE_EQ(machine.control.servo_period_s, 0.0005);
+  EXPECT_DOUBLE_EQ(machine.control.interpolator_period_s, 0.0005);
+  EXPECT_DOUBLE_EQ(machine.control.max_feed_mm_s, 101.6);
+  EXPECT_EQ(machine.control.max_path_acceleration_mm_s2, kernel::machine::kUnlimited);
+  EXPECT_EQ(machine.control.look_ahead_blocks, 160U);
+  EXPECT_DOUBLE_EQ(machine.control.blend_gap_cycles, 7.0);
+  EXPECT_DOUBLE_EQ(machine.control.junction_share, 0.1);
+  ASSERT_EQ(machine.axes.size(), 4U);
+  expect_axis(machine.axes[0], "X", 50.8, 508.0, -50.8, 76.2);
+  EXPECT_FALSE(machine.axes[1].present);
+  expect_axis(machine.axes[2], "Z", 76.2, 762.0, -228.6, 12.7);
+  expect_axis(machine.axes[3], "C", 90.0 * kTurn, 360.0 * kTurn, -1e6, 1e6);
+  EXPECT_NEAR(machine.spindle.max_rev_s, 50.0, 1e-12);
+  EXPECT_NEAR(machine.spindle.min_rev_s, 1.0, 1e-12);
+  // Adaptive feed only lowers, whatever the panel may.
+  EXPECT_DOUBLE_EQ(machine.feed_override.ratio.back(), 1.0);
+  EXPECT_DOUBLE_EQ(machine.feed_override.max_ratio, 1.0);
+  EXPECT_THAT(machine.spindle_override.ratio,
+              testing::Pointwise(testing::DoubleNear(1e-12),
+                                 {0.72, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.05, 1.1, 1.12}));
+  const std::string text = text_of_file(scratch.at("machine.toml"));
+  EXPECT_THAT(text, HasSubstr("# [JOINT_1] MAX_VELOCITY = 1 is lower"));
+  EXPECT_THAT(text, HasSubstr("# max_path_acceleration_mm_s2: no [TRAJ] MAX_LINEAR_ACCELERATION"));
+}
+
+TEST(FromLinuxCnc, SaysWhatIsAssumed) {
+  const auto answer = answer_of("machine from-linuxcnc examples/linuxcnc/mill.ini -o machine.toml");
+  EXPECT_EQ(answer["from_ini"], 22);
+  ASSERT_EQ(answer["assumed"].size(), 12U);
+  EXPECT_THAT(answer["assumed"][1].get<std::string>(),
+              HasSubstr("axis X: servo_gain_1_s = 20 (speed / joint.N.f-error"));
+  EXPECT_THAT(answer["written"][0]["file"].get<std::string>(), "machine.toml");
+}
+
+// The shipped machine file of the same control: what it has from the INI is found there.
+TEST(FromLinuxCnc, FindsThePlannerOfTheExampleMill) {
+  const Scratch scratch;
+  const auto made = machine_of(scratch, text_of_file(project_file("examples/linuxcnc/mill.ini")));
+  const auto mill = passport::read(project_file("examples/machines/linuxcnc-mill.toml"));
+  ASSERT_TRUE(mill);
+  const auto& a = made.control;
+  const auto& b = mill->control;
+  EXPECT_EQ(a.look_ahead_blocks, b.look_ahead_blocks);
+  EXPECT_EQ(a.corner_tolerance_mm, b.corner_tolerance_mm);
+  EXPECT_EQ(a.junction_deviation_mm, b.junction_deviation_mm);
+  EXPECT_EQ(a.junction_share, b.junction_share);
+  EXPECT_EQ(a.centripetal_share, b.centripetal_share);
+  EXPECT_EQ(a.blend_share, b.blend_share);
+  EXPECT_EQ(a.blend_gap_cycles, b.blend_gap_cycles);
+  EXPECT_EQ(a.min_block_cycles, b.min_block_cycles);
+  EXPECT_EQ(a.merge_share, b.merge_share);
+  EXPECT_EQ(a.corner_acceleration_share, b.corner_acceleration_share);
+  EXPECT_EQ(a.stop_between_rapid_and_feed, b.stop_between_rapid_and_feed);
+}
+
+struct Fault {
+  const char* was;
+  const char* becomes;
+  const char* line;  ///< of the refusal; empty: the file as a whole
+  const char* what;
+};
+
+TEST(FromLinuxCnc, RefusesByLineAndName) {
+  const Scratch scratch;
+  for (const Fault& fault : {
+           Fault{"JOINTS = 4\n", "", "8", "there is no [KINS] JOINTS"},
+           Fault{"JOINTS = 4", "JOINTS = many", "10", "JOINTS = many is not a number"},
+           Fault{"JOINTS = 4", "JOINTS = 2", "12", "have no C"},
+           Fault{"JOINTS = 4", "JOINTS = 2.5", "10", "whole numbers 1 … 16"},
+           Fault{"trivkins coordinates=xzzc", "genhexkins", "9", "allowed: trivkins"},
+           Fault{"coordinates=xzzc", "coordinates=xq", "9", "allowed letters"},
+           Fault{"COORDINATES = X Z C", "COORDINATES = X", "12", "allowed: 2 … 8"},
+           Fault{"LINEAR_UNITS = inch", "LINEAR_UNITS = ell", "13", "is not a unit"},
+           Fault{"LINEAR_UNITS = inch\n", "", "11", "there is no [TRAJ] LINEAR_UNITS"},
+           Fault{"SERVO_PERIOD = 500000", "SERVO_PERIOD = 5", "19", "allowed: 50000"},
+           Fault{"[AXIS_Z]", "[AXIS_Y]", "", "there is no section [AXIS_Z]"},
+           Fault{"[JOINT_2]", "[JOINT_9]", "", "there is no section [JOINT_2]"},
+           Fault{"MAX_LIMIT = 0.5", "MAX_LIMIT = -9.5", "44",
+                 "[JOINT_2] MAX_LIMIT = -9.5 is not above [JOINT_1] MIN_LIMIT = -9"},
+           Fault{"MAX_VELOCITY = 3", "MAX_VELOCITY = 0", "33", "is 0 mm/s; allowed:"},
+           Fault{"MAX_ACCELERATION = 360", "MAX_ACCELERATION = 1e9", "37", "allowed: 0.1 …"},
+           Fault{"TYPE = LINEAR", "TYPE = ANGULAR", "39", "for the axis X, which is linear"},
+       }) {
+    std::string ini = inch_lathe();
+    ini.replace(ini.find(fault.was), std::string(fault.was).size(), fault.becomes);
+    const std::string file = scratch.file("m.ini", ini);
+    const Finished made = run({"machine", "from-linuxcnc", file, "-o", scratch.at("none.toml")});
+    EXPECT_EQ(made.code, 2) << fault.becomes;
+    const std::string line = fault.line[0] == '\0' ? "" : std::string(":") + fault.line;
+    EXPECT_THAT(made.err, testing::StartsWith("steadyrest: " + file + line + ": "));
+    EXPECT_THAT(made.err, HasSubstr(fault.what));
+    EXPECT_FALSE(std::filesystem::exists(scratch.at("none.toml"))) << fault.becomes;
+  }
+}
+
+TEST(FromLinuxCnc, RefusesWhatIsNoIniFile) {
+  const Scratch scratch;
+  expect_refused("machine from-linuxcnc examples/programs/rib-pocket.ngc -o m.toml",
+                 "rib-pocket.ngc:1: is not an INI file");
+  expect_refused("machine from-linuxcnc examples/records/circle-start.sqlite -o m.toml", "binary");
+  expect_refused("machine from-linuxcnc examples -o m.toml", "is a folder");
+  expect_refused("machine from-linuxcnc none.ini -o m.toml", "cannot be read");
+}
+
+// An included file is an input, which no output replaces.
+TEST(FromLinuxCnc, ReplacesNoIncludedFile) {
+  const Scratch scratch;
+  const std::string inc = scratch.file("traj.inc", "[[axis]]\n");
+  const std::string ini = scratch.file("m.ini", "#INCLUDE traj.inc\n" + inch_lathe());
+  EXPECT_EQ(run({"machine", "from-linuxcnc", ini, "-o", inc}).code, 2);
+  EXPECT_EQ(text_of_file(inc), "[[axis]]\n");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
