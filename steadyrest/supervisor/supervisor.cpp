@@ -150,6 +150,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
                        const OffsetEnvelope& path_offset)
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
+      cycle_s_(machine.control.interpolator_period_s),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),
@@ -262,6 +263,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   const double last_s = clock_.time_s();
   const bool ever_read = clock_.state().started;
   const FrameClock::Tick tick = clock_.update(frame.time_s);
+  state_.silent_s += cycle_s_;
   resume(tick);
   settle_mode();
   before_ = written();
@@ -287,6 +289,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   }
   command.write = state_.mode_in_force == Mode::act && !state_.interrupted;
   if (command.write) {
+    state_.silent_s = 0.0;
     state_.delivered_s = tick.time_s;
     state_.delivered_stamped_s = tick.stamped_s;
   }
@@ -308,6 +311,7 @@ Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
   auto frame = port.read();
   if (!frame) {
     state_.interrupted = true;
+    state_.silent_s += cycle_s_;
     return std::unexpected(std::move(frame.error()));
   }
   const signal::Command command = update(*frame, requests);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -76,10 +77,13 @@ class Supervisor {
     FrameClock::State clock;
     double delivered_s = 0.0;          ///< good time of the last written cycle
     double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
-    double idle_s = 0.0;               ///< good time since the control became idle
+    /// Of the cycles since the last written one; NaN: restored, not known; infinite: none yet.
+    double silent_s = std::numeric_limits<double>::infinity();
+    double idle_s = 0.0;  ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
+    bool clock_set = false;    ///< since then
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
@@ -182,6 +186,7 @@ class Supervisor {
     kernel::override::OffsetEnvelope::State path_offset;
     double delivered_s = 0.0;
     double delivered_stamped_s = 0.0;
+    double silent_s = 0.0;
   };
   [[nodiscard]] Written written() const noexcept;
   void put_back(const Written& written) noexcept;
@@ -189,6 +194,7 @@ class Supervisor {
 
   FrameCheck check_;
   FrameClock clock_;
+  double cycle_s_;
   double watchdog_s_;  ///< the machine drops whatever no heartbeat renews for this long
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;

@@ -166,5 +166,61 @@ TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
   }
 }
 
+/// A supervisor that holds 50 % and an offset of 20 µm on a port that can be deaf.
+struct Holding {
+  Holding() : supervisor(Supervisor::make(mill(Mode::act), kAll).value()) {
+    port.frame.motion = signal::Motion::feed;
+    offset[0].offset_mm[2] = 0.02;
+    cycles(1000);
+    EXPECT_TRUE(port.written.back().feed_masks_panel);
+    EXPECT_EQ(port.written.back().offset_mm[2], 0.02);
+  }
+  void cycles(int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor.cycle(port, {.feed = feed, .spindle = {}, .offset = offset}));
+    }
+  }
+  Supervisor supervisor;
+  DeafPort port;
+  std::vector<signal::FeedRequest> feed = {{.ratio = 0.5, .reason = Reason::contour_limit}};
+  std::vector<signal::OffsetRequest> offset = {{.reason = Reason::contour_limit}};
+};
+
+// A write fails for one cycle, and the clock is set just then: by the stamps an hour has passed,
+// but the machine holds word and offset still, and would take a start at the panel for a jump.
+TEST(Interruption, AClockThatIsSetWhileAWriteFailsMovesNothing) {
+  for (const double set_s : {3600.0, -500.0, 0.3}) {
+    Holding layer;
+    layer.port.deaf = true;
+    layer.cycles(1);
+    layer.port.deaf = false;
+    layer.port.frame.time_s += set_s;
+    const std::size_t so_far = layer.port.written.size();
+    layer.cycles(95);
+    EXPECT_EQ(layer.port.written.size(), so_far) << set_s << ": silent until the watchdog is sure";
+    layer.cycles(10);
+    ASSERT_GT(layer.port.written.size(), so_far) << set_s;
+    EXPECT_FALSE(layer.port.written[so_far].feed_masks_panel) << set_s;
+    EXPECT_LE(layer.port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12) << set_s;
+  }
+}
+
+// The control's clock stood while 150 ms of writes failed: the watchdog has dropped everything,
+// whatever the stamps say.
+TEST(Interruption, SilenceCountsWhereTheClockStands) {
+  Holding layer;
+  layer.port.deaf = true;
+  for (int i = 0; i < 150; ++i) {
+    layer.cycles(1);
+    layer.port.frame.time_s -= kCycle_s;
+  }
+  layer.port.deaf = false;
+  const std::size_t so_far = layer.port.written.size();
+  layer.cycles(1);
+  ASSERT_GT(layer.port.written.size(), so_far);
+  EXPECT_FALSE(layer.port.written[so_far].feed_masks_panel);
+  EXPECT_LE(layer.port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
+}
+
 }  // namespace
 }  // namespace steadyrest::supervisor
