@@ -264,6 +264,9 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   const bool ever_read = clock_.state().started;
   const FrameClock::Tick tick = clock_.update(frame.time_s);
   state_.silent_s += cycle_s_;
+  if (read_now) {
+    watch_source(frame.time_s);
+  }
   resume(tick);
   settle_mode();
   before_ = written();
@@ -272,6 +275,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   // become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
+  } else if (source_stands()) {
+    known.age_s = std::max(frame.age_s, state_.stands_s);
   }
   const Reason unfit = inspect(known, tick);
   if (std::isfinite(frame.time_s)) {
@@ -286,6 +291,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     clamp(frame, tick.step_s, decisions, command);
   } else {
     see_panel(frame);
+    explain_silence(unfit, command);
   }
   command.write = state_.mode_in_force == Mode::act && !state_.interrupted;
   if (command.write) {

@@ -79,7 +79,9 @@ class Supervisor {
     double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
     /// Of the cycles since the last written one; NaN: restored, not known; infinite: none yet.
     double silent_s = std::numeric_limits<double>::infinity();
-    double idle_s = 0.0;  ///< good time since the control became idle
+    double stamp_s = std::numeric_limits<double>::quiet_NaN();  ///< of the last frame read
+    double stands_s = 0.0;  ///< of the cycles that have shown the same stamp again
+    double idle_s = 0.0;    ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
@@ -166,6 +168,8 @@ class Supervisor {
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame,
                                   const FrameClock::Tick& tick) noexcept;
   void settle_mode() noexcept;
+  void watch_source(double stamp_s) noexcept;
+  [[nodiscard]] bool source_stands() const noexcept { return state_.stands_s > watchdog_s_; }
   void begin_at_panel() noexcept;
   void resume(const FrameClock::Tick& tick) noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
@@ -175,6 +179,8 @@ class Supervisor {
   /// What holds without the layer: the panel's own value.
   [[nodiscard]] static kernel::signal::Command panel_command(
       const kernel::signal::Frame& frame) noexcept;
+  void explain_silence(kernel::outcome::Reason unfit,
+                       kernel::signal::Command& command) const noexcept;
   void clamp(const kernel::signal::Frame& frame, double step_s, const Decisions& decisions,
              kernel::signal::Command& command) noexcept;
   [[nodiscard]] bool leaving_act() const noexcept;

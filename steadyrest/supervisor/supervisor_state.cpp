@@ -25,6 +25,14 @@ void Supervisor::begin_at_panel() noexcept {
   handed_back_ = true;
 }
 
+// No stamp moves any slew on a source that stands, so the layer cannot go to neutral by itself: it
+// falls silent, and the machine's watchdog hands back.
+void Supervisor::watch_source(double stamp_s) noexcept {
+  state_.stands_s = stamp_s == state_.stamp_s ? state_.stands_s + cycle_s_ : 0.0;
+  state_.stamp_s = stamp_s;
+  state_.interrupted = state_.interrupted || source_stands();
+}
+
 /// Every frame shows the operator's setting, even where nothing is written.
 void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   if (feed_) {
@@ -47,7 +55,7 @@ void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
     state_.delivered_s = state_.delivered_stamped_s;
   }
   state_.clock_set = state_.interrupted && (state_.clock_set || tick.set);
-  if (!state_.interrupted || !tick.good) {
+  if (!state_.interrupted || !tick.good || source_stands()) {
     return;
   }
   const bool long_by_stamps = state_.clock_set || tick.time_s - state_.delivered_s > watchdog_s_;
@@ -128,6 +136,8 @@ void Supervisor::restore(const State& state) noexcept {
   state_ = state;
   state_.interrupted = true;
   state_.clock_set = false;
+  state_.stamp_s = kNan;
+  state_.stands_s = 0.0;
   // A state comes from a file: a NaN here would keep the tool in the cut for good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
   clock_.restore(state.clock);

@@ -115,18 +115,18 @@ TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
   EXPECT_FALSE(port.written.back().feed_masks_panel);
 }
 
-// The clock stopped for 40 ms, twice the watchdog's time, while frames and writes went on. A
-// supervisor that measured the gap from the last good time would treat its own word as dropped.
+// The clock stopped for 19 ms, just less than the watchdog's time, while frames and writes went on.
+// A supervisor that measured the gap from the last good time would treat its own word as dropped.
 TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   auto machine = mill(Mode::act);
   machine.envelope.stale_after_s = 0.02;
   Bench first(machine);
   first.wish_feed(0.5);
   ASSERT_TRUE(first.cycles(1000).feed_masks_panel);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 19; ++i) {
     first.supervisor.update(first.frame, {.feed = first.feed, .spindle = {}, .offset = {}});
   }
-  first.frame.time_s += 40.0 * kCycle_s;  // the clock resumes at the right time
+  first.frame.time_s += 19.0 * kCycle_s;  // the clock resumes at the right time
   ASSERT_TRUE(first.cycle().feed_masks_panel);
   Bench second(machine);
   second.wish_feed(0.5);
@@ -216,10 +216,39 @@ TEST(Interruption, SilenceCountsWhereTheClockStands) {
   }
   layer.port.deaf = false;
   const std::size_t so_far = layer.port.written.size();
-  layer.cycles(1);
+  layer.cycles(2);
   ASSERT_GT(layer.port.written.size(), so_far);
   EXPECT_FALSE(layer.port.written[so_far].feed_masks_panel);
   EXPECT_LE(layer.port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
+}
+
+// The source is dead: the same frame comes again and again. No slew gets any credit, so the layer
+// cannot go to neutral; after the watchdog's 100 ms it writes nothing, and the machine hands back.
+TEST(Interruption, ASourceThatStandsGetsNothingMore) {
+  Bench bench;
+  bench.wish_feed(0.5);
+  bench.wish_offset(0.02);
+  ASSERT_TRUE(bench.cycles(1000).feed_masks_panel);
+  const auto again = [&bench](int count) {
+    signal::Command command;
+    for (int i = 0; i < count; ++i) {
+      command = bench.supervisor.update(
+          bench.frame,
+          {.feed = bench.feed, .spindle = {}, .offset = bench.offset, .path_offset = {}});
+    }
+    return command;
+  };
+  EXPECT_TRUE(again(99).feed_masks_panel) << "a glitch of the clock";
+  for (const int cycles : {2, 1000}) {
+    const auto command = again(cycles);
+    EXPECT_FALSE(command.write);
+    EXPECT_EQ(command.feed_reason, Reason::input_stale);
+    EXPECT_EQ(command.offset_reason, Reason::input_stale);
+  }
+  const auto command = bench.cycle();
+  EXPECT_TRUE(command.write);
+  EXPECT_FALSE(command.feed_masks_panel);
+  EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-12);
 }
 
 }  // namespace
