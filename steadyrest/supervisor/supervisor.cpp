@@ -84,6 +84,18 @@ bool in_cut(signal::Motion motion, double idle_s, bool before) noexcept {
   return before;
 }
 
+/// The axes where the program has them. The offset against heat is in what the control reports, and
+/// it is meant: the contour room would slow the feed down for it.
+signal::Frame without_heat(signal::Frame frame, const signal::InForce& in_force) noexcept {
+  if (in_force.written) {
+    for (std::size_t i = 0; i < frame.axis.size(); ++i) {
+      frame.axis[i].command_mm -= in_force.offset_mm[i];
+      frame.axis[i].actual_mm -= in_force.offset_mm[i];
+    }
+  }
+  return frame;
+}
+
 /// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
@@ -209,7 +221,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
   const signal::InForce come_down = in_force();
   if (contour_) {
-    estimates_.contour = contour_->update(frame, come_down, unfit);
+    estimates_.contour = contour_->update(without_heat(frame, come_down), come_down, unfit);
   }
   if (chatter_) {
     hear(frame, fit);
