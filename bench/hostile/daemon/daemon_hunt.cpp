@@ -159,6 +159,7 @@ DaemonScene::DaemonScene(const DaemonHunt& hunt, const Machine& base,
                                      e.offset_slew_mm_s, slack_s});
   path_offset_.emplace(OffsetWatch::Rules{limits(machine_, can_.path_offset, e.max_path_offset_mm),
                                           e.path_offset_slew_mm_s, slack_s, true});
+  may_write_ = loop_->mode_wanted() == Mode::act;
   port_->before_read = [this] { begin_cycle(); };
   port_->taken = [this](const signal::Command& command) { judge(command); };
 }
@@ -286,8 +287,8 @@ void DaemonScene::judge_end(const live::LoopFigures& figures) {
   if (!figures.handed_back) {
     broken("not handed back after good input");
   }
-  if (last_.write && (last_.feed_masks_panel || last_.spindle_masks_panel || !offset_->at_zero() ||
-                      !path_offset_->at_zero())) {
+  // Less what the watchdog has dropped.
+  if (feed_->masked() || spindle_->masked() || !offset_->at_zero() || !path_offset_->at_zero()) {
     broken("something of the layer is left at the end");
   }
 }
