@@ -101,11 +101,16 @@ void Loop::cycle() noexcept {
       config_.on_command(*command);
     }
     count(*command);
-    publish(*command);
+    publish();
   } else {
     ++figures_.port_faults;
     note_fault(command.error());
-    publish({});
+    const Reason lost = Reason::heartbeat_lost;
+    count({.feed_reason = lost,
+           .spindle_reason = lost,
+           .offset_reason = lost,
+           .path_offset_reason = lost});
+    publish();
   }
 }
 
@@ -122,7 +127,7 @@ void Loop::count(const kernel::signal::Command& command) noexcept {
   }
 }
 
-void Loop::publish(const kernel::signal::Command& command) noexcept {
+void Loop::publish() noexcept {
   const kernel::signal::Frame& frame = layer_.frame();
   const auto in_force = layer_.in_force();
   const auto& contour = layer_.estimates().contour;
@@ -144,8 +149,8 @@ void Loop::publish(const kernel::signal::Command& command) noexcept {
   now_.feed_effective_ratio = frame.feed.effective_ratio;
   now_.spindle_ratio = in_force.spindle.ratio;
   now_.spindle_effective_ratio = frame.spindle.effective_ratio;
-  now_.offset_mm = command.offset_mm;
-  now_.path_offset_mm = command.path_offset_mm;
+  now_.offset_mm = in_force.offset_mm;
+  now_.path_offset_mm = in_force.path_offset_mm;
   status_.store(now_);
 }
 

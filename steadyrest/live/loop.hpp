@@ -98,7 +98,7 @@ class Loop {
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
-  void publish(const kernel::signal::Command& command) noexcept;
+  void publish() noexcept;
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
 
   Watched port_;

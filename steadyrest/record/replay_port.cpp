@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/record/replay_port.hpp>
 
 namespace steadyrest::record {
@@ -79,7 +80,11 @@ Result<kernel::signal::Frame> ReplayPort::read() noexcept {
 }
 
 // The event follows its sample, so it is the next one.
-Result<void> ReplayPort::write(const kernel::signal::Command& /*command*/) noexcept {
+Result<void> ReplayPort::write(const kernel::signal::Command& command) noexcept {
+  if (!command.write) {
+    return kernel::outcome::refuse("a command that must not be written",
+                                   "write in the mode act only");
+  }
   const auto& events = reader_.events();
   for (std::size_t i = event_; i < events.size() && events[i].before <= sample().number + 1; ++i) {
     if (events[i].before == sample().number + 1 && events[i].kind == EventKind::undelivered) {

@@ -84,6 +84,18 @@ bool in_cut(signal::Motion motion, double idle_s, bool before) noexcept {
   return before;
 }
 
+/// The axes where the program has them. The offset against heat is in what the control reports, and
+/// it is meant: the contour room would slow the feed down for it.
+signal::Frame without_heat(signal::Frame frame, const signal::InForce& in_force) noexcept {
+  if (in_force.written) {
+    for (std::size_t i = 0; i < frame.axis.size(); ++i) {
+      frame.axis[i].command_mm -= in_force.offset_mm[i];
+      frame.axis[i].actual_mm -= in_force.offset_mm[i];
+    }
+  }
+  return frame;
+}
+
 /// The frame as the rooms see it: all its times in good time. A frame of before has them already.
 void in_good_time(signal::Frame& frame, double time_s, bool read_now) noexcept {
   // Edge stamps move with the frame's: their distance to the tick is what the estimators use.
@@ -150,6 +162,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
                        const OffsetEnvelope& path_offset)
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
+      cycle_s_(machine.control.interpolator_period_s),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),
@@ -208,7 +221,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
   const signal::InForce come_down = in_force();
   if (contour_) {
-    estimates_.contour = contour_->update(frame, come_down, unfit);
+    estimates_.contour = contour_->update(without_heat(frame, come_down), come_down, unfit);
   }
   if (chatter_) {
     hear(frame, fit);
@@ -262,6 +275,10 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   const double last_s = clock_.time_s();
   const bool ever_read = clock_.state().started;
   const FrameClock::Tick tick = clock_.update(frame.time_s);
+  state_.silent_s += cycle_s_;
+  if (read_now) {
+    watch_source(frame.time_s);
+  }
   resume(tick);
   settle_mode();
   before_ = written();
@@ -270,6 +287,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   // become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
+  } else if (source_stands()) {
+    known.age_s = std::max(frame.age_s, state_.stands_s);
   }
   const Reason unfit = inspect(known, tick);
   if (std::isfinite(frame.time_s)) {
@@ -284,9 +303,11 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     clamp(frame, tick.step_s, decisions, command);
   } else {
     see_panel(frame);
+    explain_silence(unfit, command);
   }
   command.write = state_.mode_in_force == Mode::act && !state_.interrupted;
   if (command.write) {
+    state_.silent_s = 0.0;
     state_.delivered_s = tick.time_s;
     state_.delivered_stamped_s = tick.stamped_s;
   }
@@ -308,6 +329,7 @@ Result<signal::Command> Supervisor::cycle(kernel::port::Port& port,
   auto frame = port.read();
   if (!frame) {
     state_.interrupted = true;
+    state_.silent_s += cycle_s_;
     return std::unexpected(std::move(frame.error()));
   }
   const signal::Command command = update(*frame, requests);

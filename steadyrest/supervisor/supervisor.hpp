@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -76,10 +77,15 @@ class Supervisor {
     FrameClock::State clock;
     double delivered_s = 0.0;          ///< good time of the last written cycle
     double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
-    double idle_s = 0.0;               ///< good time since the control became idle
+    /// Of the cycles since the last written one; NaN: restored, not known; infinite: none yet.
+    double silent_s = std::numeric_limits<double>::infinity();
+    double stamp_s = std::numeric_limits<double>::quiet_NaN();  ///< of the last frame read
+    double stands_s = 0.0;  ///< of the cycles that have shown the same stamp again
+    double idle_s = 0.0;    ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
+    bool clock_set = false;    ///< since then
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
@@ -162,6 +168,8 @@ class Supervisor {
   kernel::outcome::Reason inspect(const kernel::signal::Frame& frame,
                                   const FrameClock::Tick& tick) noexcept;
   void settle_mode() noexcept;
+  void watch_source(double stamp_s) noexcept;
+  [[nodiscard]] bool source_stands() const noexcept { return state_.stands_s > watchdog_s_; }
   void begin_at_panel() noexcept;
   void resume(const FrameClock::Tick& tick) noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
@@ -171,6 +179,8 @@ class Supervisor {
   /// What holds without the layer: the panel's own value.
   [[nodiscard]] static kernel::signal::Command panel_command(
       const kernel::signal::Frame& frame) noexcept;
+  void explain_silence(kernel::outcome::Reason unfit,
+                       kernel::signal::Command& command) const noexcept;
   void clamp(const kernel::signal::Frame& frame, double step_s, const Decisions& decisions,
              kernel::signal::Command& command) noexcept;
   [[nodiscard]] bool leaving_act() const noexcept;
@@ -182,6 +192,7 @@ class Supervisor {
     kernel::override::OffsetEnvelope::State path_offset;
     double delivered_s = 0.0;
     double delivered_stamped_s = 0.0;
+    double silent_s = 0.0;
   };
   [[nodiscard]] Written written() const noexcept;
   void put_back(const Written& written) noexcept;
@@ -189,6 +200,7 @@ class Supervisor {
 
   FrameCheck check_;
   FrameClock clock_;
+  double cycle_s_;
   double watchdog_s_;  ///< the machine drops whatever no heartbeat renews for this long
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;

@@ -85,6 +85,15 @@ signal::Command Supervisor::panel_command(const signal::Frame& frame) noexcept {
           .path_offset_reason = Reason::observe_only};
 }
 
+/// Why nothing is written in a mode that would.
+void Supervisor::explain_silence(Reason unfit, signal::Command& command) const noexcept {
+  if (state_.mode_in_force != kernel::machine::Mode::observe) {
+    const Reason why = unfit != Reason::none ? unfit : Reason::heartbeat_lost;
+    command.feed_reason = command.spindle_reason = why;
+    command.offset_reason = command.path_offset_reason = why;
+  }
+}
+
 // The last step before the port. Both overrides and both offsets run in every cycle, also when one
 // is unfit: each slews back on its own.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
 // What is on the machine: taken back, resumed after a restart, or given up.
 namespace steadyrest::supervisor {
 
 using kernel::override::Channel;
+using kernel::units::kNan;
 
 /// Nothing of the layer is on the machine, and the state of its words is unknown. Every start on
 /// the machine goes through here: mode act begins so, and so does the layer after a gap longer than
@@ -23,6 +25,14 @@ void Supervisor::begin_at_panel() noexcept {
   handed_back_ = true;
 }
 
+// No stamp moves any slew on a source that stands, so the layer cannot go to neutral by itself: it
+// falls silent, and the machine's watchdog hands back.
+void Supervisor::watch_source(double stamp_s) noexcept {
+  state_.stands_s = stamp_s == state_.stamp_s ? state_.stands_s + cycle_s_ : 0.0;
+  state_.stamp_s = stamp_s;
+  state_.interrupted = state_.interrupted || source_stands();
+}
+
 /// Every frame shows the operator's setting, even where nothing is written.
 void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   if (feed_) {
@@ -33,20 +43,29 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   }
 }
 
-// An interruption ends with the first good stamp, since only good time tells how long it lasted. Up
-// to the watchdog's time the machine still holds what was written, and the layer continues from
-// there; beyond it, or when the clock was set, it begins at the panel.
+// An interruption ends with the first good stamp. Up to the watchdog's time the machine still holds
+// what was written, and the layer continues from there; beyond it, it begins at the panel. How long
+// it was is told by the silent cycles. Where the stamps say longer (a clock that was set, or jumped
+// for another reason), the machine may hold everything still: the layer stays silent until the
+// watchdog has dropped it for certain. A restored process knows the stamps alone.
 void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
   // A confirmed jump means that the last delivery's stamp was right, doubt or not: the gap counts
   // from there, else a long cycle would pass for an interruption.
   if (tick.jumped) {  // a stamp that was in doubt was right
     state_.delivered_s = state_.delivered_stamped_s;
   }
-  if (!state_.interrupted || !tick.good) {
+  state_.clock_set = state_.interrupted && (state_.clock_set || tick.set);
+  if (!state_.interrupted || !tick.good || source_stands()) {
+    return;
+  }
+  const bool long_by_stamps = state_.clock_set || tick.time_s - state_.delivered_s > watchdog_s_;
+  const bool restored = std::isnan(state_.silent_s);
+  const bool dropped = restored ? long_by_stamps : state_.silent_s > watchdog_s_;
+  if (long_by_stamps && !dropped) {
     return;
   }
   state_.interrupted = false;
-  if (tick.set || tick.time_s - state_.delivered_s > watchdog_s_) {
+  if (dropped) {
     begin_at_panel();
   }
 }
@@ -68,7 +87,8 @@ Supervisor::Written Supervisor::written() const noexcept {
           .offset = offset_.state(),
           .path_offset = path_offset_.state(),
           .delivered_s = state_.delivered_s,
-          .delivered_stamped_s = state_.delivered_stamped_s};
+          .delivered_stamped_s = state_.delivered_stamped_s,
+          .silent_s = state_.silent_s};
 }
 
 // Excludes the channels: when taken back they keep what the undelivered cycle saw of the panel (the
@@ -78,6 +98,7 @@ void Supervisor::put_back(const Written& written) noexcept {
   path_offset_.restore(written.path_offset);
   state_.delivered_s = written.delivered_s;
   state_.delivered_stamped_s = written.delivered_stamped_s;
+  state_.silent_s = written.silent_s;
   handed_back_ = false;
 }
 
@@ -114,6 +135,9 @@ Supervisor::State Supervisor::state() const noexcept {
 void Supervisor::restore(const State& state) noexcept {
   state_ = state;
   state_.interrupted = true;
+  state_.clock_set = false;
+  state_.stamp_s = kNan;
+  state_.stands_s = 0.0;
   // A state comes from a file: a NaN here would keep the tool in the cut for good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
   clock_.restore(state.clock);
@@ -128,7 +152,8 @@ void Supervisor::restore(const State& state) noexcept {
             .offset = state.offset,
             .path_offset = state.path_offset,
             .delivered_s = state.delivered_s,
-            .delivered_stamped_s = state.delivered_stamped_s});
+            .delivered_stamped_s = state.delivered_stamped_s,
+            .silent_s = kNan});
   motion_.reset();
   if (contour_) {
     contour_->reset();

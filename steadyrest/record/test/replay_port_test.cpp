@@ -10,6 +10,8 @@ using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
+constexpr kernel::signal::Command kWritten{.write = true};
+
 /// Counts its cycles; does not read the second time and does not write the third.
 class Failing final : public kernel::port::Port {
  public:
@@ -45,7 +47,7 @@ TEST(ReplayPort, FailsWhereTheMachineDid) {
     RecordingPort port(machine, *writer);
     writer->event(EventKind::mode, "act");
     for (int i = 0; i < 4; ++i) {
-      if (port.read() && port.write({})) {
+      if (port.read() && port.write(kWritten)) {
         port.record({});
       }
     }
@@ -57,13 +59,14 @@ TEST(ReplayPort, FailsWhereTheMachineDid) {
   EXPECT_EQ(port->mode_due(), "act");
   EXPECT_EQ(port->mode_due(), std::nullopt);
   EXPECT_EQ(port->read().value().cycle, 1U);
-  EXPECT_TRUE(port->write({}));
+  EXPECT_EQ(port->write({}).error().kind, Kind::bad_input) << "not in the mode act";
+  EXPECT_TRUE(port->write(kWritten));
   EXPECT_EQ(port->read().error().what, "no frame");
   EXPECT_EQ(port->read().value().cycle, 3U);
-  EXPECT_EQ(port->write({}).error().what, "not taken");
+  EXPECT_EQ(port->write(kWritten).error().what, "not taken");
   EXPECT_EQ(port->mode_due(), std::nullopt);
   EXPECT_EQ(port->read().value().cycle, 4U);
-  EXPECT_TRUE(port->write({}));
+  EXPECT_TRUE(port->write(kWritten));
   EXPECT_FALSE(port->finished());
   EXPECT_EQ(port->mode_due(), "observe");
   EXPECT_TRUE(port->finished());

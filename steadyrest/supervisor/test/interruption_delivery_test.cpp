@@ -115,18 +115,18 @@ TEST(Interruption, ThePanelThatAnUndeliveredCycleSawIsKnown) {
   EXPECT_FALSE(port.written.back().feed_masks_panel);
 }
 
-// The clock stopped for 40 ms, twice the watchdog's time, while frames and writes went on. A
-// supervisor that measured the gap from the last good time would treat its own word as dropped.
+// The clock stopped for 19 ms, just less than the watchdog's time, while frames and writes went on.
+// A supervisor that measured the gap from the last good time would treat its own word as dropped.
 TEST(Interruption, AfterAClockThatStoodNothingIsTakenForDropped) {
   auto machine = mill(Mode::act);
   machine.envelope.stale_after_s = 0.02;
   Bench first(machine);
   first.wish_feed(0.5);
   ASSERT_TRUE(first.cycles(1000).feed_masks_panel);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 19; ++i) {
     first.supervisor.update(first.frame, {.feed = first.feed, .spindle = {}, .offset = {}});
   }
-  first.frame.time_s += 40.0 * kCycle_s;  // the clock resumes at the right time
+  first.frame.time_s += 19.0 * kCycle_s;  // the clock resumes at the right time
   ASSERT_TRUE(first.cycle().feed_masks_panel);
   Bench second(machine);
   second.wish_feed(0.5);
@@ -164,6 +164,91 @@ TEST(Interruption, AfterALostLinkLongerThanTheWatchdogItBeginsAtThePanel) {
     EXPECT_FALSE(port.written[so_far].feed_masks_panel);
     EXPECT_LE(port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
   }
+}
+
+/// A supervisor that holds 50 % and an offset of 20 µm on a port that can be deaf.
+struct Holding {
+  Holding() : supervisor(Supervisor::make(mill(Mode::act), kAll).value()) {
+    port.frame.motion = signal::Motion::feed;
+    offset[0].offset_mm[2] = 0.02;
+    cycles(1000);
+    EXPECT_TRUE(port.written.back().feed_masks_panel);
+    EXPECT_EQ(port.written.back().offset_mm[2], 0.02);
+  }
+  void cycles(int count) {
+    for (int i = 0; i < count; ++i) {
+      static_cast<void>(supervisor.cycle(port, {.feed = feed, .spindle = {}, .offset = offset}));
+    }
+  }
+  Supervisor supervisor;
+  DeafPort port;
+  std::vector<signal::FeedRequest> feed = {{.ratio = 0.5, .reason = Reason::contour_limit}};
+  std::vector<signal::OffsetRequest> offset = {{.reason = Reason::contour_limit}};
+};
+
+// A write fails for one cycle, and the clock is set just then: by the stamps an hour has passed,
+// but the machine holds word and offset still, and would take a start at the panel for a jump.
+TEST(Interruption, AClockThatIsSetWhileAWriteFailsMovesNothing) {
+  for (const double set_s : {3600.0, -500.0, 0.3}) {
+    Holding layer;
+    layer.port.deaf = true;
+    layer.cycles(1);
+    layer.port.deaf = false;
+    layer.port.frame.time_s += set_s;
+    const std::size_t so_far = layer.port.written.size();
+    layer.cycles(95);
+    EXPECT_EQ(layer.port.written.size(), so_far) << set_s << ": silent until the watchdog is sure";
+    layer.cycles(10);
+    ASSERT_GT(layer.port.written.size(), so_far) << set_s;
+    EXPECT_FALSE(layer.port.written[so_far].feed_masks_panel) << set_s;
+    EXPECT_LE(layer.port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12) << set_s;
+  }
+}
+
+// The control's clock stood while 150 ms of writes failed: the watchdog has dropped everything,
+// whatever the stamps say.
+TEST(Interruption, SilenceCountsWhereTheClockStands) {
+  Holding layer;
+  layer.port.deaf = true;
+  for (int i = 0; i < 150; ++i) {
+    layer.cycles(1);
+    layer.port.frame.time_s -= kCycle_s;
+  }
+  layer.port.deaf = false;
+  const std::size_t so_far = layer.port.written.size();
+  layer.cycles(2);
+  ASSERT_GT(layer.port.written.size(), so_far);
+  EXPECT_FALSE(layer.port.written[so_far].feed_masks_panel);
+  EXPECT_LE(layer.port.written[so_far].offset_mm[2], 0.05 * kCycle_s + 1e-12);
+}
+
+// The source is dead: the same frame comes again and again. No slew gets any credit, so the layer
+// cannot go to neutral; after the watchdog's 100 ms it writes nothing, and the machine hands back.
+TEST(Interruption, ASourceThatStandsGetsNothingMore) {
+  Bench bench;
+  bench.wish_feed(0.5);
+  bench.wish_offset(0.02);
+  ASSERT_TRUE(bench.cycles(1000).feed_masks_panel);
+  const auto again = [&bench](int count) {
+    signal::Command command;
+    for (int i = 0; i < count; ++i) {
+      command = bench.supervisor.update(
+          bench.frame,
+          {.feed = bench.feed, .spindle = {}, .offset = bench.offset, .path_offset = {}});
+    }
+    return command;
+  };
+  EXPECT_TRUE(again(99).feed_masks_panel) << "a glitch of the clock";
+  for (const int cycles : {2, 1000}) {
+    const auto command = again(cycles);
+    EXPECT_FALSE(command.write);
+    EXPECT_EQ(command.feed_reason, Reason::input_stale);
+    EXPECT_EQ(command.offset_reason, Reason::input_stale);
+  }
+  const auto command = bench.cycle();
+  EXPECT_TRUE(command.write);
+  EXPECT_FALSE(command.feed_masks_panel);
+  EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-12);
 }
 
 }  // namespace

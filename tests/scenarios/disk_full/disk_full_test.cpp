@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The disk is full while a run is recorded: the record ends, the run goes on and says so.
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <tests/cli/shared/program.hpp>
+#include <tests/cli/shared/scratch.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+/// What a shell's line prints.
+std::string printed(const std::string& line) {
+  std::string out;
+  FILE* const pipe = ::popen(line.c_str(), "r");
+  std::array<char, 4096> part{};
+  for (std::size_t got = 1; got > 0;) {
+    got = std::fread(part.data(), 1, part.size(), pipe);
+    out.append(part.data(), got);
+  }
+  EXPECT_EQ(::pclose(pipe), 0) << line;
+  return out;
+}
+
+TEST(DiskFull, EndsTheRecordAndNotTheRun) {
+  const Scratch scratch;
+  // No file may be larger than 160 blocks of 512 bytes: enough to begin.
+  const std::string text =
+      printed("ulimit -f 160; cd '" + scratch.at("") + "' && exec " + STEADYREST_PROGRAM +
+              " run --json --for-s 3 --mode act --socket s --record runs --machine " +
+              project_file("examples/machines/vmc-840d.toml") + " --program " +
+              project_file("examples/programs/circle-r10.mpf"));
+  const auto answer = nlohmann::json::parse(text, nullptr, false);
+  ASSERT_TRUE(answer.is_object()) << text;
+  EXPECT_GE(answer["cycles"], 750) << "3 s of 4 ms";
+  ASSERT_TRUE(answer["record"]["fault"].is_string()) << answer["record"].dump();
+  EXPECT_EQ(answer["port_faults"], 0);
+}
+
+}  // namespace
+}  // namespace steadyrest::test
