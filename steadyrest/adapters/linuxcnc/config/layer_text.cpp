@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kAxesPerChannel = 4;
 constexpr std::size_t kAxisColumns = 4;
-constexpr const char* kStateTypes = "fssfffffbfffffbbbb";
+constexpr const char* kStateTypes = "fssfffffbfffffbbbbb";
 
 char lower(char letter) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
@@ -207,6 +207,8 @@ void state_samples(Text& text) {
       {"layer-is-auto", "halui.mode.is-auto", 15},
       {"layer-is-running", "halui.program.is-running", 16},
       {"layer-is-paused", "halui.program.is-paused", 17},
+      // M64 P0 and M65 P0 in the program switch the modulation of the spindle's speed on and off.
+      {"layer-modulation", "motion.digital-out-00", 18},
   };
   for (const Row& row : kRows) {
     text.net(row.signal, row.source, {fmt::format("sampler.0.pin.{}", row.pin)});
@@ -336,8 +338,10 @@ std::string offsets_text(const LayerHal& layer) {
     const LayerAxis& axis = layer.axes[i];
     if (!axis.joint || axis.rotary) {
       // The layer's process connects its pins for every axis.
-      text.line(
-          fmt::format("\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float", i));
+      text.line(fmt::format(
+          "\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float\n"
+          "newsig layer-offset-share-{0} float\nnewsig layer-axis-acceleration-{0} float",
+          i));
       continue;
     }
     const char l = lower(axis.letter);
@@ -348,8 +352,15 @@ std::string offsets_text(const LayerHal& layer) {
     text.setp(of_axis("offset", axis) + ".gain1", gain);
     text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));
     text.setp(fmt::format("axis.{}.eoffset-enable", l), "1");
+    const char upper = axis.letter;
+    text.line(fmt::format(
+        "newsig layer-offset-share-{0} float\nnewsig layer-axis-acceleration-{0} float\n"
+        "sets layer-offset-share-{0} [AXIS_{1}]OFFSET_AV_RATIO\n"
+        "sets layer-axis-acceleration-{0} [AXIS_{1}]MAX_ACCELERATION",
+        i, upper));
     text.reads(fmt::format("layer-path-offset-{}", i), {of_axis("path", axis) + ".in1"});
-    text.reads("layer-alive", {of_axis("path", axis) + ".sel"});
+    text.reads("layer-alive",
+               {of_axis("path", axis) + ".sel", of_axis("path-ramp", axis) + ".load"});
     text.net(fmt::format("layer-path-{}-chosen", l), of_axis("path", axis) + ".out",
              {of_axis("path-ramp", axis) + ".in"});
     text.net(fmt::format("layer-path-{}-in-force", l), of_axis("path-ramp", axis) + ".out",

@@ -43,7 +43,7 @@ struct LayerHal {
 /// Pins of the machine that the layer drives, so that nothing else may.
 [[nodiscard]] std::vector<std::string> driven_pins(const LayerHal& layer, bool offsets);
 
-/// layer.hal, for these axes: sampler channel 0 with 18 columns, and for each four axes a channel
+/// layer.hal, for these axes: sampler channel 0 with 19 columns, and for each four axes a channel
 /// with the tick and, for each axis, command, actual position, following error and offset.
 [[nodiscard]] std::string layer_text(const LayerHal& layer);
 /// layer_offsets.hal: comes after the other.

@@ -56,11 +56,8 @@ std::string shipped(const std::string& name) {
       STEADYREST_SOURCE_DIR "/steadyrest/adapters/linuxcnc/" + name);
 }
 
-// The sampler's columns are tested below; everything else is what layer.hal has.
 TEST(LayerText, OfThreeAxesDoesWhatLayerHalDoes) {
-  for (const std::string& command : difference(shipped_layer_hal(), shipped("layer.hal"))) {
-    EXPECT_THAT(command, HasSubstr("sampler"));
-  }
+  EXPECT_THAT(difference(shipped_layer_hal(), shipped("layer.hal")), testing::IsEmpty());
 }
 
 TEST(LayerText, OfThreeAxesHasTheOffsetsOfLayerOffsetsHal) {
@@ -70,7 +67,7 @@ TEST(LayerText, OfThreeAxesHasTheOffsetsOfLayerOffsetsHal) {
 TEST(LayerText, HasAColumnOfTheRightTypeForEachSample) {
   const std::string text = layer_text(three_axes());
   EXPECT_THAT(text,
-              HasSubstr("loadrt sampler depth=4000,4000 cfg=fssfffffbfffffbbbb,fffffffffffff\n"));
+              HasSubstr("loadrt sampler depth=4000,4000 cfg=fssfffffbfffffbbbbb,fffffffffffff\n"));
   EXPECT_THAT(text, HasSubstr("net layer-is-auto halui.mode.is-auto => sampler.0.pin.15\n"));
   EXPECT_THAT(text, HasSubstr("net layer-is-paused halui.program.is-paused => sampler.0.pin.17\n"));
   EXPECT_THAT(text, HasSubstr("net layer-x-command joint.0.pos-cmd => sampler.1.pin.1\n"));
