@@ -154,7 +154,7 @@ std::string usual_socket() {
   return fmt::format("{}/steadyrest.sock", folder != nullptr && *folder != '\0' ? folder : "/run");
 }
 
-Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
+Result<void> ControlSocket::check(const std::string& path) {
   if (!fits(path)) {
     return refuse(path,
                   fmt::format("the socket's path has {} bytes; allowed: 1 … {}", path.size(),
@@ -162,20 +162,28 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
                   "give a shorter --socket");
   }
   struct stat file{};
-  if (::lstat(path.c_str(), &file) == 0) {
-    if (!S_ISSOCK(file.st_mode)) {
-      return refuse(path, "is a file and no socket", "give another --socket");
-    }
-    asio::io_context io;
-    stream_protocol::socket other(io);
-    error_code fault;
-    fault = other.connect(stream_protocol::endpoint(path), fault);
-    if (!fault) {
-      return refuse(path, "another layer answers on this socket",
-                    "stop it first, or give another --socket");
-    }
-    ::unlink(path.c_str());
+  if (::lstat(path.c_str(), &file) != 0) {
+    return {};
   }
+  if (!S_ISSOCK(file.st_mode)) {
+    return refuse(path, "is a file and no socket", "give another --socket");
+  }
+  asio::io_context io;
+  stream_protocol::socket other(io);
+  error_code fault;
+  fault = other.connect(stream_protocol::endpoint(path), fault);
+  if (!fault) {
+    return refuse(path, "another layer answers on this socket",
+                  "stop it first, or give another --socket");
+  }
+  return {};
+}
+
+Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
+  if (auto free = check(path); !free) {
+    return std::unexpected(std::move(free.error()));
+  }
+  ::unlink(path.c_str());  // of a dead program
   auto server = std::make_unique<Server>(path, std::move(answer));
   if (auto started = server->start(); !started) {
     return std::unexpected(std::move(started.error()));

@@ -32,10 +32,18 @@ struct LoopFigures {
   std::vector<std::uint64_t> by_reason;  ///< in the order of kernel::outcome::reasons()
 };
 
+/// A layer that goes on where the present one is, made from another machine file.
+struct Successor {
+  kernel::machine::Machine machine;
+  supervisor::Supervisor layer;
+  supervisor::Kept kept;
+  std::uint32_t text = 0;  ///< the file's text, by its number in a record
+};
+
 /// The layer's only loop: one cycle a period until it is told to stop. README.md has the law.
 ///
 /// run() belongs to one thread. ask_mode() and ask_stop() may be called by any thread and by a
-/// signal's handler; status() by one other thread.
+/// signal's handler; status(), and offer() with withdraw(), by one other thread each.
 class Loop {
  public:
   struct Config {
@@ -51,6 +59,8 @@ class Loop {
     /// For a record, in the cycle: the mode wanted from here on, and each cycle's command.
     std::function<void(kernel::machine::Mode)> on_mode = {};
     std::function<void(const kernel::signal::Command&)> on_command = {};
+    /// The held text of the machine file that took over.
+    std::function<void(std::uint32_t)> on_reload = {};
     // NOLINTEND(readability-redundant-member-init)
   };
 
@@ -66,6 +76,14 @@ class Loop {
   void ask_mode(kernel::machine::Mode mode) noexcept { wanted_.store(mode); }
   [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
   void ask_stop() noexcept { stop_.store(true); }
+  /// Takes over before the next cycle: once taken() has risen, the layer before it may go.
+  void offer(Successor& next) noexcept { offered_.store(&next); }
+  /// False: it takes over, or has done so.
+  bool withdraw() noexcept { return offered_.exchange(nullptr) != nullptr; }
+  /// How many have taken over.
+  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
+  /// Cycles that have ended: whether the loop goes on, for other threads.
+  [[nodiscard]] std::uint64_t beats() const noexcept { return beats_.load(); }
   /// The newest; of a loop that has not begun, an empty one.
   [[nodiscard]] const LiveStatus& status() noexcept { return status_.load(); }
   [[nodiscard]] const LoopFigures& figures() const noexcept { return figures_; }
@@ -95,6 +113,7 @@ class Loop {
     const Pace& pace_;
   };
 
+  void succeed() noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
@@ -102,11 +121,14 @@ class Loop {
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
 
   Watched port_;
-  supervisor::Supervisor& layer_;
+  supervisor::Supervisor* layer_;
   Pace& pace_;
   Config config_;
   std::atomic<kernel::machine::Mode> wanted_;
   std::atomic<bool> stop_{false};
+  std::atomic<Successor*> offered_{nullptr};
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> beats_{0};
   double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   kernel::rt::Snapshot<LiveStatus> status_;

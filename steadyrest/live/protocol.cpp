@@ -26,7 +26,7 @@ std::string shown(const Json& value) {
 
 }  // namespace
 
-std::string answer(Loop& loop, std::string_view port, std::string_view line) {
+std::string answer(const Asked& of, std::string_view line) {
   const Json request = Json::parse(line, nullptr, false);
   if (!request.is_object()) {
     return error("the line is no JSON object", R"(send {"version":1,"ask":"status"})");
@@ -38,9 +38,10 @@ std::string answer(Loop& loop, std::string_view port, std::string_view line) {
   }
   const Json ask = request.value("ask", Json());
   if (ask == "status") {
-    Json status = status_json(loop.status());
-    status["mode_wanted"] = word(loop.mode_wanted());  // asked for since the last cycle
-    status["port"] = port;
+    Json status = status_json(of.loop.status());
+    status["mode_wanted"] = word(of.loop.mode_wanted());  // asked for since the last cycle
+    status["port"] = of.port;
+    status["reload"] = of.reloader != nullptr ? reload_json(of.reloader->status()) : Json();
     return line_of({{"version", kProtocol}, {"status", std::move(status)}});
   }
   if (ask == "mode") {
@@ -51,10 +52,13 @@ std::string answer(Loop& loop, std::string_view port, std::string_view line) {
           fmt::format("the mode {} is not known; allowed: observe, advise, act", shown(name)),
           "give one of these");
     }
-    loop.ask_mode(*mode);
+    of.loop.ask_mode(*mode);
     return line_of({{"version", kProtocol}, {"mode_wanted", word(*mode)}});
   }
-  return error(fmt::format("{} cannot be asked; allowed: status, mode", shown(ask)),
+  if (ask == "reload" && of.reloader != nullptr) {
+    return line_of({{"version", kProtocol}, {"reload_asked", of.reloader->ask()}});
+  }
+  return error(fmt::format("{} cannot be asked; allowed: status, mode, reload", shown(ask)),
                "give one of these as `ask`");
 }
 

@@ -5,13 +5,21 @@
 #include <string_view>
 
 #include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/reloader.hpp>
 
 namespace steadyrest::live {
 
 /// The version of the protocol (docs/live-protocol.md).
 inline constexpr int kProtocol = 1;
 
+/// What is asked about.
+struct Asked {
+  Loop& loop;
+  std::string_view port;         ///< of the machine file
+  Reloader* reloader = nullptr;  ///< null: the machine file is not read again
+};
+
 /// The answer to a client's line; an error says what was seen, what is allowed and what to do.
-[[nodiscard]] std::string answer(Loop& loop, std::string_view port, std::string_view line);
+[[nodiscard]] std::string answer(const Asked& of, std::string_view line);
 
 }  // namespace steadyrest::live

@@ -157,7 +157,7 @@ Result<void> RecordReader::read_events() {
       return {};
     }
     const std::int64_t kind = query->integer(2);
-    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::note))) {
+    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::reload))) {
       return damaged("an event of an unknown kind");
     }
     events_.push_back({.before = static_cast<std::uint64_t>(query->integer(0)),

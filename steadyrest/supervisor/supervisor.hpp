@@ -21,6 +21,7 @@
 #include <steadyrest/supervisor/frame_clock.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
+#include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
 namespace steadyrest::supervisor {
@@ -142,6 +143,11 @@ class Supervisor {
   }
   [[nodiscard]] State state() const noexcept;
   void restore(const State& state) noexcept;
+  /// Between two cycles, for a layer made from a machine file that fits() `before`'s: mode, clock,
+  /// words and offsets go on where they are, without an interruption; what is beyond a new limit
+  /// goes there by the slew. Swaps rooms with `before`, which must not run any more. In the cycle:
+  /// no allocation.
+  void take_over(Supervisor& before, const Kept& kept) noexcept;
 
  private:
   struct Decisions {

@@ -37,6 +37,8 @@ struct Control {
   double blend_gap_cycles = 0.0;  ///< what a corner arc leaves of the line before it keeps the
                                   ///< arc's limits when it is shorter than this many periods
   bool stop_between_rapid_and_feed = false;
+
+  friend bool operator==(const Control&, const Control&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

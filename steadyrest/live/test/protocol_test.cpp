@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 class Protocol : public ::testing::Test {
  protected:
   Protocol() { loop.run(); }
-  [[nodiscard]] Json ask(const std::string& line) { return Json::parse(answer(loop, "sim", line)); }
+  [[nodiscard]] Json ask(const std::string& line) { return Json::parse(answer({.loop = loop, .port = "sim"}, line)); }
   test::Desk desk;
   Loop loop{*desk.port,
             *desk.layer,
@@ -65,7 +65,7 @@ TEST_F(Protocol, AnswersAnyBytesWithOneObject) {
         std::string("{\"version\":"),
         std::string(R"({"version":1,"ask":")") + std::string(3000, 'x') + "\"}",
         std::string("{\"version\":1,\"ask\":\"\\ud800\"}")}) {
-    const std::string text = answer(loop, "sim", line);
+    const std::string text = answer({.loop = loop, .port = "sim"}, line);
     EXPECT_TRUE(Json::parse(text).contains("error")) << line.substr(0, 30);
     EXPECT_LT(text.size(), 400U);
     EXPECT_EQ(text.find('\n'), std::string::npos);
@@ -96,7 +96,7 @@ TEST(ProtocolOfALostPort, TellsItsWordsAsUtf8) {
   }
   Loop loop(port, *desk.layer, desk.pace, {.period_s = 0.004, .most_cycles = 3});
   loop.run();
-  const Json status = Json::parse(answer(loop, "sim", R"({"version":1,"ask":"status"})"))["status"];
+  const Json status = Json::parse(answer({.loop = loop, .port = "sim"}, R"({"version":1,"ask":"status"})"))["status"];
   EXPECT_THAT(status["port_fault"].get<std::string>(), ::testing::StartsWith("a……"));
 }
 

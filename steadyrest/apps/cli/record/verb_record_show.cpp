@@ -28,6 +28,8 @@ const char* word(EventKind kind) {
       return "unread";
     case EventKind::undelivered:
       return "undelivered";
+    case EventKind::reload:
+      return "reload";
     case EventKind::note:
       break;
   }
@@ -102,7 +104,10 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
                                      {"before", event.before},
                                      {"kind", word(event.kind)},
                                      {"text", event.text}});
-    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, word(event.kind), event.text);
+    // The whole machine file is for --json.
+    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, word(event.kind),
+                               event.kind == EventKind::reload ? "another machine file took over"
+                                                               : event.text);
   }
   return answer;
 }
