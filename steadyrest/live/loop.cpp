@@ -67,6 +67,7 @@ const LoopFigures& Loop::run() noexcept {
     figures_.lateness.add(config_.port_paces ? port_.age_s : wake.lateness_s);
     figures_.overruns +=
         config_.port_paces ? static_cast<std::uint64_t>(work_s > config_.period_s) : wake.missed;
+    watch();
   }
 }
 
@@ -100,6 +101,9 @@ bool Loop::goes_on(double now_s) noexcept {
   }
   if (stops && now_s - stopped_s_ > config_.handback_s) {
     figures_.handed_back = false;
+    if (config_.on_fault) {
+      config_.on_fault("kept: ended before all was handed back");
+    }
     return false;
   }
   layer_->set_mode(mode);
@@ -124,6 +128,17 @@ void Loop::cycle() noexcept {
     ++figures_.port_faults;
     note_fault(command.error());
     publish({});
+  }
+}
+
+void Loop::watch() noexcept {
+  const std::string_view why =
+      black_box_.update({.now_s = port_.read_s,
+                         .port_fault = now_.port_fault,
+                         .unfit = now_.port_fault ? Reason::none : layer_->unfit(),
+                         .overruns = figures_.overruns});
+  if (!why.empty() && config_.on_fault) {
+    config_.on_fault(why);
   }
 }
 

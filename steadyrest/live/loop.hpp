@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -12,6 +13,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/kernel/rt/snapshot.hpp>
+#include <steadyrest/live/black_box.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/pace.hpp>
 #include <steadyrest/live/time_figures.hpp>
@@ -61,6 +63,8 @@ class Loop {
     std::function<void(const kernel::signal::Command&)> on_command = {};
     /// The held text of the machine file that took over.
     std::function<void(std::uint32_t)> on_reload = {};
+    /// A fault begins: the last seconds are worth keeping.
+    std::function<void(std::string_view reason)> on_fault = {};
     // NOLINTEND(readability-redundant-member-init)
   };
 
@@ -82,6 +86,7 @@ class Loop {
   bool withdraw() noexcept { return offered_.exchange(nullptr) != nullptr; }
   /// How many have taken over.
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
+  [[nodiscard]] bool stop_asked() const noexcept { return stop_.load(); }
   /// Cycles that have ended: whether the loop goes on, for other threads.
   [[nodiscard]] std::uint64_t beats() const noexcept { return beats_.load(); }
   /// The newest; of a loop that has not begun, an empty one.
@@ -116,6 +121,7 @@ class Loop {
   void succeed() noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
+  void watch() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
   void publish(const kernel::signal::Command& command) noexcept;
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
@@ -134,6 +140,7 @@ class Loop {
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;
   LoopFigures figures_;
+  BlackBox black_box_;
 };
 
 }  // namespace steadyrest::live

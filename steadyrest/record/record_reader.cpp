@@ -76,6 +76,22 @@ bool put(const std::vector<std::uint64_t>& values, std::size_t count,
 
 }  // namespace
 
+std::string_view word(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::mode:
+      return "mode";
+    case EventKind::unread:
+      return "unread";
+    case EventKind::undelivered:
+      return "undelivered";
+    case EventKind::reload:
+      return "reload";
+    case EventKind::note:
+      break;
+  }
+  return "note";
+}
+
 RecordReader::RecordReader(Database database, Statement chunks, Statement columns, std::string file)
     : file_(std::move(file)),
       database_(std::move(database)),

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -143,10 +144,14 @@ class RecordWriter::Thread {
 
   /// A copy that fails costs the run's own record nothing.
   void keep_copy() {
+    const std::string utc = utc_now();
     const auto folder = std::filesystem::path(config_.file).parent_path();
-    if (auto kept =
-            keep_last(config_.file, (folder / fault_name(utc_now())).string(), config_.keep_last_s);
-        !kept) {
+    auto file = folder / fault_name(utc);
+    std::error_code fault;
+    for (int again = 2; std::filesystem::exists(file, fault); ++again) {
+      file = folder / fault_name(utc, again);
+    }
+    if (auto kept = keep_last(config_.file, file.string(), config_.keep_last_s); !kept) {
       store_->add({.time_s = 0.0,
                    .kind = EventKind::note,
                    .text = "not kept: " + kernel::outcome::text(kept.error())});

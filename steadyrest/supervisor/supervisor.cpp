@@ -272,6 +272,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
   }
   const Reason unfit = inspect(known, tick);
+  unfit_ = unfit;
   if (std::isfinite(frame.time_s)) {
     in_good_time(known, tick.time_s, read_now);
   }

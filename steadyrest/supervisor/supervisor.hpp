@@ -116,6 +116,8 @@ class Supervisor {
   /// path.
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
 
+  /// Why the last cycle's input was not acted on; none: it was.
+  [[nodiscard]] kernel::outcome::Reason unfit() const noexcept { return unfit_; }
   /// What became of the requests so far: the rooms get it with the next frame.
   [[nodiscard]] kernel::signal::InForce in_force() const noexcept;
 
@@ -212,6 +214,7 @@ class Supervisor {
   Written before_;           ///< the last cycle
   State state_;              ///< the parts that are not a member's own
   kernel::signal::Frame last_frame_;
+  kernel::outcome::Reason unfit_ = kernel::outcome::Reason::none;
 };
 
 }  // namespace steadyrest::supervisor

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -134,6 +136,22 @@ TEST(Loop, ALostLinkDoesNotEndIt) {
   EXPECT_GE(figures.cycles, 400U);
   EXPECT_TRUE(shown);
   EXPECT_FALSE(loop.status().port_fault);
+}
+
+TEST(Loop, TellsARecordWhereAFaultBegins) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.most_cycles = 400;
+  config.handback_s = 0.001;
+  std::vector<std::string> reasons;
+  config.on_fault = [&](std::string_view reason) { reasons.emplace_back(reason); };
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  spy.at_read = [&](int reads) { spy.lost = reads >= 200 && reads < 250; };
+  loop.run();
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_EQ(reasons[0], "kept: the port could not be read or written");
+  EXPECT_EQ(reasons[1], "kept: ended before all was handed back");
 }
 
 TEST(Loop, GivesUpHandingBackAfterItsTime) {

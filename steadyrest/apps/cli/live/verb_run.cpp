@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/live/live_port.hpp>
+#include <steadyrest/apps/cli/live/lossy_port.hpp>
 #include <steadyrest/apps/cli/live/machine_reload.hpp>
 #include <steadyrest/apps/cli/live/run_record.hpp>
 #include <steadyrest/apps/cli/live/signals.hpp>
@@ -24,6 +26,7 @@
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/live/reloader.hpp>
+#include <steadyrest/live/service.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/record/run_folder.hpp>
@@ -37,6 +40,9 @@ namespace {
 using steadyrest::live::Loop;
 using steadyrest::live::LoopFigures;
 using steadyrest::live::Reloader;
+using steadyrest::live::ServiceManager;
+
+constexpr double kLost_s = 0.5;
 
 struct Options {
   std::string machine;
@@ -45,6 +51,7 @@ struct Options {
   std::string socket;
   std::string record;  ///< folder; empty: no record
   double for_s = 0.0;
+  double lose_link_at_s = -1.0;  ///< below 0: never
 };
 
 std::string text_of(const LoopFigures& figures, const Json& json) {
@@ -108,6 +115,13 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
   if (!port) {
     return std::unexpected(port.error());
   }
+  if (options.lose_link_at_s >= 0.0) {
+    if (machine->port != kernel::machine::PortKind::sim) {
+      return refused(bad_input("--lose-link-at-s is for the simulated machine",
+                               "leave it out, or set port = \"sim\""));
+    }
+    port->port = std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
+  }
   auto layer = supervisor::Supervisor::make(*machine, port->port->capability());
   if (!layer) {
     return refused(layer.error());
@@ -134,7 +148,8 @@ void say(const steadyrest::live::ReloadStatus& reload) {
 }
 
 Reloader::Config reloader_config(const Options& options, const Prepared& of, RunRecord* record,
-                                 const HangupWaits& hangup, Loop& loop) {
+                                 const HangupWaits& hangup, const ServiceManager& manager,
+                                 Loop& loop) {
   record::RecordWriter* const writer = record != nullptr ? &record->writer() : nullptr;
   return {.running = of.machine,
           .make = [=, &hangup, &loop, capability = of.port.port->capability()](
@@ -146,7 +161,12 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
             return read_again(options.machine, running, capability, writer);
           },
           .utc_now = record::utc_now,
-          .on_end = say,
+          .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },
+          .on_end =
+              [&manager](const auto& reload) {
+                say(reload);
+                manager.tell("READY=1\nSTATUS=" + (reload.taken ? "" : "not taken: " + reload.words));
+              },
           .signal = SIGHUP};
 }
 
@@ -196,7 +216,8 @@ Outcome run(const Options& options) {
   }
   Loop loop(record != nullptr ? record->port() : *prepared->port.port, prepared->layer, pace,
             config);
-  Reloader reloader(loop, reloader_config(options, *prepared, record, hangup, loop));
+  const auto manager = ServiceManager::from_environment();
+  Reloader reloader(loop, reloader_config(options, *prepared, record, hangup, manager, loop));
   const auto socket = steadyrest::live::ControlSocket::open(
       options.socket, [&, port = passport::word(prepared->machine.port)](std::string_view line) {
         return steadyrest::live::answer({.loop = loop, .port = port, .reloader = &reloader}, line);
@@ -204,13 +225,16 @@ Outcome run(const Options& options) {
   if (!socket) {
     return refused(socket.error());
   }
+  std::optional<steadyrest::live::LifeSignThread> life_sign(std::in_place, loop, manager);
   const auto real_time = steadyrest::live::ask_for_real_time();
   for (auto& finding : real_time_findings(prepared->machine, real_time)) {
     prepared->findings.push_back(std::move(finding));
   }
   show_warnings(prepared->findings);
   const StopSignals signals(loop);
-  return answer_of(loop.run(), *prepared, real_time, record);
+  const LoopFigures& figures = loop.run();
+  life_sign.reset();  // before the record ends: that may take longer than the watchdog waits
+  return answer_of(figures, *prepared, real_time, record);
 }
 
 }  // namespace
@@ -228,6 +252,10 @@ void add_verb_run(Session& session, Verb& verb) {
   verb.add_option("--record", options->record,
                   "Record the run in a new file in this folder (SQLite)")
       ->type_name("FOLDER");
+  verb.add_option("--lose-link-at-s", options->lose_link_at_s,
+                  "Simulated machine: its link is lost for 0.5 s at this time, for a trial of what "
+                  "happens then")
+      ->check(within(0.0, 1e8));
   live::add_socket_option(verb, options->socket);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");
