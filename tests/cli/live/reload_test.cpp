@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <cstdint>
 #include <string>
 
 #include "expectations.hpp"
 #include "live/live_layer.hpp"
 #include <gmock/gmock.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <steadyrest/live/control_socket.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace steadyrest::test {
 namespace {
@@ -98,6 +102,47 @@ TEST(Reload, IsInTheRecordAndDecidedAgain) {
   EXPECT_TRUE(std::ranges::any_of(shown["events"], [](const json& event) {
     return event["kind"] == "reload" && event["text"].get<std::string>().find("limit_um = 3") != std::string::npos;
   }));
+}
+
+/// A layer with a terminal of its own; returns its process.
+pid_t on_terminal(int master, const std::string& socket) {
+  const std::string machine = project_file("examples/machines/vmc-840d.toml");
+  const std::string program = project_file("examples/programs/rib-pocket.mpf");
+  const std::string terminal = ::ptsname(master);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setsid();
+    const int slave = ::open(terminal.c_str(), O_RDWR);  // becomes the session's terminal
+    const int nowhere = ::open("/dev/null", O_WRONLY);
+    ::dup2(slave, STDIN_FILENO);
+    ::dup2(nowhere, STDOUT_FILENO);
+    ::dup2(nowhere, STDERR_FILENO);
+    ::close(slave);
+    ::close(master);
+    ::execl(STEADYREST_PROGRAM, "steadyrest", "run", "--machine", machine.c_str(), "--program",
+            program.c_str(), "--socket", socket.c_str(), nullptr);
+    ::_exit(127);
+  }
+  return child;
+}
+
+TEST(Reload, ATerminalThatHasGoneEndsTheRun) {
+  const Scratch scratch;
+  const std::string socket = scratch.at("s");
+  const int master = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  ASSERT_EQ(::grantpt(master), 0);
+  ASSERT_EQ(::unlockpt(master), 0);
+  const pid_t layer = on_terminal(master, socket);
+  EXPECT_TRUE(LiveLayer::until([&] { return ::access(socket.c_str(), F_OK) == 0; }));
+  ::kill(layer, SIGHUP);  // with its terminal there it is a reload
+  EXPECT_TRUE(LiveLayer::until([&] {
+    return answer_of("status --socket " + socket)["reload"].is_object();
+  }));
+  ::close(master);
+  int status = 0;
+  EXPECT_EQ(::waitpid(layer, &status, 0), layer);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 }  // namespace
