@@ -32,8 +32,8 @@ bool BlackBox::bursts(const Cycle& cycle) noexcept {
 }
 
 bool BlackBox::begins(Kind& kind, bool present, double now_s) const noexcept {
-  const bool told = present && !kind.present &&
-                    !(kind.told && now_s - kind.told_s < config_.apart_s);
+  const bool told =
+      present && !kind.present && !(kind.told && now_s - kind.told_s < config_.apart_s);
   kind.present = present;
   if (told) {
     kind.told = true;

@@ -21,17 +21,17 @@ RealTime ask_for_real_time() {
   RealTime out;
   out.memory_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
   if (!out.memory_locked) {
-    out.refused.push_back(
-        {fmt::format("memory is not locked ({}): a page fault may delay a cycle",
-                     std::strerror(errno)),
-         "raise the limit memlock"});
+    out.refused.push_back({fmt::format("memory is not locked ({}): a page fault may delay a cycle",
+                                       std::strerror(errno)),
+                           "raise the limit memlock"});
   }
   const sched_param wanted{.sched_priority = kPriority};
   out.priority = sched_setscheduler(0, SCHED_FIFO, &wanted) == 0;
   if (!out.priority) {
-    out.refused.push_back({fmt::format("no real-time priority ({}): other programs may delay a cycle",
-                                       std::strerror(errno)),
-                           fmt::format("raise the limit rtprio to {}", kPriority)});
+    out.refused.push_back(
+        {fmt::format("no real-time priority ({}): other programs may delay a cycle",
+                     std::strerror(errno)),
+         fmt::format("raise the limit rtprio to {}", kPriority)});
   }
   return out;
 }

@@ -109,9 +109,8 @@ LifeSignThread::LifeSignThread(const Loop& loop, const ServiceManager& manager)
     return;
   }
   const double watchdog_s = manager.watchdog_s();
-  const double every_s = watchdog_s > 0.0
-                             ? std::min(kLongestLook_s, watchdog_s / kLooksInAWatchdog)
-                             : kLongestLook_s;
+  const double every_s =
+      watchdog_s > 0.0 ? std::min(kLongestLook_s, watchdog_s / kLooksInAWatchdog) : kLongestLook_s;
   wake_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   thread_ = std::thread([this, every_s] { work(every_s); });
 }

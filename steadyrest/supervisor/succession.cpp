@@ -70,14 +70,13 @@ Result<void> fits(const Machine& running, const Machine& wanted) {
 // Each room's settings are the sections that its make() reads.
 Kept kept(const Machine& running, const Machine& wanted) noexcept {
   const bool axes = running.axes == wanted.axes;
-  const bool limits = axes && running.envelope == wanted.envelope &&
-                      running.control == wanted.control;
-  return {.motion = axes,
-          .contour = limits && running.contour == wanted.contour,
-          .chatter = limits && running.chatter == wanted.chatter &&
-                     running.spindle == wanted.spindle,
-          .thermal = limits && running.thermal == wanted.thermal &&
-                     running.spindle == wanted.spindle};
+  const bool limits =
+      axes && running.envelope == wanted.envelope && running.control == wanted.control;
+  return {
+      .motion = axes,
+      .contour = limits && running.contour == wanted.contour,
+      .chatter = limits && running.chatter == wanted.chatter && running.spindle == wanted.spindle,
+      .thermal = limits && running.thermal == wanted.thermal && running.spindle == wanted.spindle};
 }
 
 }  // namespace steadyrest::supervisor

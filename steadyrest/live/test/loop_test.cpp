@@ -234,11 +234,10 @@ struct Reloaded {
     Loop loop(spy, *desk.layer, desk.pace, config);
     kernel::machine::Machine wanted = desk.machine;
     wanted.contour.limit_mm = limit_mm.value_or(wanted.contour.limit_mm);
-    Successor next{
-        .machine = wanted,
-        .layer = supervisor::Supervisor::make(wanted, desk.port->capability()).value(),
-        .kept = supervisor::kept(desk.machine, wanted),
-        .text = 7};
+    Successor next{.machine = wanted,
+                   .layer = supervisor::Supervisor::make(wanted, desk.port->capability()).value(),
+                   .kept = supervisor::kept(desk.machine, wanted),
+                   .text = 7};
     spy.at_read = [&](int reads) {
       if (reads == 300 && limit_mm) {
         loop.offer(next);

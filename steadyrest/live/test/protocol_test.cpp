@@ -21,7 +21,9 @@ using ::testing::HasSubstr;
 class Protocol : public ::testing::Test {
  protected:
   Protocol() { loop.run(); }
-  [[nodiscard]] Json ask(const std::string& line) { return Json::parse(answer({.loop = loop, .port = "sim"}, line)); }
+  [[nodiscard]] Json ask(const std::string& line) {
+    return Json::parse(answer({.loop = loop, .port = "sim"}, line));
+  }
   test::Desk desk;
   Loop loop{*desk.port,
             *desk.layer,
@@ -49,10 +51,11 @@ TEST_F(Protocol, TakesAMode) {
 TEST_F(Protocol, TakesAReloadWhereTheFileCanBeReadAgain) {
   const std::string reload = R"({"version":1,"ask":"reload"})";
   EXPECT_TRUE(ask(reload).contains("error"));
-  Reloader reloader(loop, {.running = desk.machine,
-                           .make = [](const auto&) -> kernel::outcome::Result<std::unique_ptr<Successor>> {
-                             return kernel::outcome::refuse("no", "yes");
-                           }});
+  Reloader reloader(
+      loop, {.running = desk.machine,
+             .make = [](const auto&) -> kernel::outcome::Result<std::unique_ptr<Successor>> {
+               return kernel::outcome::refuse("no", "yes");
+             }});
   const Asked of{.loop = loop, .port = "sim", .reloader = &reloader};
   const Json status = Json::parse(answer(of, R"({"version":1,"ask":"status"})"))["status"];
   EXPECT_TRUE(status["reload"].is_null());
@@ -116,7 +119,8 @@ TEST(ProtocolOfALostPort, TellsItsWordsAsUtf8) {
   }
   Loop loop(port, *desk.layer, desk.pace, {.period_s = 0.004, .most_cycles = 3});
   loop.run();
-  const Json status = Json::parse(answer({.loop = loop, .port = "sim"}, R"({"version":1,"ask":"status"})"))["status"];
+  const Json status = Json::parse(
+      answer({.loop = loop, .port = "sim"}, R"({"version":1,"ask":"status"})"))["status"];
   EXPECT_THAT(status["port_fault"].get<std::string>(), ::testing::StartsWith("a……"));
 }
 

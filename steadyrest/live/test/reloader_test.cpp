@@ -27,10 +27,10 @@ class OnDesk : public ::testing::Test {
     limits_mm.push_back(running.contour.limit_mm);
     Machine wanted = running;
     wanted.contour.limit_mm *= 0.5;
-    return std::make_unique<Successor>(Successor{
-        .machine = wanted,
-        .layer = supervisor::Supervisor::make(wanted, desk.port->capability()).value(),
-        .kept = supervisor::kept(running, wanted)});
+    return std::make_unique<Successor>(
+        Successor{.machine = wanted,
+                  .layer = supervisor::Supervisor::make(wanted, desk.port->capability()).value(),
+                  .kept = supervisor::kept(running, wanted)});
   }
   [[nodiscard]] Reloader::Config config() {
     return {.running = desk.machine,

@@ -15,9 +15,9 @@
 namespace steadyrest::live {
 namespace {
 
-using testing::Listener;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using testing::Listener;
 
 /// A control whose answer to the third read does not come before the test says so.
 class HangingPort final : public kernel::port::Port {

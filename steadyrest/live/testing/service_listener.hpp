@@ -17,8 +17,8 @@ namespace steadyrest::live::testing {
 /// What systemd would hear.
 class Listener {
  public:
-  explicit Listener(const std::string& address)
-      : address(address), socket_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
+  explicit Listener(const std::string& at)
+      : address(at), socket_(::socket(AF_UNIX, SOCK_DGRAM, 0)) {
     sockaddr_un name{};
     name.sun_family = AF_UNIX;
     address.copy(name.sun_path, sizeof name.sun_path - 1);
@@ -43,8 +43,7 @@ class Listener {
   [[nodiscard]] std::vector<std::string> heard() const {
     std::vector<std::string> all;
     std::array<char, 512> text{};
-    for (ssize_t got = 0;
-         (got = ::recv(socket_, text.data(), text.size(), MSG_DONTWAIT)) > 0;) {
+    for (ssize_t got = 0; (got = ::recv(socket_, text.data(), text.size(), MSG_DONTWAIT)) > 0;) {
       all.emplace_back(text.data(), static_cast<std::size_t>(got));
     }
     return all;

@@ -64,8 +64,8 @@ Hdf5Handle text_type() {
 bool put_attribute(hid_t at, const char* name, const std::string& text) {
   const Hdf5Handle type = text_type();
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Handle attribute(
-      H5Acreate2(at, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle attribute(H5Acreate2(at, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
   const char* const value = text.c_str();
   return attribute.good() && H5Awrite(attribute.id(), type.id(), &value) >= 0;
 }
@@ -84,8 +84,7 @@ bool put_text(hid_t at, const char* name, const std::string& text) {
   const Hdf5Handle set(
       H5Dcreate2(at, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   const char* const value = text.c_str();
-  return set.good() &&
-         H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
+  return set.good() && H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
 }
 
 /// Values of a known number.
@@ -95,14 +94,14 @@ bool put_array(hid_t at, const char* name, hid_t in_file, hid_t in_memory, std::
   const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
   const Hdf5Handle set(
       H5Dcreate2(at, name, in_file, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
-  return set.good() && (count == 0 || H5Dwrite(set.id(), in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                               values) >= 0);
+  return set.good() &&
+         (count == 0 || H5Dwrite(set.id(), in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
 }
 
 /// A data set that grows, a block at a time.
 class Column {
  public:
-  static Column make(hid_t at, const std::string& name, Kind kind) {
+  static Column make(hid_t at, const ColumnName& name, Kind kind) {
     Column column;
     const hsize_t none = 0;
     const hsize_t any = H5S_UNLIMITED;
@@ -111,11 +110,11 @@ class Column {
     H5Pset_chunk(how.id(), 1, &kChunk);
     H5Pset_shuffle(how.id());
     H5Pset_deflate(how.id(), kDeflate);
-    column.set_ = Hdf5Handle(H5Dcreate2(at, name.c_str(), kind.in_file, space.id(), H5P_DEFAULT,
-                                        how.id(), H5P_DEFAULT),
+    column.set_ = Hdf5Handle(H5Dcreate2(at, name.text().c_str(), kind.in_file, space.id(),
+                                        H5P_DEFAULT, how.id(), H5P_DEFAULT),
                              H5Dclose);
     column.in_memory_ = kind.in_memory;
-    const auto unit = unit_of(name.substr(0, name.find_last_not_of("0123456789.") + 1));
+    const auto unit = unit_of(name.name);
     column.good_ = column.set_.good() &&
                    (unit.empty() || put_attribute(column.set_.id(), "unit", std::string(unit)));
     return column;
@@ -136,10 +135,10 @@ class Column {
     good_ = H5Dset_extent(set_.id(), &size) >= 0;
     const Hdf5Handle place(H5Dget_space(set_.id()), H5Sclose);
     const Hdf5Handle block(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    good_ = good_ &&
-            H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, &written_, nullptr, &count, nullptr) >=
-                0 &&
-            H5Dwrite(set_.id(), in_memory_, block.id(), place.id(), H5P_DEFAULT, held_.data()) >= 0;
+    good_ =
+        good_ &&
+        H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, &written_, nullptr, &count, nullptr) >= 0 &&
+        H5Dwrite(set_.id(), in_memory_, block.id(), place.id(), H5P_DEFAULT, held_.data()) >= 0;
     written_ = size;
     held_.clear();
   }
@@ -186,16 +185,17 @@ bool put_events(hid_t file, const std::vector<Event>& events) {
   return group.good() &&
          put_array(group.id(), "before", H5T_STD_U64LE, H5T_NATIVE_UINT64, count, before.data()) &&
          put_array(group.id(), "time_s", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, time_s.data()) &&
-         put_array(group.id(), "kind", type.id(), type.id(), count, static_cast<void*>(kind.data())) &&
-         put_array(group.id(), "text", type.id(), type.id(), count, static_cast<void*>(text.data()));
+         put_array(group.id(), "kind", type.id(), type.id(), count,
+                   static_cast<void*>(kind.data())) &&
+         put_array(group.id(), "text", type.id(), type.id(), count,
+                   static_cast<void*>(text.data()));
 }
 
 std::vector<Column> columns_in(hid_t group) {
   std::vector<Column> columns;
   Sample any;
   sample_columns(any, [&](const ColumnName& name, auto& value) {
-    columns.push_back(
-        Column::make(group, name.text(), kind_of<std::decay_t<decltype(value)>>()));
+    columns.push_back(Column::make(group, name, kind_of<std::decay_t<decltype(value)>>()));
   });
   return columns;
 }
@@ -224,7 +224,7 @@ Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
   Hdf5Handle group(H5Gcreate2(out.id(), "samples", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                    H5Gclose);
   auto columns = columns_in(group.id());
-  Column vibration = Column::make(out.id(), "vibration", kind_of<double>());
+  Column vibration = Column::make(out.id(), {"vibration"}, kind_of<double>());
   const auto sample = std::make_unique<Sample>();
   std::uint64_t samples = 0;
   for (;;) {

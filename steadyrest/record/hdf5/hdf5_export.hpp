@@ -19,8 +19,8 @@
 /// `dropped`, `closed`.
 namespace steadyrest::record {
 
-/// The unit of a column by the ending of its name, in UTF-8; empty: none. The axes' values are in
-/// mm and rad: a rotary axis has `mm` in the name and rad in the column.
+/// The unit of a column by the ending of its name (without an index), in UTF-8; empty: none. The
+/// axes' values are in mm and rad: a rotary axis has `mm` in the name and rad in the column.
 [[nodiscard]] std::string_view unit_of(std::string_view column) noexcept;
 
 /// Writes what `reader` has left into a new file; the number of samples. Refuses a file that cannot

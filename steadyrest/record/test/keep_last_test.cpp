@@ -79,10 +79,9 @@ TEST(KeepLast, TwoFaultsInASecondAreBothKept) {
     writer->flush();
   }
   const auto files = run_files(folder.path()).value();
-  EXPECT_EQ(std::ranges::count_if(files,
-                                  [](const RunFile& file) {
-                                    return file.file.find("/fault-") != std::string::npos;
-                                  }),
+  EXPECT_EQ(std::ranges::count_if(
+                files,
+                [](const RunFile& file) { return file.file.find("/fault-") != std::string::npos; }),
             3);
 }
 

@@ -155,7 +155,8 @@ TEST(Succession, RefusesWhatCannotChangeUnderARunningMachine) {
               HasSubstr("servo_period_ms"));
   EXPECT_THAT(why([](Machine& m) { m.control.interpolator_period_s = 0.002; }),
               HasSubstr("interpolator_period_ms"));
-  EXPECT_THAT(why([](Machine& m) { m.feed_override.coding = kernel::machine::Coding::binary; }), HasSubstr("override.feed"));
+  EXPECT_THAT(why([](Machine& m) { m.feed_override.coding = kernel::machine::Coding::binary; }),
+              HasSubstr("override.feed"));
   EXPECT_THAT(why([](Machine& m) { m.spindle_override.scan_period_s = 0.5; }),
               HasSubstr("override.spindle"));
   EXPECT_THAT(why([](Machine& m) { m.thermal.axis[0].mode.resize(2); }), HasSubstr("thermal"));

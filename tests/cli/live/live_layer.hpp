@@ -67,10 +67,13 @@ class LiveLayer {
 
  private:
   std::vector<std::string> arguments(const std::string& mode, std::vector<std::string> more) {
-    std::vector<std::string> all = {
-        "run",       "--machine", scratch_.file("machine.toml", machine_),
-        "--program", project_file("examples/programs/rib-pocket.mpf"),
-        "--mode",    mode};
+    std::vector<std::string> all = {"run",
+                                    "--machine",
+                                    scratch_.file("machine.toml", machine_),
+                                    "--program",
+                                    project_file("examples/programs/rib-pocket.mpf"),
+                                    "--mode",
+                                    mode};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 
 #include "expectations.hpp"
 #include "live/live_layer.hpp"
-#include <gmock/gmock.h>
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <steadyrest/live/control_socket.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <steadyrest/live/control_socket.hpp>
 
 namespace steadyrest::test {
 namespace {
@@ -77,16 +78,14 @@ TEST(Reload, IsInTheRecordAndDecidedAgain) {
   const json status = LiveLayer::after_reload(1);
   EXPECT_EQ(status["reload"]["outcome"], "taken") << status["reload"]["words"];
   const auto cycles = status["cycles"].get<std::uint64_t>();
-  EXPECT_TRUE(LiveLayer::until([&] {
-    return answer_of("status")["cycles"].get<std::uint64_t>() > cycles + 100;
-  }));
+  EXPECT_TRUE(LiveLayer::until(
+      [&] { return answer_of("status")["cycles"].get<std::uint64_t>() > cycles + 100; }));
   layer.process().send(SIGTERM);
   EXPECT_EQ(layer.process().wait(), 0) << layer.process().err();
 
   const json list = answer_of("record list " + layer.at("runs"));
-  const auto run = std::ranges::find_if(list["records"], [](const json& record) {
-    return record["rotates"].get<bool>();
-  });
+  const auto run = std::ranges::find_if(
+      list["records"], [](const json& record) { return record["rotates"].get<bool>(); });
   ASSERT_NE(run, list["records"].end());
   const std::string file = (*run)["file"];
   const json again = answer_of("record replay " + file);
@@ -100,7 +99,8 @@ TEST(Reload, IsInTheRecordAndDecidedAgain) {
             1);
   const json shown = answer_of("record show " + file);
   EXPECT_TRUE(std::ranges::any_of(shown["events"], [](const json& event) {
-    return event["kind"] == "reload" && event["text"].get<std::string>().find("limit_um = 3") != std::string::npos;
+    return event["kind"] == "reload" &&
+           event["text"].get<std::string>().find("limit_um = 3") != std::string::npos;
   }));
 }
 
@@ -135,9 +135,8 @@ TEST(Reload, ATerminalThatHasGoneEndsTheRun) {
   const pid_t layer = on_terminal(master, socket);
   EXPECT_TRUE(LiveLayer::until([&] { return ::access(socket.c_str(), F_OK) == 0; }));
   ::kill(layer, SIGHUP);  // with its terminal there it is a reload
-  EXPECT_TRUE(LiveLayer::until([&] {
-    return answer_of("status --socket " + socket)["reload"].is_object();
-  }));
+  EXPECT_TRUE(LiveLayer::until(
+      [&] { return answer_of("status --socket " + socket)["reload"].is_object(); }));
   ::close(master);
   int status = 0;
   EXPECT_EQ(::waitpid(layer, &status, 0), layer);

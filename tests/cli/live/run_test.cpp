@@ -49,8 +49,9 @@ bool has(const nlohmann::json& shown, const std::string& kind, const std::string
 
 TEST(Run, AFaultLeavesTheLastSecondsApart) {
   const Scratch scratch;
-  const auto answer = answer_of(kCutting + " --for-s 1 --lose-link-at-s 0.3 --mode act --socket s " +
-                                "--record " + scratch.at("runs"));
+  const auto answer =
+      answer_of(kCutting + " --for-s 1 --lose-link-at-s 0.3 --mode act --socket s " + "--record " +
+                scratch.at("runs"));
   EXPECT_GT(answer["port_faults"].get<int>(), 10);
   const auto list = answer_of("record list " + scratch.at("runs"));
   // A busy computer may add one for a burst of overruns.
@@ -63,8 +64,8 @@ TEST(Run, AFaultLeavesTheLastSecondsApart) {
   EXPECT_FALSE((*kept)["rotates"].get<bool>());
   EXPECT_TRUE((*kept)["closed"].get<bool>());
   EXPECT_GE((*kept)["samples"], 70) << "until the loss: 75 cycles of 4 ms";
-  EXPECT_TRUE(
-      has(answer_of("record show " + (*kept)["file"].get<std::string>()), "unread", "link is lost"));
+  EXPECT_TRUE(has(answer_of("record show " + (*kept)["file"].get<std::string>()), "unread",
+                  "link is lost"));
   const auto again = answer_of("record replay " + answer["record"]["file"].get<std::string>());
   EXPECT_TRUE(again["first_difference"].is_null()) << again["first_difference"];
 }

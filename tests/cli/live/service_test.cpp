@@ -7,6 +7,7 @@
 #include "scratch.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
 #include <steadyrest/live/testing/service_listener.hpp>
 
 namespace steadyrest::test {

@@ -71,8 +71,8 @@ TEST(RecordShow, CountsEachReason) {
 TEST(RecordExport, WritesHdf5ByTheEndingOrTheFormat) {
   const Scratch scratch;
   const std::string head = "\x89HDF\r\n\x1a\n";
-  for (const std::string& line : {scratch.at("a.h5"), scratch.at("b.hdf5"),
-                                  scratch.at("c.data") + " --format hdf5"}) {
+  for (const std::string& line :
+       {scratch.at("a.h5"), scratch.at("b.hdf5"), scratch.at("c.data") + " --format hdf5"}) {
     EXPECT_EQ(answer_of("record export " + kRecord + " -o " + line)["samples"], kCycles);
     EXPECT_EQ(text_of_file(line.substr(0, line.find(' '))).substr(0, head.size()), head);
   }

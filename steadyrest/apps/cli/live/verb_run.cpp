@@ -120,7 +120,8 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
       return refused(bad_input("--lose-link-at-s is for the simulated machine",
                                "leave it out, or set port = \"sim\""));
     }
-    port->port = std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
+    port->port =
+        std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
   }
   auto layer = supervisor::Supervisor::make(*machine, port->port->capability());
   if (!layer) {
@@ -151,23 +152,24 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
                                  const HangupWaits& hangup, const ServiceManager& manager,
                                  Loop& loop) {
   record::RecordWriter* const writer = record != nullptr ? &record->writer() : nullptr;
-  return {.running = of.machine,
-          .make = [=, &hangup, &loop, capability = of.port.port->capability()](
-                      const auto& running) -> Result<std::unique_ptr<steadyrest::live::Successor>> {
-            if (hangup.terminal_is_gone()) {
-              loop.ask_stop();
-              return refuse("the terminal has gone: the run ends", "start it as a service");
-            }
-            return read_again(options.machine, running, capability, writer);
+  return {
+      .running = of.machine,
+      .make = [=, &hangup, &loop, capability = of.port.port->capability()](
+                  const auto& running) -> Result<std::unique_ptr<steadyrest::live::Successor>> {
+        if (hangup.terminal_is_gone()) {
+          loop.ask_stop();
+          return refuse("the terminal has gone: the run ends", "start it as a service");
+        }
+        return read_again(options.machine, running, capability, writer);
+      },
+      .utc_now = record::utc_now,
+      .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },
+      .on_end =
+          [&manager](const auto& reload) {
+            say(reload);
+            manager.tell("READY=1\nSTATUS=" + (reload.taken ? "" : "not taken: " + reload.words));
           },
-          .utc_now = record::utc_now,
-          .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },
-          .on_end =
-              [&manager](const auto& reload) {
-                say(reload);
-                manager.tell("READY=1\nSTATUS=" + (reload.taken ? "" : "not taken: " + reload.words));
-              },
-          .signal = SIGHUP};
+      .signal = SIGHUP};
 }
 
 Answer answer_of(const LoopFigures& figures, const Prepared& of,

@@ -41,12 +41,13 @@ std::vector<Finding> start_findings(const Machine& machine) {
   return all;
 }
 
-std::vector<Finding> real_time_findings(const Machine& machine, const steadyrest::live::RealTime& granted) {
+std::vector<Finding> real_time_findings(const Machine& machine,
+                                        const steadyrest::live::RealTime& granted) {
   const bool real = machine.port != kernel::machine::PortKind::sim;
   std::vector<Finding> all;
   for (const steadyrest::live::RealTime::Refused& refused : granted.refused) {
-    all.push_back({real ? Severity::warning : Severity::note, "real_time", refused.what,
-                   refused.to_do});
+    all.push_back(
+        {real ? Severity::warning : Severity::note, "real_time", refused.what, refused.to_do});
   }
   return all;
 }

@@ -18,8 +18,8 @@
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
 // Will this machine file work, and is this computer fast enough for it? The file is judged first
-// (passport/file/consistency.cpp), then the clock and the real-time settings, then the layer is run on a path full of
-// decisions and timed cycle by cycle.
+// (passport/file/consistency.cpp), then the clock and the real-time settings, then the layer is run
+// on a path full of decisions and timed cycle by cycle.
 namespace steadyrest::apps::cli {
 namespace doctor {
 namespace {

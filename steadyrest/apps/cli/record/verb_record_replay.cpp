@@ -107,8 +107,9 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_record_replay(Session& session, Verb& verb) {
   auto options = std::make_shared<record_replay::Options>();
   verb.reads("record", options->record, "Record of a run (.sqlite)")->required();
-  verb.reads("--machine", options->machine,
-             "Machine file (TOML) to decide by, whatever was reloaded; default: those in the record");
+  verb.reads(
+      "--machine", options->machine,
+      "Machine file (TOML) to decide by, whatever was reloaded; default: those in the record");
   session.on(verb,
              [options](Progress& progress) { return record_replay::run(*options, progress); });
 }

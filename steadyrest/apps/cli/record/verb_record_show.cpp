@@ -89,9 +89,9 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
                                      {"kind", record::word(event.kind)},
                                      {"text", event.text}});
     // The whole machine file is for --json.
-    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, record::word(event.kind),
-                               event.kind == EventKind::reload ? "another machine file took over"
-                                                               : event.text);
+    answer.text += fmt::format(
+        "{:.3f} s {}: {}\n", event.time_s, record::word(event.kind),
+        event.kind == EventKind::reload ? "another machine file took over" : event.text);
   }
   return answer;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
-#include <type_traits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,18 +16,18 @@
 namespace steadyrest::record {
 namespace {
 
-constexpr std::size_t kSamples = 5000;  // more than a block
+constexpr std::size_t kSamples = 4200;  // more than a block
 
-class Exported : public ::testing::Test {
- protected:
+/// A record of any values, and its export.
+struct Exported {
   Exported() {
     test::Random random(11);
     {
-      const auto writer = RecordWriter::make({.file = folder.file("run.sqlite"),
-                                              .info = {.machine = "mill",
-                                                       .machine_text = "name = \"mill\"\n",
-                                                       .cycle_s = 0.004}})
-                              .value();
+      const auto writer =
+          RecordWriter::make(
+              {.file = folder.file("run.sqlite"),
+               .info = {.machine = "mill", .machine_text = "name = \"mill\"\n", .cycle_s = 0.004}})
+              .value();
       writer->event(EventKind::mode, "act");
       for (std::size_t i = 0; i < kSamples; ++i) {
         samples.push_back(test::any_sample(random));
@@ -41,8 +41,8 @@ class Exported : public ::testing::Test {
     auto reader = RecordReader::open(folder.file("run.sqlite")).value();
     const auto written = write_hdf5(reader, folder.file("run.h5"));
     EXPECT_EQ(written.value(), kSamples);
-    file = Hdf5Handle(H5Fopen(folder.file("run.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
-                      H5Fclose);
+    file =
+        Hdf5Handle(H5Fopen(folder.file("run.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   }
 
   [[nodiscard]] std::vector<std::uint64_t> column(const std::string& name, hid_t type) const {
@@ -66,8 +66,8 @@ class Exported : public ::testing::Test {
     return all;
   }
   [[nodiscard]] std::string attribute(const std::string& at, const char* name) const {
-    const Hdf5Handle found(
-        H5Aopen_by_name(file.id(), at.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    const Hdf5Handle found(H5Aopen_by_name(file.id(), at.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
     if (!found.good()) {
       return "none";
     }
@@ -84,12 +84,14 @@ class Exported : public ::testing::Test {
   Hdf5Handle file;
 };
 
-TEST_F(Exported, EveryColumnComesBackBitForBit) {
+// One test, since it takes a while to write.
+TEST(Hdf5Export, EveryColumnComesBackBitForBitWithUnitsEventsAndTheMachine) {
+  const Exported of;
   std::vector<std::vector<std::uint64_t>> expected;
   std::vector<std::string> names;
   std::vector<hid_t> types;
   std::uint64_t number = 0;
-  for (Sample sample : samples) {
+  for (Sample sample : of.samples) {
     sample.number = number++;
     sample.path = 0;
     std::size_t at = 0;
@@ -107,36 +109,30 @@ TEST_F(Exported, EveryColumnComesBackBitForBit) {
   }
   ASSERT_GT(names.size(), 100U);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    EXPECT_EQ(column(names[i], types[i]), expected[i]) << names[i];
+    EXPECT_EQ(of.column(names[i], types[i]), expected[i]) << names[i];
   }
   std::vector<std::uint64_t> vibration;
-  for (const Sample& sample : samples) {
+  for (const Sample& sample : of.samples) {
     for (std::size_t i = 0; i < sample.vibrations; ++i) {
       vibration.push_back(to_bits(sample.vibration[i]));
     }
   }
-  EXPECT_EQ(column("/vibration", H5T_NATIVE_DOUBLE), vibration);
-}
-
-TEST_F(Exported, NamesUnitsEventsAndTheMachine) {
-  EXPECT_EQ(attribute("/samples/axis.actual_mm.0", "unit"), "mm");
-  EXPECT_EQ(attribute("/samples/axis.acceleration_mm_s2.1", "unit"), "mm/s²");
-  EXPECT_EQ(attribute("/samples/spindle_actual_rev_s", "unit"), "rev/s");
-  EXPECT_EQ(attribute("/samples/temperature_c.0", "unit"), "°C");
-  EXPECT_EQ(attribute("/samples/command.feed_ratio", "unit"), "1");
-  EXPECT_EQ(attribute("/samples/program_line", "unit"), "none");
-  EXPECT_EQ(attribute("/", "machine"), "mill");
-  EXPECT_EQ(texts("/events/kind"), (std::vector<std::string>{"mode", "reload"}));
-  EXPECT_EQ(texts("/events/text"), (std::vector<std::string>{"act", std::string(1000, 'x')}));
-  EXPECT_EQ(column("/events/before", H5T_NATIVE_UINT64),
+  EXPECT_EQ(of.column("/vibration", H5T_NATIVE_DOUBLE), vibration);
+  EXPECT_EQ(of.attribute("/samples/axis.actual_mm.0", "unit"), "mm");
+  EXPECT_EQ(of.attribute("/samples/axis.acceleration_mm_s2.1", "unit"), "mm/s²");
+  EXPECT_EQ(of.attribute("/samples/spindle_actual_rev_s", "unit"), "rev/s");
+  EXPECT_EQ(of.attribute("/samples/temperature_c.0", "unit"), "°C");
+  EXPECT_EQ(of.attribute("/samples/command.feed_ratio", "unit"), "1");
+  EXPECT_EQ(of.attribute("/samples/program_line", "unit"), "none");
+  EXPECT_EQ(of.attribute("/", "machine"), "mill");
+  EXPECT_EQ(of.texts("/events/kind"), (std::vector<std::string>{"mode", "reload"}));
+  EXPECT_EQ(of.texts("/events/text"), (std::vector<std::string>{"act", std::string(1000, 'x')}));
+  EXPECT_EQ(of.column("/events/before", H5T_NATIVE_UINT64),
             (std::vector<std::uint64_t>{0, kSamples}));
-  EXPECT_EQ(texts("/machine_file"), (std::vector<std::string>{"name = \"mill\"\n"}));
-}
-
-TEST_F(Exported, AFileThatIsThereIsNotReplaced) {
-  auto reader = RecordReader::open(folder.file("run.sqlite")).value();
-  EXPECT_FALSE(write_hdf5(reader, folder.file("run.h5")));
-  EXPECT_FALSE(write_hdf5(reader, folder.file("none/run.h5")));
+  EXPECT_EQ(of.texts("/machine_file"), (std::vector<std::string>{"name = \"mill\"\n"}));
+  auto reader = RecordReader::open(of.folder.file("run.sqlite")).value();
+  EXPECT_FALSE(write_hdf5(reader, of.folder.file("run.h5")));
+  EXPECT_FALSE(write_hdf5(reader, of.folder.file("none/run.h5")));
 }
 
 }  // namespace

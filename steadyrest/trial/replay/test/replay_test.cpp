@@ -56,8 +56,8 @@ TEST_F(Replay, AnotherLimitNamesTheFirstCycleThatIsDecidedOtherwise) {
 
 TEST_F(Replay, FollowsAMachineFileThatTookOver) {
   const Machine machine = trial::test::machine_of("vmc-840d.toml");
-  std::string text = kernel::file::testing::text_of_file(trial::test::kExamples +
-                                                         "machines/vmc-840d.toml");
+  std::string text =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/vmc-840d.toml");
   const std::string limit = "limit_um = 10\n";
   text.replace(text.find(limit), limit.size(), "limit_um = 3\n");
   const auto cut = testing::record_cut(file_, machine, kAll, 0, {}, {.at = 400, .text = text});
@@ -73,8 +73,8 @@ TEST_F(Replay, FollowsAMachineFileThatTookOver) {
 
 TEST_F(Replay, RefusesAMachineFileThatCannotHaveTakenOver) {
   const Machine machine = trial::test::machine_of("vmc-840d.toml");
-  const std::string text = kernel::file::testing::text_of_file(trial::test::kExamples +
-                                                               "machines/ideal-k50.toml");
+  const std::string text =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/ideal-k50.toml");
   testing::record_cut(file_, machine, 300, 0, {}, {.at = 200, .text = text});
   const auto replayed = replay(file_, machine);
   ASSERT_FALSE(replayed);
