@@ -11,7 +11,7 @@
 #include <steadyrest/record/hdf5/hdf5_export.hpp>
 #include <steadyrest/record/hdf5/hdf5_handle.hpp>
 
-namespace steadyrest::record {
+namespace steadyrest::record::hdf5 {
 namespace {
 
 using kernel::outcome::refuse;
@@ -256,4 +256,4 @@ Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
   return good ? Result<std::uint64_t>(samples) : failed();
 }
 
-}  // namespace steadyrest::record
+}  // namespace steadyrest::record::hdf5

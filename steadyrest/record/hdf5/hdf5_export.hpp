@@ -17,7 +17,7 @@
 ///   /machine_file, /program_text   the texts
 /// The root's attributes are the run's: `start_utc`, `version`, `machine`, `program`, `cycle_s`,
 /// `dropped`, `closed`.
-namespace steadyrest::record {
+namespace steadyrest::record::hdf5 {
 
 /// The unit of a column by the ending of its name (without an index), in UTF-8; empty: none. The
 /// axes' values are in mm and rad: a rotary axis has `mm` in the name and rad in the column.
@@ -29,4 +29,4 @@ namespace steadyrest::record {
     RecordReader& reader, const std::string& file,
     const std::function<void(std::uint64_t samples)>& progress = [](std::uint64_t) {});
 
-}  // namespace steadyrest::record
+}  // namespace steadyrest::record::hdf5

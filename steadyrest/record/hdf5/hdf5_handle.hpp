@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-namespace steadyrest::record {
+namespace steadyrest::record::hdf5 {
 
 /// An HDF5 identifier that is closed with this object.
 class Hdf5Handle {
@@ -38,4 +38,4 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-}  // namespace steadyrest::record
+}  // namespace steadyrest::record::hdf5

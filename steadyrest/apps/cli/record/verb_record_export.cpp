@@ -113,8 +113,8 @@ Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& pro
   }
   const kernel::file::Temporary part(fmt::format("{}.{}.part", options.output, ::getpid()),
                                      kernel::file::Temporary::Kind::file);
-  const auto samples =
-      record::write_hdf5(reader, part.path(), [&](std::uint64_t n) { show(n, reader, progress); });
+  const auto samples = record::hdf5::write_hdf5(
+      reader, part.path(), [&](std::uint64_t n) { show(n, reader, progress); });
   if (!samples) {
     return refused(samples.error());
   }
@@ -122,6 +122,9 @@ Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& pro
   for (std::array<char, 1U << 16U> block{};
        bytes.read(block.data(), block.size()) || bytes.gcount() > 0;) {
     out->write({block.data(), static_cast<std::size_t>(bytes.gcount())});
+  }
+  if (!bytes.eof()) {
+    return refused(bad_input(part.path(), "cannot be read back", "look at the disk"));
   }
   if (const auto written = out->commit(); !written) {
     return refused(written.error());

@@ -13,7 +13,7 @@
 #include <steadyrest/record/test/samples.hpp>
 
 // What is written is read back by the library itself.
-namespace steadyrest::record {
+namespace steadyrest::record::hdf5 {
 namespace {
 
 constexpr std::size_t kSamples = 4200;  // more than a block
@@ -136,4 +136,4 @@ TEST(Hdf5Export, EveryColumnComesBackBitForBitWithUnitsEventsAndTheMachine) {
 }
 
 }  // namespace
-}  // namespace steadyrest::record
+}  // namespace steadyrest::record::hdf5
