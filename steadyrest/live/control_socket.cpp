@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <thread>
 #include <utility>
@@ -25,6 +26,7 @@ using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
+constexpr auto kPauseAfterFault = std::chrono::milliseconds(100);
 constexpr std::string_view kTooLong =
     R"({"version":1,"error":{"what":"the line is too long; allowed: 4096 bytes","to_do":"send one request in a line"}})";
 
@@ -88,7 +90,7 @@ class Client : public std::enable_shared_from_this<Client> {
 class Server final : public ControlSocket {
  public:
   Server(std::string path, Answer answer)
-      : path_(std::move(path)), answer_(std::move(answer)), acceptor_(io_) {}
+      : path_(std::move(path)), answer_(std::move(answer)), acceptor_(io_), pause_(io_) {}
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
   ~Server() override {
@@ -128,7 +130,15 @@ class Server final : public ControlSocket {
       if (!fault && clients_ < kMostClients) {
         std::make_shared<Client>(std::move(socket), answer_, clients_)->next();
       }
-      if (acceptor_.is_open()) {
+      if (!acceptor_.is_open()) {
+        return;
+      }
+      if (fault) {
+        // Where the process has no descriptor left, the client that waits makes each accept fail at
+        // once.
+        pause_.expires_after(kPauseAfterFault);
+        pause_.async_wait([this](error_code /*fault*/) { accept(); });
+      } else {
         accept();
       }
     });
@@ -139,6 +149,7 @@ class Server final : public ControlSocket {
   std::size_t clients_ = 0;
   asio::io_context io_{1};
   stream_protocol::acceptor acceptor_;
+  asio::steady_timer pause_;
   std::thread thread_;
   bool bound_ = false;
 };
@@ -154,7 +165,7 @@ std::string usual_socket() {
   return fmt::format("{}/steadyrest.sock", folder != nullptr && *folder != '\0' ? folder : "/run");
 }
 
-Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
+Result<void> ControlSocket::check(const std::string& path) {
   if (!fits(path)) {
     return refuse(path,
                   fmt::format("the socket's path has {} bytes; allowed: 1 … {}", path.size(),
@@ -162,20 +173,28 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
                   "give a shorter --socket");
   }
   struct stat file{};
-  if (::lstat(path.c_str(), &file) == 0) {
-    if (!S_ISSOCK(file.st_mode)) {
-      return refuse(path, "is a file and no socket", "give another --socket");
-    }
-    asio::io_context io;
-    stream_protocol::socket other(io);
-    error_code fault;
-    fault = other.connect(stream_protocol::endpoint(path), fault);
-    if (!fault) {
-      return refuse(path, "another layer answers on this socket",
-                    "stop it first, or give another --socket");
-    }
-    ::unlink(path.c_str());
+  if (::lstat(path.c_str(), &file) != 0) {
+    return {};
   }
+  if (!S_ISSOCK(file.st_mode)) {
+    return refuse(path, "is a file and no socket", "give another --socket");
+  }
+  asio::io_context io;
+  stream_protocol::socket other(io);
+  error_code fault;
+  fault = other.connect(stream_protocol::endpoint(path), fault);
+  if (!fault) {
+    return refuse(path, "another layer answers on this socket",
+                  "stop it first, or give another --socket");
+  }
+  return {};
+}
+
+Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
+  if (auto free = check(path); !free) {
+    return std::unexpected(std::move(free.error()));
+  }
+  ::unlink(path.c_str());  // of a dead program
   auto server = std::make_unique<Server>(path, std::move(answer));
   if (auto started = server->start(); !started) {
     return std::unexpected(std::move(started.error()));

@@ -28,8 +28,10 @@ class ControlSocket {
   /// Called in the socket's thread.
   using Answer = std::function<std::string(std::string_view line)>;
 
-  /// Refused: a path that is too long or cannot be made, and one on which another program answers;
-  /// a file that a dead one has left is replaced.
+  /// Refused: a path that is too long or a file, and one on which another program answers.
+  [[nodiscard]] static kernel::outcome::Result<void> check(const std::string& path);
+  /// Refused: what check() refuses, and a path that cannot be made. A socket that a dead program
+  /// has left is replaced.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<ControlSocket>> open(
       const std::string& path, Answer answer);
 

@@ -41,7 +41,7 @@ Result<void> Loop::check(const Config& config) {
 
 Loop::Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, Config config)
     : port_(port, pace),
-      layer_(layer),
+      layer_(&layer),
       pace_(pace),
       config_(std::move(config)),
       wanted_(config_.mode) {
@@ -56,16 +56,35 @@ const LoopFigures& Loop::run() noexcept {
     if (!config_.port_paces || now_.port_fault) {
       wake = pace_.wait();
     }
+    succeed();
     if (!goes_on(pace_.now_s())) {
       return figures_;
     }
     cycle();
+    beats_.fetch_add(1);
     const double work_s = pace_.now_s() - port_.read_s;
     figures_.work.add(work_s);
     figures_.lateness.add(config_.port_paces ? port_.age_s : wake.lateness_s);
     figures_.overruns +=
         config_.port_paces ? static_cast<std::uint64_t>(work_s > config_.period_s) : wake.missed;
+    watch();
   }
+}
+
+/// Between two cycles, so that no cycle sees two layers.
+void Loop::succeed() noexcept {
+  Successor* const next = offered_.exchange(nullptr);
+  if (next == nullptr) {
+    return;
+  }
+  next->layer.take_over(*layer_, next->kept);
+  layer_ = &next->layer;
+  config_.contour_limit_mm = next->machine.contour.limit_mm;
+  now_.contour_limit_mm = config_.contour_limit_mm;
+  if (config_.on_reload) {
+    config_.on_reload(next->text);
+  }
+  taken_.fetch_add(1);  // last: what was before may go from here on
 }
 
 /// Sets the mode of the next cycle; false once there is none.
@@ -77,14 +96,17 @@ bool Loop::goes_on(double now_s) noexcept {
     stopped_s_ = now_s;
   }
   const Mode mode = stops ? Mode::observe : wanted_.load();
-  if (stops && layer_.mode_in_force() != Mode::act) {
+  if (stops && layer_->mode_in_force() != Mode::act) {
     return false;
   }
   if (stops && now_s - stopped_s_ > config_.handback_s) {
     figures_.handed_back = false;
+    if (config_.on_fault) {
+      config_.on_fault("kept: ended before all was handed back");
+    }
     return false;
   }
-  layer_.set_mode(mode);
+  layer_->set_mode(mode);
   if (config_.on_mode && told_ != mode) {
     config_.on_mode(mode);
     told_ = mode;
@@ -93,7 +115,7 @@ bool Loop::goes_on(double now_s) noexcept {
 }
 
 void Loop::cycle() noexcept {
-  const auto command = layer_.cycle(port_, {});
+  const auto command = layer_->cycle(port_, {});
   ++figures_.cycles;
   now_.port_fault = !command;
   if (command) {
@@ -114,6 +136,17 @@ void Loop::cycle() noexcept {
   }
 }
 
+void Loop::watch() noexcept {
+  const std::string_view why =
+      black_box_.update({.now_s = port_.read_s,
+                         .port_fault = now_.port_fault,
+                         .unfit = now_.port_fault ? Reason::none : layer_->unfit(),
+                         .overruns = figures_.overruns});
+  if (!why.empty() && config_.on_fault) {
+    config_.on_fault(why);
+  }
+}
+
 void Loop::count(const kernel::signal::Command& command) noexcept {
   now_.reasons = {command.feed_reason, command.spindle_reason, command.offset_reason,
                   command.path_offset_reason};
@@ -128,14 +161,14 @@ void Loop::count(const kernel::signal::Command& command) noexcept {
 }
 
 void Loop::publish() noexcept {
-  const kernel::signal::Frame& frame = layer_.frame();
-  const auto in_force = layer_.in_force();
-  const auto& contour = layer_.estimates().contour;
+  const kernel::signal::Frame& frame = layer_->frame();
+  const auto in_force = layer_->in_force();
+  const auto& contour = layer_->estimates().contour;
   now_.cycles = figures_.cycles;
   now_.overruns = figures_.overruns;
   now_.time_s = frame.time_s;
   now_.mode_wanted = wanted_.load();
-  now_.mode_in_force = layer_.mode_in_force();
+  now_.mode_in_force = layer_->mode_in_force();
   now_.motion = frame.motion;
   now_.program_line = frame.program_line;
   now_.error_known = contour && contour->error_valid;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -12,6 +13,7 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/kernel/rt/snapshot.hpp>
+#include <steadyrest/live/black_box.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/pace.hpp>
 #include <steadyrest/live/time_figures.hpp>
@@ -32,10 +34,18 @@ struct LoopFigures {
   std::vector<std::uint64_t> by_reason;  ///< in the order of kernel::outcome::reasons()
 };
 
+/// A layer that goes on where the present one is, made from another machine file.
+struct Successor {
+  kernel::machine::Machine machine;
+  supervisor::Supervisor layer;
+  supervisor::Kept kept;
+  std::uint32_t text = 0;  ///< the file's text, by its number in a record
+};
+
 /// The layer's only loop: one cycle a period until it is told to stop. README.md has the law.
 ///
 /// run() belongs to one thread. ask_mode() and ask_stop() may be called by any thread and by a
-/// signal's handler; status() by one other thread.
+/// signal's handler; status(), and offer() with withdraw(), by one other thread each.
 class Loop {
  public:
   struct Config {
@@ -51,6 +61,10 @@ class Loop {
     /// For a record, in the cycle: the mode wanted from here on, and each cycle's command.
     std::function<void(kernel::machine::Mode)> on_mode = {};
     std::function<void(const kernel::signal::Command&)> on_command = {};
+    /// The held text of the machine file that took over.
+    std::function<void(std::uint32_t)> on_reload = {};
+    /// A fault begins: the last seconds are worth keeping.
+    std::function<void(std::string_view reason)> on_fault = {};
     // NOLINTEND(readability-redundant-member-init)
   };
 
@@ -66,6 +80,15 @@ class Loop {
   void ask_mode(kernel::machine::Mode mode) noexcept { wanted_.store(mode); }
   [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
   void ask_stop() noexcept { stop_.store(true); }
+  /// Takes over before the next cycle: once taken() has risen, the layer before it may go.
+  void offer(Successor& next) noexcept { offered_.store(&next); }
+  /// False: it takes over, or has done so.
+  bool withdraw() noexcept { return offered_.exchange(nullptr) != nullptr; }
+  /// How many have taken over.
+  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(); }
+  [[nodiscard]] bool stop_asked() const noexcept { return stop_.load(); }
+  /// Cycles that have ended: whether the loop goes on, for other threads.
+  [[nodiscard]] std::uint64_t beats() const noexcept { return beats_.load(); }
   /// The newest; of a loop that has not begun, an empty one.
   [[nodiscard]] const LiveStatus& status() noexcept { return status_.load(); }
   [[nodiscard]] const LoopFigures& figures() const noexcept { return figures_; }
@@ -95,23 +118,29 @@ class Loop {
     const Pace& pace_;
   };
 
+  void succeed() noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
+  void watch() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
   void publish() noexcept;
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
 
   Watched port_;
-  supervisor::Supervisor& layer_;
+  supervisor::Supervisor* layer_;
   Pace& pace_;
   Config config_;
   std::atomic<kernel::machine::Mode> wanted_;
   std::atomic<bool> stop_{false};
+  std::atomic<Successor*> offered_{nullptr};
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> beats_{0};
   double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;
   LoopFigures figures_;
+  BlackBox black_box_;
 };
 
 }  // namespace steadyrest::live

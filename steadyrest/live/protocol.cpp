@@ -41,6 +41,7 @@ std::string answer(const Asked& of, std::string_view line) {
     Json status = status_json(of.loop.status());
     status["mode_wanted"] = word(of.loop.mode_wanted());  // asked for since the last cycle
     status["port"] = of.port;
+    status["reload"] = of.reloader != nullptr ? reload_json(of.reloader->status()) : Json();
     if (of.program) {
       status["program"] = of.program();
     }
@@ -57,7 +58,10 @@ std::string answer(const Asked& of, std::string_view line) {
     of.loop.ask_mode(*mode);
     return line_of({{"version", kProtocol}, {"mode_wanted", word(*mode)}});
   }
-  return error(fmt::format("{} cannot be asked; allowed: status, mode", shown(ask)),
+  if (ask == "reload" && of.reloader != nullptr) {
+    return line_of({{"version", kProtocol}, {"reload_asked", of.reloader->ask()}});
+  }
+  return error(fmt::format("{} cannot be asked; allowed: status, mode, reload", shown(ask)),
                "give one of these as `ask`");
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/reloader.hpp>
 #include <steadyrest/live/status_json.hpp>
 
 namespace steadyrest::live {
@@ -16,7 +17,8 @@ inline constexpr int kProtocol = 1;
 /// What is asked about.
 struct Asked {
   Loop& loop;
-  std::string_view port;  ///< of the machine file
+  std::string_view port;         ///< of the machine file
+  Reloader* reloader = nullptr;  ///< null: the machine file is not read again
   /// Key `program` of the status; empty: none.
   std::function<Json()> program = {};  // NOLINT(readability-redundant-member-init)
 };

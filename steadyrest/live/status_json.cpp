@@ -68,6 +68,16 @@ Json status_json(const LiveStatus& status) {
   return out;
 }
 
+Json reload_json(const ReloadStatus& status) {
+  if (status.number == 0) {
+    return nullptr;
+  }
+  return {{"number", status.number},
+          {"utc", status.utc},
+          {"outcome", status.taken ? "taken" : "refused"},
+          {"words", status.words}};
+}
+
 Json figures_json(const LoopFigures& figures) {
   Json out;
   out["cycles"] = figures.cycles;

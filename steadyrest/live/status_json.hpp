@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/reloader.hpp>
 
 namespace steadyrest::live {
 
@@ -21,6 +22,8 @@ using Json = nlohmann::ordered_json;
 
 /// The keys of `status` (docs/live-protocol.md); µm, percent.
 [[nodiscard]] Json status_json(const LiveStatus& status);
+/// `number`, `utc`, `outcome`, `words`; null before the first.
+[[nodiscard]] Json reload_json(const ReloadStatus& status);
 /// `cycles`, `overruns`, `work_p50_us`, `work_p999_us`, `lateness_p999_us`, `over_limit_s`,
 /// `port_faults`, `handed_back`, `reasons{}` with the cycles of each.
 [[nodiscard]] Json figures_json(const LoopFigures& figures);

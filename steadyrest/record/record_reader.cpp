@@ -77,6 +77,22 @@ bool put(const std::vector<std::uint64_t>& values, std::size_t count,
 
 }  // namespace
 
+std::string_view word(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::mode:
+      return "mode";
+    case EventKind::unread:
+      return "unread";
+    case EventKind::undelivered:
+      return "undelivered";
+    case EventKind::reload:
+      return "reload";
+    case EventKind::note:
+      break;
+  }
+  return "note";
+}
+
 RecordReader::RecordReader(Database database, Statement chunks, Statement columns, std::string file)
     : file_(std::move(file)),
       database_(std::move(database)),
@@ -158,7 +174,7 @@ Result<void> RecordReader::read_events() {
       return {};
     }
     const std::int64_t kind = query->integer(2);
-    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::note))) {
+    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::reload))) {
       return damaged("an event of an unknown kind");
     }
     events_.push_back({.before = static_cast<std::uint64_t>(query->integer(0)),

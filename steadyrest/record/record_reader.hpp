@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -14,6 +15,9 @@
 #include <steadyrest/record/sample.hpp>
 
 namespace steadyrest::record {
+
+/// `mode`, `unread`, `undelivered`, `note`, `reload`; ends with 0.
+[[nodiscard]] std::string_view word(EventKind kind) noexcept;
 
 /// Reads a record in order, bit for bit as it was written. A run that is still being written may be
 /// read too: as far as it was when open() was called, at least.

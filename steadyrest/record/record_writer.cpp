@@ -6,8 +6,10 @@
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/rt/ring.hpp>
@@ -35,6 +37,8 @@ struct RawEvent {
   std::uint64_t before = 0;
   double time_s = 0.0;
   EventKind kind = EventKind::note;
+  bool has_held = false;   ///< the text is a held one
+  std::uint32_t held = 0;  ///< its number
   std::uint8_t length = 0;
   std::array<char, RecordWriter::kEventText> text{};
 };
@@ -58,6 +62,11 @@ struct RecordWriter::Cycle {
   std::uint64_t sent = 0;  ///< segments of the path
 
   void drop() noexcept { dropped.fetch_add(1, std::memory_order_relaxed); }
+  void put(const RawEvent& raw) noexcept {
+    if (failed.load(std::memory_order_relaxed) || !events.try_push(raw)) {
+      drop();
+    }
+  }
 };
 
 /// The writer's thread: from the rings to the file.
@@ -89,6 +98,12 @@ class RecordWriter::Thread {
   [[nodiscard]] std::optional<Refusal> fault() const {
     const std::scoped_lock lock(mutex_);
     return fault_;
+  }
+
+  std::uint32_t hold(std::string text) {
+    const std::scoped_lock lock(mutex_);
+    held_.push_back(std::move(text));
+    return static_cast<std::uint32_t>(held_.size() - 1);
   }
 
  private:
@@ -129,10 +144,14 @@ class RecordWriter::Thread {
 
   /// A copy that fails costs the run's own record nothing.
   void keep_copy() {
+    const std::string utc = utc_now();
     const auto folder = std::filesystem::path(config_.file).parent_path();
-    if (auto kept =
-            keep_last(config_.file, (folder / fault_name(utc_now())).string(), config_.keep_last_s);
-        !kept) {
+    auto file = folder / fault_name(utc);
+    std::error_code fault;
+    for (int again = 2; std::filesystem::exists(file, fault); ++again) {
+      file = folder / fault_name(utc, again);
+    }
+    if (auto kept = keep_last(config_.file, file.string(), config_.keep_last_s); !kept) {
       store_->add({.time_s = 0.0,
                    .kind = EventKind::note,
                    .text = "not kept: " + kernel::outcome::text(kept.error())});
@@ -168,9 +187,17 @@ class RecordWriter::Thread {
         break;
       }
       if (!cycle_.failed) {
-        store_->add({raw->before, raw->time_s, raw->kind, {raw->text.data(), raw->length}});
+        store_->add({raw->before, raw->time_s, raw->kind, text_of(*raw)});
       }
     }
+  }
+
+  std::string text_of(const RawEvent& raw) {
+    if (!raw.has_held) {
+      return {raw.text.data(), raw.length};
+    }
+    const std::scoped_lock lock(mutex_);
+    return raw.held < held_.size() ? held_[raw.held] : std::string();
   }
 
   /// The first failure ends the record.
@@ -189,6 +216,7 @@ class RecordWriter::Thread {
   std::condition_variable wake_;
   std::condition_variable flushed_;
   std::optional<Refusal> fault_;
+  std::vector<std::string> held_;
   std::uint64_t flushes_wanted_ = 0;
   std::uint64_t flushes_done_ = 0;
   bool stop_ = false;
@@ -268,9 +296,18 @@ void RecordWriter::event(EventKind kind, std::string_view text) noexcept {
   RawEvent raw{.before = cycle_->number, .time_s = cycle_->time_s, .kind = kind};
   raw.length = static_cast<std::uint8_t>(std::min(text.size(), kEventText));
   std::copy_n(text.begin(), raw.length, raw.text.begin());
-  if (cycle_->failed.load(std::memory_order_relaxed) || !cycle_->events.try_push(raw)) {
-    cycle_->drop();
-  }
+  cycle_->put(raw);
+}
+
+void RecordWriter::event(EventKind kind, std::uint32_t held) noexcept {
+  RawEvent raw{.before = cycle_->number, .time_s = cycle_->time_s, .kind = kind};
+  raw.has_held = true;
+  raw.held = held;
+  cycle_->put(raw);
+}
+
+std::uint32_t RecordWriter::hold(std::string text) {
+  return thread_->hold(std::move(text));
 }
 
 // The note first: the thread that sees the flag finds it in the ring.

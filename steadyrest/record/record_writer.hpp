@@ -52,6 +52,10 @@ class RecordWriter {
   void add(const kernel::signal::Frame& frame, const kernel::signal::Command& command) noexcept;
   /// In the cycle, from the same thread: what happens before the next sample.
   void event(EventKind kind, std::string_view text) noexcept;
+  /// Not in the cycle: keeps a text of any length for event(); returns its number.
+  [[nodiscard]] std::uint32_t hold(std::string text);
+  /// In the cycle: an event with a held text.
+  void event(EventKind kind, std::uint32_t held) noexcept;
   /// In the cycle, after a fault: notes the reason, and the writer's thread soon copies the last
   /// `keep_last_s` into `fault-<time>.sqlite` beside the record, which no rotation removes. Several
   /// calls before that make one copy.

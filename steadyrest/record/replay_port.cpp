@@ -49,22 +49,22 @@ const Event* ReplayPort::due() const noexcept {
   return &events[event_];
 }
 
-std::optional<std::string> ReplayPort::mode_due() {
+const Event* ReplayPort::change_due() {
   const Event* event = due();
   while (event != nullptr &&
          (event->kind == EventKind::note || event->kind == EventKind::undelivered)) {
     ++event_;
     event = due();
   }
-  if (event == nullptr || event->kind != EventKind::mode) {
-    return std::nullopt;
+  if (event == nullptr || event->kind == EventKind::unread) {
+    return nullptr;
   }
   ++event_;
-  return event->text;
+  return event;
 }
 
 Result<kernel::signal::Frame> ReplayPort::read() noexcept {
-  // A mode that nobody asked for is passed over: the caller keeps its own.
+  // A change that nobody asked for is passed over: the caller keeps its own.
   for (const Event* event = due(); event != nullptr; event = due()) {
     ++event_;
     if (event->kind == EventKind::unread) {

@@ -33,9 +33,9 @@ bool is_run_name(std::string_view name) {
   });
 }
 
-std::string named(std::string name, const std::string& utc) {
+std::string named(std::string name, const std::string& utc, int number = 1) {
   std::ranges::copy_if(utc, std::back_inserter(name), [](char c) { return c != '-' && c != ':'; });
-  return name + ".sqlite";
+  return name + (number > 1 ? "-" + std::to_string(number) : "") + ".sqlite";
 }
 
 }  // namespace
@@ -53,8 +53,8 @@ std::string run_name(const std::string& utc) {
   return named("run-", utc);
 }
 
-std::string fault_name(const std::string& utc) {
-  return named("fault-", utc);
+std::string fault_name(const std::string& utc, int number) {
+  return named("fault-", utc, number);
 }
 
 Result<std::vector<RunFile>> run_files(const std::string& folder) {

@@ -13,8 +13,9 @@ namespace steadyrest::record {
 [[nodiscard]] std::string utc_now();
 /// `run-20261126T124934Z.sqlite` from such a time.
 [[nodiscard]] std::string run_name(const std::string& utc);
-/// `fault-20260101T124934Z.sqlite`: the last seconds before a fault.
-[[nodiscard]] std::string fault_name(const std::string& utc);
+/// `fault-20260101T124934Z.sqlite`: the last seconds before a fault; the second one in that second
+/// is `fault-20260101T124934Z-2.sqlite`.
+[[nodiscard]] std::string fault_name(const std::string& utc, int number = 1);
 
 struct RunFile {
   std::string file;         ///< with the folder, as it was given

@@ -30,7 +30,8 @@ enum class EventKind : std::uint8_t {
   mode,         ///< the mode wanted from here on; the text is its word
   unread,       ///< the port could not read: a cycle without a frame
   undelivered,  ///< the port did not take the command of the sample before
-  note          ///< anything else, for people
+  note,         ///< anything else, for people
+  reload        ///< another machine file from here on; the text is the whole file
 };
 
 struct Event {

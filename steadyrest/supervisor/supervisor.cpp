@@ -291,6 +291,7 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
     known.age_s = std::max(frame.age_s, state_.stands_s);
   }
   const Reason unfit = inspect(known, tick);
+  unfit_ = unfit;
   if (std::isfinite(frame.time_s)) {
     in_good_time(known, tick.time_s, read_now);
   }

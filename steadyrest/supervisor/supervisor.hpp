@@ -22,6 +22,7 @@
 #include <steadyrest/supervisor/frame_clock.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
+#include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/thermal/online/offset_governor.hpp>
 
 namespace steadyrest::supervisor {
@@ -121,6 +122,8 @@ class Supervisor {
   /// path.
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
 
+  /// Why the last cycle's input was not acted on; none: it was.
+  [[nodiscard]] kernel::outcome::Reason unfit() const noexcept { return unfit_; }
   /// What became of the requests so far: the rooms get it with the next frame.
   [[nodiscard]] kernel::signal::InForce in_force() const noexcept;
 
@@ -148,6 +151,11 @@ class Supervisor {
   }
   [[nodiscard]] State state() const noexcept;
   void restore(const State& state) noexcept;
+  /// Between two cycles, for a layer made from a machine file that fits() `before`'s: mode, clock,
+  /// words and offsets go on where they are, without an interruption; what is beyond a new limit
+  /// goes there by the slew. Swaps rooms with `before`, which must not run any more. In the cycle:
+  /// no allocation.
+  void take_over(Supervisor& before, const Kept& kept) noexcept;
 
  private:
   struct Decisions {
@@ -218,6 +226,7 @@ class Supervisor {
   Written before_;           ///< the last cycle
   State state_;              ///< the parts that are not a member's own
   kernel::signal::Frame last_frame_;
+  kernel::outcome::Reason unfit_ = kernel::outcome::Reason::none;
 };
 
 }  // namespace steadyrest::supervisor

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
@@ -170,6 +171,39 @@ void Supervisor::restore(const State& state) noexcept {
   if (thermal_) {
     thermal_->restore(state.thermal);
     estimates_.thermal.reset();
+  }
+}
+
+// Unlike after a restart nothing was interrupted: the next cycle is the one after the last. The
+// channels have the same tables, so their words mean the same.
+void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
+  state_ = before.state_;
+  clock_ = before.clock_;
+  before_ = before.before_;
+  handed_back_ = before.handed_back_;
+  last_frame_ = before.last_frame_;
+  if (feed_ && before.feed_) {
+    feed_->restore(before.feed_->state());
+  }
+  if (spindle_ && before.spindle_) {
+    spindle_->restore(before.spindle_->state());
+  }
+  offset_.take_over(before.offset_.state());
+  path_offset_.take_over(before.path_offset_.state());
+  if (kept.motion) {
+    std::swap(motion_, before.motion_);
+  }
+  if (kept.contour) {
+    std::swap(contour_, before.contour_);
+  }
+  if (kept.chatter) {
+    std::swap(chatter_, before.chatter_);
+    std::swap(listener_, before.listener_);
+  }
+  if (kept.thermal) {
+    std::swap(thermal_, before.thermal_);
+  } else if (thermal_ && before.thermal_) {
+    thermal_->restore(before.thermal_->state());
   }
 }
 

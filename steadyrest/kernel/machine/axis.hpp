@@ -16,6 +16,8 @@ struct Friction {
   double breakaway_au_s2 = 0.0;
   double stribeck_au_s = 1.0;
   double viscous_1_s = 0.0;
+
+  friend bool operator==(const Friction&, const Friction&) = default;
 };
 
 struct Encoder {
@@ -29,6 +31,8 @@ struct Encoder {
   bool line_table_periodic = false;    ///< the table is one revolution
   std::vector<double> line_table_au;   ///< 0 = line not known
   double clock_s = 1e-7;  ///< period of the edges' time stamps; 0 = the counter gives none
+
+  friend bool operator==(const Encoder&, const Encoder&) = default;
 };
 
 /// One axis, linear or rotary. In its names, and in those of `Friction` and `Encoder`, `au` is the
@@ -51,6 +55,8 @@ struct Axis {
   double max_au = 1e6;
   Friction friction;
   Encoder encoder;
+
+  friend bool operator==(const Axis&, const Axis&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -21,6 +21,8 @@ struct Chatter {
   std::uint32_t m_code_on = 38;  ///< 0 = always on, whatever the program says
   std::uint32_t m_code_off = 39;
   std::uint64_t seed = 1;
+
+  friend bool operator==(const Chatter&, const Chatter&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -20,6 +20,8 @@ struct Contour {
   double weight_feed = 0.75;     ///< w2
   double margin =
       0.05;  ///< share of the limit kept in reserve against what the model does not know
+
+  friend bool operator==(const Contour&, const Contour&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -38,6 +38,8 @@ struct Control {
                                        ///< arc's limits when it is shorter than this many periods
   bool clips_programmed_feed = false;  ///< F counts as what the axes permit, before the override
   bool stop_between_rapid_and_feed = false;
+
+  friend bool operator==(const Control&, const Control&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

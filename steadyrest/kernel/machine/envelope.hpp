@@ -19,6 +19,8 @@ struct Envelope {
   double max_path_offset_mm = 0.0;
   double path_offset_slew_mm_s = 50.0;
   double stale_after_s = 0.1;  ///< older input is ignored
+
+  friend bool operator==(const Envelope&, const Envelope&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -18,6 +18,8 @@ struct OverrideTable {
   bool latched_word = true;  ///< the word takes effect as a whole; else it walks step by step
   bool layer_may_exceed_panel = false;
   double max_ratio = 2.0;  ///< the control clips here
+
+  friend bool operator==(const OverrideTable&, const OverrideTable&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

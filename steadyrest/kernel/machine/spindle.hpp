@@ -15,6 +15,8 @@ struct Spindle {
   double rated_torque_n_m = kUnlimited;  ///< RMS, continuous (S1); without it the largest torque
   double speed_tolerance_ratio = 0.10;   ///< band of the control's speed monitor about its
                                          ///< set-point; 0 = the control has none
+
+  friend bool operator==(const Spindle&, const Spindle&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

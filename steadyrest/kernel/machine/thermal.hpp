@@ -24,6 +24,8 @@ struct ThermalMode {
   double feed_s = 0.0;                ///< added to the level per mm/s of feed: mm/(mm/s)
   double tau_sd_ratio = 0.0;          ///< standard deviation of ln τ
   double state_mm = 0.0;              ///< x at the passport's `state_s`
+
+  friend bool operator==(const ThermalMode&, const ThermalMode&) = default;
 };
 
 /// Surroundings: displacement gain·(T_lagged − reference), T_lagged' = (T − T_lagged)/τ.
@@ -33,6 +35,8 @@ struct ThermalAmbient {
   double gain_mm_k = 0.0;
   double reference_c = 20.0;
   double state_c = 20.0;  ///< T_lagged at the passport's `state_s`
+
+  friend bool operator==(const ThermalAmbient&, const ThermalAmbient&) = default;
 };
 
 /// The displacement of one axis: the sum of its modes and of the effect of the surroundings.
@@ -58,6 +62,8 @@ struct ThermalAxis {
     }
     return count;
   }
+
+  friend bool operator==(const ThermalAxis&, const ThermalAxis&) = default;
 };
 
 /// Bounds of the passport: they fix the sizes of what runs in the cycle.
@@ -98,6 +104,8 @@ struct Thermal {
     }
     return count;
   }
+
+  friend bool operator==(const Thermal&, const Thermal&) = default;
 };
 
 }  // namespace steadyrest::kernel::machine

@@ -189,13 +189,14 @@ bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
   bool reached = true;
   for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
     const double limit_mm = config_.max_mm[axis];
-    // A slope that is NaN or negative moves nothing.
-    const double asked = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
-    const double step_mm = std::min(asked, config_.slew_mm_s) * step_s;
     double& offset_mm = state_.offset_mm[axis];
-    offset_mm =
-        std::clamp(toward(offset_mm, target_mm[axis], step_mm, step_mm), -limit_mm, limit_mm);
-    reached = reached && (offset_mm == target_mm[axis] || asked <= config_.slew_mm_s);
+    const bool beyond = std::abs(offset_mm) > limit_mm;  // after take_over(): nobody may hold it
+    // A slope that is NaN or negative moves nothing.
+    const double slope = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
+    const double asked = beyond ? config_.slew_mm_s : slope;
+    const double step_mm = std::min(asked, config_.slew_mm_s) * step_s;
+    offset_mm = toward(offset_mm, target_mm[axis], step_mm, step_mm);
+    reached = reached && (offset_mm == target_mm[axis] || (!beyond && asked <= config_.slew_mm_s));
   }
   return reached;
 }
@@ -245,6 +246,12 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
       approach({}, fade, step_s);
     } else if (!input.tool_in_cut && !request.tool_in_cut) {
       approach({}, signal::any_slope(), step_s);
+    } else {
+      signal::AxisValues frozen_mm{};
+      for (std::size_t axis = 0; axis < frozen_mm.size(); ++axis) {
+        frozen_mm[axis] = within(axis, state_.offset_mm[axis], 0.0);
+      }
+      approach(frozen_mm, {}, step_s);
     }
   }
   output.offset_mm = state_.offset_mm;

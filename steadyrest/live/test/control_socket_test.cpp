@@ -1,23 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
 #include <fstream>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/live/control_socket.hpp>
 
+namespace {
+
+/// When accept() failed for want of a descriptor.
+struct Failures {
+  void note() {
+    const std::scoped_lock lock(mutex);
+    times.push_back(std::chrono::steady_clock::now());
+    count.store(times.size());
+    count.notify_all();
+  }
+  std::mutex mutex;
+  std::vector<std::chrono::steady_clock::time_point> times;
+  std::atomic<std::size_t> count{0};
+};
+Failures failures;
+
+}  // namespace
+
+/// The server's own call comes here.
+extern "C" int accept(int socket, sockaddr* address, socklen_t* length) {
+  const auto got = static_cast<int>(::syscall(SYS_accept4, socket, address, length, 0));
+  if (got < 0 && errno == EMFILE) {
+    failures.note();
+    errno = EMFILE;
+  }
+  return got;
+}
+
 namespace steadyrest::live {
 namespace {
 
 using ::testing::HasSubstr;
+
+/// All of the process's descriptors are in use while this lives.
+class NoDescriptorLeft {
+ public:
+  NoDescriptorLeft() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit few{.rlim_cur = 128, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &few);
+    for (int got = ::dup(STDERR_FILENO); got >= 0; got = ::dup(STDERR_FILENO)) {
+      taken_.push_back(got);
+    }
+  }
+  NoDescriptorLeft(const NoDescriptorLeft&) = delete;
+  NoDescriptorLeft& operator=(const NoDescriptorLeft&) = delete;
+  ~NoDescriptorLeft() {
+    for (const int descriptor : taken_) {
+      ::close(descriptor);
+    }
+    ::setrlimit(RLIMIT_NOFILE, &before_);
+  }
+
+ private:
+  rlimit before_{};
+  std::vector<int> taken_;
+};
 
 std::string echo(std::string_view line) {
   return "seen: " + std::string(line);
@@ -92,6 +152,30 @@ TEST_F(OnSocket, ALineTooLongIsToldSo) {
   ASSERT_TRUE(answer.has_value()) << answer.error().what;
   EXPECT_THAT(*answer, HasSubstr("too long"));
   EXPECT_TRUE(ask(path, std::string(kMostLine - 1, 'x'), 20.0).has_value());
+}
+
+TEST_F(OnSocket, WithoutADescriptorItWaitsBeforeItAcceptsAgain) {
+  const auto socket = ControlSocket::open(path, echo);
+  ASSERT_TRUE(socket.has_value());
+  const int client = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  {
+    const NoDescriptorLeft none;
+    sockaddr_un name{};
+    name.sun_family = AF_UNIX;
+    path.copy(name.sun_path, sizeof name.sun_path - 1);
+    ASSERT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+    for (std::size_t seen = 0; seen < 2; seen = failures.count.load()) {
+      failures.count.wait(seen);
+    }
+    const std::scoped_lock lock(failures.mutex);
+    EXPECT_GE(failures.times[1] - failures.times[0], std::chrono::milliseconds(90));
+  }
+  const std::string line = "late\n";
+  ASSERT_EQ(::send(client, line.data(), line.size(), 0), static_cast<ssize_t>(line.size()));
+  std::string answer(11, ' ');
+  EXPECT_EQ(::recv(client, answer.data(), answer.size(), MSG_WAITALL), 11);
+  EXPECT_EQ(answer, "seen: late\n") << "and the client that waited is answered";
+  ::close(client);
 }
 
 TEST_F(OnSocket, NobodyThereIsUnavailable) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -134,6 +138,22 @@ TEST(Loop, ALostLinkDoesNotEndIt) {
   EXPECT_FALSE(loop.status().port_fault);
 }
 
+TEST(Loop, TellsARecordWhereAFaultBegins) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.most_cycles = 400;
+  config.handback_s = 0.001;
+  std::vector<std::string> reasons;
+  config.on_fault = [&](std::string_view reason) { reasons.emplace_back(reason); };
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  spy.at_read = [&](int reads) { spy.lost = reads >= 200 && reads < 250; };
+  loop.run();
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_EQ(reasons[0], "kept: the port could not be read or written");
+  EXPECT_EQ(reasons[1], "kept: ended before all was handed back");
+}
+
 TEST(Loop, GivesUpHandingBackAfterItsTime) {
   Desk desk;
   Spy spy(*desk.port);
@@ -203,6 +223,67 @@ TEST(Loop, TellsARecordModesAndCommands) {
   loop.run();
   EXPECT_EQ(modes, (std::vector<Mode>{Mode::advise}));
   EXPECT_EQ(commands, 50);
+}
+
+/// A cut in act; at its 300th cycle, in the circle, the file with this limit takes over, if any.
+struct Reloaded {
+  explicit Reloaded(std::optional<double> limit_mm) {
+    Loop::Config config = until_finished(desk, Mode::act);
+    config.on_reload = [this](std::uint32_t text) { told = text; };
+    config.on_command = [this](const Command& command) { commands.push_back(command); };
+    Loop loop(spy, *desk.layer, desk.pace, config);
+    kernel::machine::Machine wanted = desk.machine;
+    wanted.contour.limit_mm = limit_mm.value_or(wanted.contour.limit_mm);
+    Successor next{.machine = wanted,
+                   .layer = supervisor::Supervisor::make(wanted, desk.port->capability()).value(),
+                   .kept = supervisor::kept(desk.machine, wanted),
+                   .text = 7};
+    spy.at_read = [&](int reads) {
+      if (reads == 300 && limit_mm) {
+        loop.offer(next);
+      }
+    };
+    handed_back = loop.run().handed_back;
+    taken = loop.taken();
+    limit_shown_mm = loop.status().contour_limit_mm;
+    EXPECT_FALSE(loop.withdraw());
+  }
+  Desk desk;
+  Spy spy{*desk.port};
+  std::vector<Command> commands;
+  std::uint32_t told = 0;
+  std::uint64_t taken = 0;
+  double limit_shown_mm = 0.0;
+  bool handed_back = false;
+};
+
+TEST(Loop, AReloadOfTheSameFileChangesNoCommand) {
+  const Reloaded without(std::nullopt);
+  const Reloaded with(without.desk.machine.contour.limit_mm);
+  EXPECT_EQ(with.taken, 1U);
+  EXPECT_EQ(with.told, 7U);
+  ASSERT_EQ(with.commands.size(), without.commands.size());
+  for (std::size_t i = 0; i < with.commands.size(); ++i) {
+    ASSERT_EQ(with.commands[i].feed_code, without.commands[i].feed_code) << i;
+    ASSERT_EQ(with.commands[i].feed_ratio, without.commands[i].feed_ratio) << i;
+    ASSERT_EQ(with.commands[i].heartbeat, without.commands[i].heartbeat) << i;
+  }
+}
+
+TEST(Loop, AReloadWithAnotherLimitGoesThereWithoutAJump) {
+  const Reloaded reloaded(0.002);
+  EXPECT_EQ(reloaded.taken, 1U);
+  EXPECT_TRUE(reloaded.handed_back);
+  EXPECT_DOUBLE_EQ(reloaded.limit_shown_mm, 0.002);
+  const auto feed = [&](std::size_t cycle) { return reloaded.commands[cycle].feed_ratio; };
+  double highest = 0.0;
+  for (std::size_t i = 300; i < 320; ++i) {
+    EXPECT_TRUE(reloaded.commands[i].write);
+    EXPECT_LE(std::abs(feed(i) - feed(i - 1)), 0.11) << "one step of the switch";
+    highest = std::max(highest, feed(i));
+  }
+  EXPECT_LE(highest, feed(299)) << "it does not let go in between";
+  EXPECT_LT(feed(400), 0.6 * feed(299)) << "ε goes with the square of the feed";
 }
 
 TEST(Loop, AllocatesNothingInTheCycle) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/live/test/desk.hpp>
@@ -44,6 +46,25 @@ TEST_F(Protocol, TellsTheStatus) {
 
 TEST_F(Protocol, TakesAMode) {
   EXPECT_EQ(ask(R"({"version":1,"ask":"mode","mode":"act"})")["mode_wanted"], "act");
+}
+
+TEST_F(Protocol, TakesAReloadWhereTheFileCanBeReadAgain) {
+  const std::string reload = R"({"version":1,"ask":"reload"})";
+  EXPECT_TRUE(ask(reload).contains("error"));
+  Reloader reloader(
+      loop, {.running = desk.machine,
+             .make = [](const auto&) -> kernel::outcome::Result<std::unique_ptr<Successor>> {
+               return kernel::outcome::refuse("no", "yes");
+             }});
+  const Asked of{.loop = loop, .port = "sim", .reloader = &reloader};
+  const Json status = Json::parse(answer(of, R"({"version":1,"ask":"status"})"))["status"];
+  EXPECT_TRUE(status["reload"].is_null());
+  EXPECT_EQ(Json::parse(answer(of, reload))["reload_asked"], 1);
+  EXPECT_EQ(Json::parse(answer(of, reload))["reload_asked"], 2);
+  const Json done = reload_json({.number = 2, .utc = "t", .taken = false, .words = "no; yes"});
+  EXPECT_EQ(done["outcome"], "refused");
+  EXPECT_EQ(done["words"], "no; yes");
+  EXPECT_EQ(done["number"], 2);
 }
 
 TEST_F(Protocol, RefusesWhatItDoesNotSpeak) {

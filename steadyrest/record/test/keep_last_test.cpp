@@ -71,5 +71,19 @@ TEST(KeepLast, AFaultLeavesAFileThatRotationDoesNotRemove) {
   EXPECT_EQ(reader.events()[0].text, "servo fault");
 }
 
+TEST(KeepLast, TwoFaultsInASecondAreBothKept) {
+  const test::Folder folder;
+  const auto writer = ten_seconds(folder);
+  for (int i = 0; i < 3; ++i) {
+    writer->keep("again");
+    writer->flush();
+  }
+  const auto files = run_files(folder.path()).value();
+  EXPECT_EQ(std::ranges::count_if(
+                files,
+                [](const RunFile& file) { return file.file.find("/fault-") != std::string::npos; }),
+            3);
+}
+
 }  // namespace
 }  // namespace steadyrest::record

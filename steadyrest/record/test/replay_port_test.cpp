@@ -56,19 +56,19 @@ TEST(ReplayPort, FailsWhereTheMachineDid) {
   const auto port = ReplayPort::open(folder.file("a.sqlite")).value();
   EXPECT_TRUE(port->capability().spindle_override);
   EXPECT_FALSE(port->capability().feed_override);
-  EXPECT_EQ(port->mode_due(), "act");
-  EXPECT_EQ(port->mode_due(), std::nullopt);
+  EXPECT_EQ(port->change_due()->text, "act");
+  EXPECT_EQ(port->change_due(), nullptr);
   EXPECT_EQ(port->read().value().cycle, 1U);
   EXPECT_EQ(port->write({}).error().kind, Kind::bad_input) << "not in the mode act";
   EXPECT_TRUE(port->write(kWritten));
   EXPECT_EQ(port->read().error().what, "no frame");
   EXPECT_EQ(port->read().value().cycle, 3U);
   EXPECT_EQ(port->write(kWritten).error().what, "not taken");
-  EXPECT_EQ(port->mode_due(), std::nullopt);
+  EXPECT_EQ(port->change_due(), nullptr);
   EXPECT_EQ(port->read().value().cycle, 4U);
   EXPECT_TRUE(port->write(kWritten));
   EXPECT_FALSE(port->finished());
-  EXPECT_EQ(port->mode_due(), "observe");
+  EXPECT_EQ(port->change_due()->text, "observe");
   EXPECT_TRUE(port->finished());
   EXPECT_EQ(port->read().error().kind, Kind::unavailable);
 }

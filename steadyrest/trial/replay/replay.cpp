@@ -4,9 +4,11 @@
 #include <utility>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/replay_port.hpp>
+#include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 
@@ -47,15 +49,50 @@ std::optional<Mode> mode_of(const std::string& text) {
   return std::nullopt;
 }
 
-/// The modes that were set before this cycle; refuses a word that is none.
-Result<void> set_modes(const std::string& file, ReplayPort& port, supervisor::Supervisor& layer) {
-  while (const auto text = port.mode_due()) {
-    const auto mode = mode_of(*text);
+/// The layer of the run, and the file that it was made from.
+struct Deciding {
+  kernel::machine::Machine machine;
+  supervisor::Supervisor layer;
+};
+
+/// As in the run: the new layer takes over between two cycles.
+Result<void> reload(const std::string& file, const std::string& text,
+                    const kernel::port::Capability& capability, Deciding& deciding) {
+  auto machine = passport::parse(text, file + " (machine file of a reload)");
+  if (!machine) {
+    return std::unexpected(std::move(machine.error()));
+  }
+  if (auto fit = supervisor::fits(deciding.machine, *machine); !fit) {
+    return fit;
+  }
+  auto next = supervisor::Supervisor::make(*machine, capability);
+  if (!next) {
+    return std::unexpected(std::move(next.error()));
+  }
+  next->take_over(deciding.layer, supervisor::kept(deciding.machine, *machine));
+  deciding = {std::move(*machine), std::move(*next)};
+  return {};
+}
+
+/// What was changed before this cycle; refuses a mode that is none and a file that does not fit.
+Result<void> change(const std::string& file, ReplayPort& port, Reloads reloads, Deciding& deciding,
+                    Replayed& replayed) {
+  while (const record::Event* const event = port.change_due()) {
+    if (event->kind == record::EventKind::reload) {
+      ++replayed.reloads;
+      if (reloads == Reloads::follow) {
+        if (auto done = reload(file, event->text, port.capability(), deciding); !done) {
+          return done;
+        }
+      }
+      continue;
+    }
+    const auto mode = mode_of(event->text);
     if (!mode) {
-      return refuse(file, "sets an unknown mode: " + *text,
+      return refuse(file, "sets an unknown mode: " + event->text,
                     "use the version of Steadyrest that recorded it");
     }
-    layer.set_mode(*mode);
+    deciding.layer.set_mode(*mode);
   }
   return {};
 }
@@ -105,7 +142,7 @@ class Watched final : public kernel::port::Port {
 }  // namespace
 
 Result<Replayed> replay(const std::string& file, const kernel::machine::Machine& machine,
-                        const std::function<void(double share)>& progress) {
+                        const std::function<void(double share)>& progress, Reloads reloads) {
   auto opened = ReplayPort::open(file);
   if (!opened) {
     return std::unexpected(std::move(opened.error()));
@@ -115,6 +152,7 @@ Result<Replayed> replay(const std::string& file, const kernel::machine::Machine&
   if (!layer) {
     return std::unexpected(std::move(layer.error()));
   }
+  Deciding deciding{machine, std::move(*layer)};
   Watched watched(port);
   Replayed replayed;
   replayed.paths_complete = port.reader().paths_complete();
@@ -122,8 +160,8 @@ Result<Replayed> replay(const std::string& file, const kernel::machine::Machine&
       static_cast<double>(std::max<std::uint64_t>(1, port.reader().totals().samples));
   std::uint64_t expected = 0;
   while (true) {
-    if (auto set = set_modes(file, port, *layer); !set) {
-      return std::unexpected(std::move(set.error()));
+    if (auto changed = change(file, port, reloads, deciding, replayed); !changed) {
+      return std::unexpected(std::move(changed.error()));
     }
     if (port.finished()) {
       break;
@@ -132,7 +170,7 @@ Result<Replayed> replay(const std::string& file, const kernel::machine::Machine&
       replayed.gap_after = port.sample().frame.cycle;
       break;
     }
-    const auto decided = layer->cycle(watched, {});
+    const auto decided = deciding.layer.cycle(watched, {});
     if (!decided && !watched.refused()) {
       continue;  // a cycle without a frame, as it was
     }

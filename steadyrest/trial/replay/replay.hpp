@@ -31,6 +31,12 @@ struct Replayed {
   /// from another state.
   std::optional<std::uint64_t> gap_after;
   bool paths_complete = true;  ///< else a difference may come from a path that was cut off
+  std::uint64_t reloads = 0;   ///< machine files that took over during the run
+};
+
+enum class Reloads : std::uint8_t {
+  follow,  ///< each recorded machine file takes over in the cycle in which it did
+  ignore   ///< `machine` decides to the end
 };
 
 /// Runs a fresh layer through the recorded frames and compares each command with the recorded one,
@@ -40,6 +46,7 @@ struct Replayed {
 /// Refuses a record that cannot be read, and a machine that the supervisor refuses.
 [[nodiscard]] kernel::outcome::Result<Replayed> replay(
     const std::string& file, const kernel::machine::Machine& machine,
-    const std::function<void(double share)>& progress = [](double) {});
+    const std::function<void(double share)>& progress = [](double) {},
+    Reloads reloads = Reloads::follow);
 
 }  // namespace steadyrest::trial::replay

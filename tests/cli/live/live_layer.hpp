@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "expectations.hpp"
 #include "process.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
@@ -13,31 +17,70 @@
 namespace steadyrest::test {
 
 /// A layer that runs on the simulated machine in the background, with the usual socket in a
-/// temporary folder.
+/// temporary folder, and a machine file of its own that a test may change.
 class LiveLayer {
  public:
-  explicit LiveLayer(const std::string& mode = "observe")
-      : socket_folder_((::setenv("XDG_RUNTIME_DIR", scratch_.at("").c_str(), 1), scratch_.at(""))),
-        process_({"run", "--machine", project_file("examples/machines/vmc-840d.toml"), "--program",
-                  project_file("examples/programs/rib-pocket.mpf"), "--mode", mode},
-                 scratch_.at("")) {
-    constexpr int kTries = 6000;
-    constexpr unsigned kNap_us = 10'000;
-    for (int i = 0;
-         i < kTries && ::access((socket_folder_ + "/steadyrest.sock").c_str(), F_OK) != 0; ++i) {
-      ::usleep(kNap_us);
-    }
-    EXPECT_EQ(::access((socket_folder_ + "/steadyrest.sock").c_str(), F_OK), 0);
+  explicit LiveLayer(const std::string& mode = "observe", std::vector<std::string> more = {})
+      : folder_((::setenv("XDG_RUNTIME_DIR", scratch_.at("").c_str(), 1), scratch_.at(""))),
+        machine_(text_of_file(project_file("examples/machines/vmc-840d.toml"))),
+        process_(arguments(mode, std::move(more)), folder_) {
+    EXPECT_TRUE(
+        until([this] { return ::access((folder_ + "/steadyrest.sock").c_str(), F_OK) == 0; }));
   }
   LiveLayer(const LiveLayer&) = delete;
   LiveLayer& operator=(const LiveLayer&) = delete;
   ~LiveLayer() { ::unsetenv("XDG_RUNTIME_DIR"); }
 
   [[nodiscard]] Process& process() noexcept { return process_; }
+  [[nodiscard]] std::string at(const std::string& name) const { return scratch_.at(name); }
+
+  /// A minute at most, however busy the computer is.
+  [[nodiscard]] static bool until(const std::function<bool()>& holds) {
+    constexpr int kTries = 6000;
+    constexpr unsigned kNap_us = 10'000;
+    bool now = holds();
+    for (int i = 0; i < kTries && !now; ++i) {
+      ::usleep(kNap_us);
+      now = holds();
+    }
+    return now;
+  }
+
+  /// The machine file with this line instead of that.
+  void change(const std::string& line, const std::string& instead) {
+    std::string text = machine_;
+    const std::size_t at = text.find(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    text.replace(at, line.size(), instead);
+    scratch_.file("machine.toml", text);
+  }
+
+  /// The status once `number` reloads have been done.
+  [[nodiscard]] static nlohmann::json after_reload(int number) {
+    nlohmann::json status;
+    EXPECT_TRUE(until([&] {
+      status = answer_of("status");
+      return status["reload"].is_object() && status["reload"]["number"] >= number;
+    }));
+    return status;
+  }
 
  private:
+  std::vector<std::string> arguments(const std::string& mode, std::vector<std::string> more) {
+    std::vector<std::string> all = {"run",
+                                    "--machine",
+                                    scratch_.file("machine.toml", machine_),
+                                    "--program",
+                                    project_file("examples/programs/rib-pocket.mpf"),
+                                    "--mode",
+                                    mode};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
   Scratch scratch_;
-  std::string socket_folder_;
+  std::string folder_;
+  std::string machine_;
   Process process_;
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -62,6 +64,30 @@ TEST(RecordShow, CountsEachReason) {
   ASSERT_EQ(answer["events"].size(), 1U);
   EXPECT_EQ(answer["events"][0]["kind"], "mode");
   EXPECT_EQ(answer["events"][0]["text"], "act");
+}
+
+#if STEADYREST_HAS_HDF5
+// The library's own test reads it back (record/hdf5).
+TEST(RecordExport, WritesHdf5ByTheEndingOrTheFormat) {
+  const Scratch scratch;
+  const std::string head = "\x89HDF\r\n\x1a\n";
+  for (const std::string& line :
+       {scratch.at("a.h5"), scratch.at("b.hdf5"), scratch.at("c.data") + " --format hdf5"}) {
+    EXPECT_EQ(answer_of("record export " + kRecord + " -o " + line)["samples"], kCycles);
+    EXPECT_EQ(text_of_file(line.substr(0, line.find(' '))).substr(0, head.size()), head);
+  }
+  EXPECT_EQ(answer_of("record export " + kRecord + " -o " + scratch.at("a.h5"))["samples"], kCycles)
+      << "an older one is replaced";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.path()), {}), 3)
+      << "and nothing is left beside them";
+  scratch.file("d.h5", "of somebody else");
+  expect_refused("record export " + kRecord + " -o " + scratch.at("d.h5"));
+}
+#endif
+
+TEST(RecordExport, RefusesHdf5OnStdout) {
+  expect_refused("record export " + kRecord + " --format hdf5", "no text for stdout");
+  expect_refused("record export " + kRecord + " --format xls", "--format");
 }
 
 TEST(RecordExport, WritesARowForEachCycle) {

@@ -49,6 +49,10 @@ void RunRecord::listen_to(steadyrest::live::Loop::Config& config) {
   config.on_mode = [this](kernel::machine::Mode mode) {
     writer_->event(record::EventKind::mode, steadyrest::live::word(mode));
   };
+  config.on_reload = [this](std::uint32_t text) {
+    writer_->event(record::EventKind::reload, text);
+  };
+  config.on_fault = [this](std::string_view reason) { writer_->keep(reason); };
   config.on_command = [this](const kernel::signal::Command& command) { port_.record(command); };
 }
 

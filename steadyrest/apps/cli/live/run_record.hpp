@@ -30,6 +30,7 @@ class RunRecord {
   void listen_to(steadyrest::live::Loop::Config& config);
   /// The machine as the loop sees it.
   [[nodiscard]] kernel::port::Port& port() noexcept { return port_; }
+  [[nodiscard]] record::RecordWriter& writer() noexcept { return *writer_; }
   /// The key `record`, and its text.
   void put(Answer& answer);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,26 +12,37 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/live/live_port.hpp>
+#include <steadyrest/apps/cli/live/lossy_port.hpp>
+#include <steadyrest/apps/cli/live/machine_reload.hpp>
 #include <steadyrest/apps/cli/live/run_record.hpp>
+#include <steadyrest/apps/cli/live/signals.hpp>
 #include <steadyrest/apps/cli/live/socket_option.hpp>
 #include <steadyrest/apps/cli/live/verb_run.hpp>
+#include <steadyrest/apps/cli/machine/start_checks.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/live/control_socket.hpp>
 #include <steadyrest/live/loop.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/realtime.hpp>
+#include <steadyrest/live/reloader.hpp>
+#include <steadyrest/live/service.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
+#include <steadyrest/record/run_folder.hpp>
 
-// The loop runs in this thread, the socket in another. A signal asks for the end; the layer hands
-// back first.
+// The loop runs in this thread, the socket and the reloader each in another. SIGINT and SIGTERM ask
+// for the end, and the layer hands back first; SIGHUP has the machine file read again.
 namespace steadyrest::apps::cli {
 namespace live {
 namespace {
 
 using steadyrest::live::Loop;
 using steadyrest::live::LoopFigures;
+using steadyrest::live::Reloader;
+using steadyrest::live::ServiceManager;
+
+constexpr double kLost_s = 0.5;
 
 struct Options {
   std::string machine;
@@ -40,39 +51,7 @@ struct Options {
   std::string socket;
   std::string record;  ///< folder; empty: no record
   double for_s = 0.0;
-};
-
-std::atomic<Loop*> running{nullptr};
-
-/// A second signal ends the process at once: the machine's watchdog hands back then.
-void on_signal(int /*signal*/) {
-  if (Loop* const loop = running.exchange(nullptr); loop != nullptr) {
-    loop->ask_stop();
-  }
-}
-
-/// SIGINT and SIGTERM end the loop while this lives.
-class StopSignals {
- public:
-  explicit StopSignals(Loop& loop) {
-    running.store(&loop);
-    struct sigaction now{};
-    now.sa_handler = on_signal;
-    now.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &now, &interrupt_);
-    ::sigaction(SIGTERM, &now, &terminate_);
-  }
-  StopSignals(const StopSignals&) = delete;
-  StopSignals& operator=(const StopSignals&) = delete;
-  ~StopSignals() {
-    ::sigaction(SIGINT, &interrupt_, nullptr);
-    ::sigaction(SIGTERM, &terminate_, nullptr);
-    running.store(nullptr);
-  }
-
- private:
-  struct sigaction interrupt_{};
-  struct sigaction terminate_{};
+  double lose_link_at_s = -1.0;  ///< below 0: never
 };
 
 std::string text_of(const LoopFigures& figures, const Json& json) {
@@ -110,65 +89,158 @@ Loop::Config loop_config(const Options& options, const kernel::machine::Machine&
   return config;
 }
 
-Outcome run(const Options& options) {
+/// What a run needs, judged.
+struct Prepared {
+  kernel::machine::Machine machine;
+  std::vector<passport::Finding> findings;
+  LivePort port;
+  supervisor::Supervisor layer;
+};
+
+/// What `doctor` calls an error refuses the start. The socket comes before the port: a second layer
+/// must not touch a machine that has one.
+std::expected<Prepared, Refusals> prepare(const Options& options) {
   auto machine = read_machine(options.machine);
   if (!machine) {
     return std::unexpected(machine.error());
+  }
+  auto findings = start_findings(*machine);
+  if (auto errors = errors_of(*machine, findings); !errors.empty()) {
+    return std::unexpected(std::move(errors));
+  }
+  if (const auto free = steadyrest::live::ControlSocket::check(options.socket); !free) {
+    return refused(free.error());
   }
   auto port = open_port(*machine, options.program);
   if (!port) {
     return std::unexpected(port.error());
   }
+  if (options.lose_link_at_s >= 0.0) {
+    if (machine->port != kernel::machine::PortKind::sim) {
+      return refused(bad_input("--lose-link-at-s is for the simulated machine",
+                               "leave it out, or set port = \"sim\""));
+    }
+    port->port =
+        std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
+  }
   auto layer = supervisor::Supervisor::make(*machine, port->port->capability());
   if (!layer) {
     return refused(layer.error());
   }
-  Loop::Config config = loop_config(options, *machine, *port);
+  return Prepared{.machine = std::move(*machine),
+                  .findings = std::move(findings),
+                  .port = std::move(*port),
+                  .layer = std::move(*layer)};
+}
+
+/// At the start, since a run may take days.
+void show_warnings(const std::vector<passport::Finding>& findings) {
+  for (const passport::Finding& finding : findings) {
+    if (finding.severity == passport::Severity::warning) {
+      fmt::print(stderr, "steadyrest: warning: {}; {}\n", finding.what, finding.to_do);
+    }
+  }
+}
+
+void say(const steadyrest::live::ReloadStatus& reload) {
+  fmt::print(stderr, "steadyrest: {}\n",
+             reload.taken ? "the machine file was read again and is in force"
+                          : "the machine file was not taken: " + reload.words);
+}
+
+Reloader::Config reloader_config(const Options& options, const Prepared& of, RunRecord* record,
+                                 const HangupWaits& hangup, const ServiceManager& manager,
+                                 Loop& loop) {
+  record::RecordWriter* const writer = record != nullptr ? &record->writer() : nullptr;
+  return {
+      .running = of.machine,
+      .make = [=, &hangup, &loop, capability = of.port.port->capability()](
+                  const auto& running) -> Result<std::unique_ptr<steadyrest::live::Successor>> {
+        if (hangup.terminal_is_gone()) {
+          loop.ask_stop();
+          return refuse("the terminal has gone: the run ends", "start it as a service");
+        }
+        return read_again(options.machine, running, capability, writer);
+      },
+      .utc_now = record::utc_now,
+      .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },
+      .on_end =
+          [&manager](const auto& reload) {
+            say(reload);
+            manager.tell("READY=1\nSTATUS=" + (reload.taken ? "" : "not taken: " + reload.words));
+          },
+      .signal = SIGHUP};
+}
+
+Answer answer_of(const LoopFigures& figures, const Prepared& of,
+                 const steadyrest::live::RealTime& real_time, RunRecord* record) {
+  Answer answer;
+  answer.json = steadyrest::live::figures_json(figures);
+  answer.json["machine"] = of.machine.name;
+  answer.json["port"] = passport::word(of.machine.port);
+  if (of.port.program) {
+    answer.json["program"] = of.port.program();
+  }
+  answer.json["memory_locked"] = real_time.memory_locked;
+  answer.json["real_time_priority"] = real_time.priority;
+  answer.json["findings"] = json_of(of.findings);
+  answer.text = text_of(figures, answer.json);
+  if (record != nullptr) {
+    record->put(answer);
+  }
+  for (const auto& refused : real_time.refused) {
+    answer.text += fmt::format("{}; {}\n", refused.what, refused.to_do);
+  }
+  return answer;
+}
+
+// Threads come before the real-time priority, which they would inherit. What a thread uses is made
+// before it.
+Outcome run(const Options& options) {
+  const HangupWaits hangup;
+  auto prepared = prepare(options);
+  if (!prepared) {
+    return std::unexpected(prepared.error());
+  }
+  Loop::Config config = loop_config(options, prepared->machine, prepared->port);
   if (auto checked = Loop::check(config); !checked) {
     return refused(checked.error());
   }
   steadyrest::live::MonotonicPace pace(config.period_s);
-  auto record = RunRecord::start({.folder = options.record,
-                                  .machine_file = options.machine,
-                                  .machine = machine->name,
-                                  .program_file = options.program.file},
-                                 *port);
-  if (!record) {
-    return refused(record.error());
+  auto made = RunRecord::start({.folder = options.record,
+                                .machine_file = options.machine,
+                                .machine = prepared->machine.name,
+                                .program_file = options.program.file},
+                               prepared->port);
+  if (!made) {
+    return refused(made.error());
   }
-  if (*record) {
-    (*record)->listen_to(config);
+  RunRecord* const record = made->get();
+  if (record != nullptr) {
+    record->listen_to(config);
   }
-  Loop loop(*record ? (*record)->port() : *port->port, *layer, pace, config);
-  const std::string word(passport::word(machine->port));
-  const auto socket =
-      steadyrest::live::ControlSocket::open(options.socket, [&](std::string_view line) {
-        return steadyrest::live::answer({.loop = loop, .port = word, .program = port->program},
-                                        line);
+  Loop loop(record != nullptr ? record->port() : *prepared->port.port, prepared->layer, pace,
+            config);
+  const auto manager = ServiceManager::from_environment();
+  Reloader reloader(loop, reloader_config(options, *prepared, record, hangup, manager, loop));
+  const auto socket = steadyrest::live::ControlSocket::open(
+      options.socket, [&, port = passport::word(prepared->machine.port)](std::string_view line) {
+        return steadyrest::live::answer({.loop = loop, .port = port, .reloader = &reloader, .program = prepared->port.program},
+             line);
       });
   if (!socket) {
     return refused(socket.error());
   }
+  std::optional<steadyrest::live::LifeSignThread> life_sign(std::in_place, loop, manager);
   const auto real_time = steadyrest::live::ask_for_real_time();
+  for (auto& finding : real_time_findings(prepared->machine, real_time)) {
+    prepared->findings.push_back(std::move(finding));
+  }
+  show_warnings(prepared->findings);
   const StopSignals signals(loop);
   const LoopFigures& figures = loop.run();
-  Answer answer;
-  answer.json = steadyrest::live::figures_json(figures);
-  answer.json["machine"] = machine->name;
-  answer.json["port"] = word;
-  if (port->program) {
-    answer.json["program"] = port->program();
-  }
-  answer.json["memory_locked"] = real_time.memory_locked;
-  answer.json["real_time_priority"] = real_time.priority;
-  answer.text = text_of(figures, answer.json);
-  if (*record) {
-    (*record)->put(answer);
-  }
-  for (const std::string& refused : real_time.refused) {
-    answer.text += refused + "\n";
-  }
-  return answer;
+  life_sign.reset();  // before the record ends: that may take longer than the watchdog waits
+  return answer_of(figures, *prepared, real_time, record);
 }
 
 }  // namespace
@@ -186,6 +258,10 @@ void add_verb_run(Session& session, Verb& verb) {
   verb.add_option("--record", options->record,
                   "Record the run in a new file in this folder (SQLite)")
       ->type_name("FOLDER");
+  verb.add_option("--lose-link-at-s", options->lose_link_at_s,
+                  "Simulated machine: its link is lost for 0.5 s at this time, for a trial of what "
+                  "happens then")
+      ->check(within(0.0, 1e8));
   live::add_socket_option(verb, options->socket);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");

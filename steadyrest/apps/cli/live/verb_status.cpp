@@ -42,6 +42,10 @@ std::string text_of(const Json& status) {
   if (const Json fault = status.value("port_fault", Json()); fault.is_string()) {
     text += "the port cannot be read or written: " + fault.get<std::string>() + "\n";
   }
+  if (const Json reload = status.value("reload", Json()); reload.is_object()) {
+    text += fmt::format("machine file read again {}: {} {}\n", reload.value("utc", ""),
+                        reload.value("outcome", ""), reload.value("words", ""));
+  }
   return text;
 }
 

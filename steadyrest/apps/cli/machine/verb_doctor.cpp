@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <ctime>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,16 +8,18 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/machine/start_checks.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/live/realtime.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/trial/timing/judgement.hpp>
 #include <steadyrest/trial/timing/layer_timing.hpp>
 
 // Will this machine file work, and is this computer fast enough for it? The file is judged first
-// (passport/file/consistency.cpp), then the clock, then the layer is run on a path full of
-// decisions and timed cycle by cycle.
+// (passport/file/consistency.cpp), then the clock and the real-time settings, then the layer is run
+// on a path full of decisions and timed cycle by cycle.
 namespace steadyrest::apps::cli {
 namespace doctor {
 namespace {
@@ -32,25 +32,6 @@ using trial::timing::LayerTiming;
 /// The shop's unit for cycle times.
 double us(double seconds) {
   return 1e6 * seconds;
-}
-
-/// Cycles are timed with the monotonic clock; a resolution coarser than 1 % of a cycle would show
-/// up in the figures as jitter.
-std::vector<Finding> check_clock(const Machine& machine) {
-  timespec resolution{};
-  if (clock_getres(CLOCK_MONOTONIC, &resolution) != 0) {
-    return {{Severity::error, "clock", "this system has no monotonic clock",
-             "run on a system with CLOCK_MONOTONIC"}};
-  }
-  const double resolution_s =
-      static_cast<double>(resolution.tv_sec) + 1e-9 * static_cast<double>(resolution.tv_nsec);
-  if (resolution_s > 0.01 * machine.control.interpolator_period_s) {
-    return {{Severity::warning, "clock",
-             fmt::format("the clock's resolution is {:.3g} ms, more than 1 % of a cycle",
-                         resolution_s * 1e3),
-             "use a kernel with high-resolution timers"}};
-  }
-  return {};
 }
 
 /// The layer's share of a cycle on this computer, or why it does not run on this machine.
@@ -73,19 +54,14 @@ Measured measure(const Machine& machine, Progress& progress) {
   return {*timing, trial::timing::judge(*timing, machine)};
 }
 
-/// All findings, errors first, in the order of the checks within one severity.
-std::vector<Finding> examine(const Machine& machine, std::vector<Finding> measured) {
-  std::vector<Finding> all = passport::findings(machine);
-  for (const auto& more : {check_clock(machine), std::move(measured)}) {
+/// All findings, errors first.
+std::vector<Finding> examine(const Machine& machine, const std::vector<Finding>& measured) {
+  std::vector<Finding> all = start_findings(machine);
+  for (const auto& more :
+       {real_time_findings(machine, steadyrest::live::real_time_allowed()), measured}) {
     all.insert(all.end(), more.begin(), more.end());
   }
-  std::vector<Finding> sorted;
-  for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
-    std::ranges::copy_if(all, std::back_inserter(sorted), [severity](const Finding& finding) {
-      return finding.severity == severity;
-    });
-  }
-  return sorted;
+  return by_severity(all);
 }
 
 /// `most_share` is the part of a cycle that the layer may take; port and operating system need the
@@ -127,19 +103,15 @@ Answer report(const Machine& machine, const Measured& measured,
   answer.json["file"] = machine.file;
   answer.json["port"] = passport::word(machine.port);
   answer.json["timing"] = measured.timing ? json_of(*measured.timing) : Json();
-  answer.json["findings"] = Json::array();
+  answer.json["findings"] = steadyrest::apps::cli::json_of(findings);
   answer.text =
       fmt::format("{} ({}), port {}\n", machine.name, machine.file, passport::word(machine.port));
   if (measured.timing) {
     answer.text += text_of(*measured.timing);
   }
   for (const Finding& finding : findings) {
-    const std::string_view severity = passport::word(finding.severity);
-    answer.json["findings"].push_back({{"severity", severity},
-                                       {"check", finding.check},
-                                       {"what", finding.what},
-                                       {"to_do", finding.to_do}});
-    answer.text += fmt::format("  {}: {}; {}\n", severity, finding.what, finding.to_do);
+    answer.text += fmt::format("  {}: {}; {}\n", passport::word(finding.severity), finding.what,
+                               finding.to_do);
   }
   answer.text +=
       ok ? (findings.empty() ? "ok\n" : "ok, subject to the remarks above\n") : "not ok\n";

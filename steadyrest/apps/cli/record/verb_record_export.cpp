@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <steadyrest/apps/cli/record/verb_record_export.hpp>
+#include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/temporary.hpp>
 #include <steadyrest/record/columns.hpp>
+#if STEADYREST_HAS_HDF5
+#include <steadyrest/record/hdf5/hdf5_export.hpp>
+#endif
 #include <steadyrest/record/record_reader.hpp>
 
 namespace steadyrest::apps::cli {
@@ -23,6 +33,7 @@ constexpr const char* kHead = "number,path,vibrations,time_s";
 struct Options {
   std::string record;
   std::string output;
+  std::string format;  ///< empty: by the output's ending
 };
 
 std::string head(record::Sample& sample) {
@@ -53,11 +64,21 @@ void put_row(record::Sample& sample, std::string& line) {
   line += '\n';
 }
 
-Outcome run(const Options& options, bool json, Progress& progress) {
-  auto reader = record::RecordReader::open(options.record);
-  if (!reader) {
-    return refused(reader.error());
+void show(std::uint64_t samples, const record::RecordReader& reader, Progress& progress) {
+  if (samples % 1024 == 0) {
+    progress.update(static_cast<double>(samples) /
+                        static_cast<double>(std::max(reader.totals().samples, samples)),
+                    "writing");
   }
+}
+
+Answer answer_of(std::uint64_t samples) {
+  Answer answer;
+  answer.json["samples"] = samples;
+  return answer;
+}
+
+Outcome csv(record::RecordReader& reader, const Options& options, bool json, Progress& progress) {
   auto out = table_output(options.output, json);
   if (!out) {
     return refused(out.error());
@@ -66,7 +87,7 @@ Outcome run(const Options& options, bool json, Progress& progress) {
   out->write(head(*sample));
   std::uint64_t samples = 0;
   for (std::string line;;) {
-    const auto more = reader->next(*sample);
+    const auto more = reader.next(*sample);
     if (!more) {
       return refused(more.error());
     }
@@ -75,18 +96,64 @@ Outcome run(const Options& options, bool json, Progress& progress) {
     }
     put_row(*sample, line);
     out->write(line);
-    if (++samples % 1024 == 0) {
-      progress.update(static_cast<double>(samples) /
-                          static_cast<double>(std::max(reader->totals().samples, samples)),
-                      "writing");
-    }
+    show(++samples, reader, progress);
   }
   if (const auto written = out->commit(); !written) {
     return refused(written.error());
   }
-  Answer answer;
-  answer.json["samples"] = samples;
-  return answer;
+  return answer_of(samples);
+}
+
+#if STEADYREST_HAS_HDF5
+/// The library wants a file of its own; its bytes then go the way of every output.
+Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& progress) {
+  auto out = kernel::file::OutputFile::open(options.output);
+  if (!out) {
+    return refused(out.error());
+  }
+  const kernel::file::Temporary part(fmt::format("{}.{}.part", options.output, ::getpid()),
+                                     kernel::file::Temporary::Kind::file);
+  const auto samples = record::hdf5::write_hdf5(
+      reader, part.path(), [&](std::uint64_t n) { show(n, reader, progress); });
+  if (!samples) {
+    return refused(samples.error());
+  }
+  std::ifstream bytes(part.path(), std::ios::binary);
+  for (std::array<char, 1U << 16U> block{};
+       bytes.read(block.data(), block.size()) || bytes.gcount() > 0;) {
+    out->write({block.data(), static_cast<std::size_t>(bytes.gcount())});
+  }
+  if (!bytes.eof()) {
+    return refused(bad_input(part.path(), "cannot be read back", "look at the disk"));
+  }
+  if (const auto written = out->commit(); !written) {
+    return refused(written.error());
+  }
+  return answer_of(*samples);
+}
+#else
+Outcome hdf5(record::RecordReader& /*reader*/, const Options& options, Progress& /*progress*/) {
+  return refused(bad_input(options.output, "this program was built without HDF5",
+                           "build it with libhdf5-dev installed, or write CSV"));
+}
+#endif
+
+bool is_hdf5(const Options& options) {
+  return options.format.empty()
+             ? options.output.ends_with(".h5") || options.output.ends_with(".hdf5")
+             : options.format == "hdf5";
+}
+
+Outcome run(const Options& options, bool json, Progress& progress) {
+  if (is_hdf5(options) && options.output.empty()) {
+    return refused(bad_input("HDF5 is no text for stdout", "name a file with -o"));
+  }
+  auto reader = record::RecordReader::open(options.record);
+  if (!reader) {
+    return refused(reader.error());
+  }
+  return is_hdf5(options) ? hdf5(*reader, options, progress)
+                          : csv(*reader, options, json, progress);
 }
 
 }  // namespace
@@ -96,7 +163,14 @@ void add_verb_record_export(Session& session, Verb& verb) {
   auto options = std::make_shared<record_export::Options>();
   verb.reads("record", options->record, "Record of a run (.sqlite)")->required();
   verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",
-              csv_content("a table of a record (CSV)", {record_export::kHead}));
+              either(csv_content("a table of a record (CSV)", {record_export::kHead}),
+                     {"an HDF5 file", [](std::string_view text) {
+                        return text.starts_with("\x89HDF\r\n\x1a\n");
+                      }}));
+  verb.add_option("--format", options->format,
+                  "csv, or hdf5 with units, events and the machine file; default: hdf5 for a file "
+                  "that ends in .h5 or .hdf5, else csv")
+      ->check(CLI::IsMember({"csv", "hdf5"}));
   session.on(verb, [options, &session](Progress& progress) {
     return record_export::run(*options, session.json(), progress);
   });

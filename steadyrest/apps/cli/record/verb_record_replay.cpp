@@ -57,6 +57,7 @@ Answer answer_of(const Replayed& replayed) {
   answer.json["first_difference"] = nullptr;
   answer.json["gap_after"] = replayed.gap_after ? Json(*replayed.gap_after) : Json(nullptr);
   answer.json["paths_complete"] = replayed.paths_complete;
+  answer.json["reloads"] = replayed.reloads;
   answer.text = fmt::format("{} cycles decided again: ", replayed.cycles);
   if (const auto& first = replayed.first_difference) {
     answer.json["first_difference"] = {{"cycle", first->cycle},
@@ -90,9 +91,10 @@ Outcome run(const Options& options, Progress& progress) {
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  const auto replayed = trial::replay::replay(options.record, *machine, [&progress](double share) {
-    progress.update(share, "deciding again");
-  });
+  const auto replayed = trial::replay::replay(
+      options.record, *machine,
+      [&progress](double share) { progress.update(share, "deciding again"); },
+      options.machine.empty() ? trial::replay::Reloads::follow : trial::replay::Reloads::ignore);
   if (!replayed) {
     return refused(replayed.error());
   }
@@ -105,8 +107,9 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_record_replay(Session& session, Verb& verb) {
   auto options = std::make_shared<record_replay::Options>();
   verb.reads("record", options->record, "Record of a run (.sqlite)")->required();
-  verb.reads("--machine", options->machine,
-             "Machine file (TOML) to decide by; default: the one in the record");
+  verb.reads(
+      "--machine", options->machine,
+      "Machine file (TOML) to decide by, whatever was reloaded; default: those in the record");
   session.on(verb,
              [options](Progress& progress) { return record_replay::run(*options, progress); });
 }

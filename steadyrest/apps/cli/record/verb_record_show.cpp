@@ -20,20 +20,6 @@ namespace {
 using kernel::outcome::Reason;
 using record::EventKind;
 
-const char* word(EventKind kind) {
-  switch (kind) {
-    case EventKind::mode:
-      return "mode";
-    case EventKind::unread:
-      return "unread";
-    case EventKind::undelivered:
-      return "undelivered";
-    case EventKind::note:
-      break;
-  }
-  return "note";
-}
-
 /// Read from the samples themselves.
 struct Seen {
   double first_s = 0.0;
@@ -100,9 +86,12 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
   for (const record::Event& event : reader.events()) {
     answer.json["events"].push_back({{"time_s", event.time_s},
                                      {"before", event.before},
-                                     {"kind", word(event.kind)},
+                                     {"kind", record::word(event.kind)},
                                      {"text", event.text}});
-    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, word(event.kind), event.text);
+    // The whole machine file is for --json.
+    answer.text += fmt::format(
+        "{:.3f} s {}: {}\n", event.time_s, record::word(event.kind),
+        event.kind == EventKind::reload ? "another machine file took over" : event.text);
   }
   return answer;
 }

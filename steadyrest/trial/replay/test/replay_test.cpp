@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 #include <steadyrest/trial/replay/testing/recorded_cut.hpp>
 
@@ -51,6 +52,33 @@ TEST_F(Replay, AnotherLimitNamesTheFirstCycleThatIsDecidedOtherwise) {
   EXPECT_THAT(replayed.first_difference->fields,
               ::testing::Contains(::testing::StartsWith("command.feed")));
   EXPECT_GT(replayed.different, 0U);
+}
+
+TEST_F(Replay, FollowsAMachineFileThatTookOver) {
+  const Machine machine = trial::test::machine_of("vmc-840d.toml");
+  std::string text =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/vmc-840d.toml");
+  const std::string limit = "limit_um = 10\n";
+  text.replace(text.find(limit), limit.size(), "limit_um = 3\n");
+  const auto cut = testing::record_cut(file_, machine, kAll, 0, {}, {.at = 400, .text = text});
+  const auto replayed = replay(file_, machine).value();
+  EXPECT_EQ(replayed.reloads, 1U);
+  EXPECT_EQ(replayed.cycles, cut.cycles);
+  EXPECT_FALSE(replayed.first_difference);
+  const auto ignored = replay(file_, machine, [](double) {}, Reloads::ignore).value();
+  EXPECT_EQ(ignored.reloads, 1U);
+  ASSERT_TRUE(ignored.first_difference);
+  EXPECT_GE(ignored.first_difference->cycle, 400U);
+}
+
+TEST_F(Replay, RefusesAMachineFileThatCannotHaveTakenOver) {
+  const Machine machine = trial::test::machine_of("vmc-840d.toml");
+  const std::string text =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/ideal-k50.toml");
+  testing::record_cut(file_, machine, 300, 0, {}, {.at = 200, .text = text});
+  const auto replayed = replay(file_, machine);
+  ASSERT_FALSE(replayed);
+  EXPECT_THAT(replayed.error().what, ::testing::HasSubstr("cannot change during a run"));
 }
 
 TEST_F(Replay, EndsBeforeALostSample) {

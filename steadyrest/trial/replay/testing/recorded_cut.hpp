@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/record/record_writer.hpp>
 #include <steadyrest/record/recording_port.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
@@ -22,11 +24,17 @@ struct RecordedCut {
   std::uint64_t reduced = 0;  ///< cycles in which the layer took feed away
 };
 
+/// A machine file that takes over during the cut.
+struct Takeover {
+  std::uint64_t at = 0;  ///< cycle; 0: never
+  std::string text;
+};
+
 /// Cuts the example circle with the layer acting, and records it. `lose_at`: the cycle that the
 /// record loses; 0: none.
 inline RecordedCut record_cut(const std::string& file, const kernel::machine::Machine& machine,
                               std::uint64_t most_cycles, std::uint64_t lose_at = 0,
-                              record::RunInfo info = {}) {
+                              record::RunInfo info = {}, const Takeover& takeover = {}) {
   nc::interpret::Config config;
   config.dialect = nc::read::Dialect::sinumerik;
   nc::plan::PathBuilder builder(machine);
@@ -50,6 +58,13 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
   record::RecordingPort port(*simulated, *writer);
   RecordedCut cut;
   while (!simulated->finished() && cut.cycles < most_cycles) {
+    if (takeover.at > 0 && cut.cycles == takeover.at) {
+      const auto wanted = passport::parse(takeover.text, "other.toml").value();
+      auto next = supervisor::Supervisor::make(wanted, simulated->capability()).value();
+      next.take_over(layer, supervisor::kept(machine, wanted));
+      layer = std::move(next);
+      writer->event(record::EventKind::reload, writer->hold(takeover.text));
+    }
     const auto command = layer.cycle(port, {}).value();
     if (++cut.cycles == lose_at) {
       kernel::signal::Frame lost;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <ctime>
+
+#include <unistd.h>
+
+#include <steadyrest/apps/cli/live/signals.hpp>
+
+namespace steadyrest::apps::cli::live {
+namespace {
+
+using steadyrest::live::Loop;
+
+std::atomic<Loop*> running{nullptr};
+
+void on_signal(int /*signal*/) {
+  if (Loop* const loop = running.exchange(nullptr); loop != nullptr) {
+    loop->ask_stop();
+  }
+}
+
+sigset_t hangup() noexcept {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGHUP);
+  return set;
+}
+
+}  // namespace
+
+StopSignals::StopSignals(Loop& loop) {
+  running.store(&loop);
+  struct sigaction now{};
+  now.sa_handler = on_signal;
+  now.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &now, &interrupt_);
+  ::sigaction(SIGTERM, &now, &terminate_);
+}
+
+StopSignals::~StopSignals() {
+  ::sigaction(SIGINT, &interrupt_, nullptr);
+  ::sigaction(SIGTERM, &terminate_, nullptr);
+  running.store(nullptr);
+}
+
+HangupWaits::HangupWaits() : on_terminal_(::isatty(STDIN_FILENO) == 1) {
+  const sigset_t set = hangup();
+  ::pthread_sigmask(SIG_BLOCK, &set, &before_);
+}
+
+// One that comes at the very end would otherwise kill the process before it has said its figures.
+HangupWaits::~HangupWaits() {
+  const sigset_t set = hangup();
+  const timespec at_once{};
+  while (::sigtimedwait(&set, nullptr, &at_once) > 0) {
+  }
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+bool HangupWaits::terminal_is_gone() const noexcept {
+  return on_terminal_ && ::isatty(STDIN_FILENO) != 1;
+}
+
+}  // namespace steadyrest::apps::cli::live

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <utility>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <steadyrest/live/reloader.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+/// Where the system has no descriptor left to wake it.
+constexpr int kWithoutWake_ms = 200;
+constexpr auto kLook = std::chrono::milliseconds(1);
+
+int descriptor_of(int signal) noexcept {
+  if (signal == 0) {
+    return -1;
+  }
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, signal);
+  return ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+/// Empties it; false: it has not been written to.
+bool drained(int descriptor) noexcept {
+  std::array<char, sizeof(signalfd_siginfo)> bytes{};
+  bool any = false;
+  while (descriptor >= 0 && ::read(descriptor, bytes.data(), bytes.size()) > 0) {
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+Reloader::Reloader(Loop& loop, Config config)
+    : loop_(loop),
+      config_(std::move(config)),
+      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      signal_(descriptor_of(config_.signal)),
+      thread_([this] { work(); }) {}
+
+Reloader::~Reloader() {
+  stop_.store(true);
+  ::eventfd_write(wake_, 1);
+  thread_.join();
+  ::close(wake_);
+  if (signal_ >= 0) {
+    ::close(signal_);
+  }
+}
+
+std::uint64_t Reloader::ask() {
+  const std::uint64_t number = asked_.fetch_add(1) + 1;
+  ::eventfd_write(wake_, 1);
+  return number;
+}
+
+ReloadStatus Reloader::status() const {
+  const std::scoped_lock lock(mutex_);
+  return status_;
+}
+
+void Reloader::work() {
+  while (!stop_.load()) {
+    // A negative descriptor is passed over.
+    std::array<pollfd, 2> on = {pollfd{wake_, POLLIN, 0}, pollfd{signal_, POLLIN, 0}};
+    ::poll(on.data(), on.size(), wake_ >= 0 ? -1 : kWithoutWake_ms);
+    const bool asked = drained(wake_);
+    const bool told = drained(signal_);
+    if (told) {
+      asked_.fetch_add(1);
+    }
+    if ((asked || told) && !stop_.load()) {
+      reload();
+    }
+  }
+}
+
+void Reloader::reload() {
+  const std::uint64_t number = asked_.load();
+  if (config_.on_begin) {
+    config_.on_begin();
+  }
+  auto made = config_.make(present_ ? present_->machine : config_.running);
+  ReloadStatus now{.number = number, .utc = {}, .taken = false, .words = {}};
+  if (!made) {
+    now.words = kernel::outcome::text(made.error());
+  } else {
+    next_ = std::move(*made);
+    now.taken = hand_over();
+    now.words = now.taken ? "" : "the loop does not cycle: nothing was changed";
+  }
+  if (config_.utc_now) {
+    now.utc = config_.utc_now();
+  }
+  {
+    const std::scoped_lock lock(mutex_);
+    status_ = now;
+  }
+  if (config_.on_end) {
+    config_.on_end(now);
+  }
+}
+
+/// The loop makes no system call to wake this thread, so it looks.
+bool Reloader::hand_over() {
+  const std::uint64_t before = loop_.taken();
+  const auto until =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(config_.patience_s);
+  loop_.offer(*next_);
+  while (loop_.taken() == before) {
+    const bool enough = stop_.load() || std::chrono::steady_clock::now() >= until;
+    if (enough && loop_.withdraw()) {
+      next_.reset();
+      return false;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  present_ = std::move(next_);
+  return true;
+}
+
+}  // namespace steadyrest::live
