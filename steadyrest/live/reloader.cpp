@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <utility>
 
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include <steadyrest/live/reloader.hpp>
@@ -18,19 +18,18 @@ namespace {
 constexpr int kWithoutWake_ms = 200;
 constexpr auto kLook = std::chrono::milliseconds(1);
 
-int descriptor_of(int signal) noexcept {
-  if (signal == 0) {
-    return -1;
-  }
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, signal);
-  return ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+/// Where the signal's handler writes.
+std::atomic<int> told{-1};
+
+void on_signal(int /*signal*/) {
+  const int before = errno;
+  ::eventfd_write(told.load(), 1);
+  errno = before;
 }
 
 /// Empties it; false: it has not been written to.
 bool drained(int descriptor) noexcept {
-  std::array<char, sizeof(signalfd_siginfo)> bytes{};
+  std::array<char, sizeof(eventfd_t)> bytes{};
   bool any = false;
   while (descriptor >= 0 && ::read(descriptor, bytes.data(), bytes.size()) > 0) {
     any = true;
@@ -41,11 +40,17 @@ bool drained(int descriptor) noexcept {
 }  // namespace
 
 Reloader::Reloader(Loop& loop, Config config)
-    : loop_(loop),
-      config_(std::move(config)),
-      wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      signal_(descriptor_of(config_.signal)),
-      thread_([this] { work(); }) {}
+    : loop_(loop), config_(std::move(config)), wake_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (config_.signal != 0) {
+    signal_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    told.store(signal_);
+    struct sigaction now{};
+    now.sa_handler = on_signal;
+    now.sa_flags = SA_RESTART;
+    ::sigaction(config_.signal, &now, &before_);
+  }
+  thread_ = std::thread([this] { work(); });
+}
 
 Reloader::~Reloader() {
   stop_.store(true);
@@ -53,6 +58,8 @@ Reloader::~Reloader() {
   thread_.join();
   ::close(wake_);
   if (signal_ >= 0) {
+    ::sigaction(config_.signal, &before_, nullptr);
+    told.store(-1);
     ::close(signal_);
   }
 }
@@ -69,16 +76,23 @@ ReloadStatus Reloader::status() const {
 }
 
 void Reloader::work() {
+  // Others hold it back, so that it is handled here.
+  if (config_.signal != 0) {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, config_.signal);
+    ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  }
   while (!stop_.load()) {
     // A negative descriptor is passed over.
     std::array<pollfd, 2> on = {pollfd{wake_, POLLIN, 0}, pollfd{signal_, POLLIN, 0}};
     ::poll(on.data(), on.size(), wake_ >= 0 ? -1 : kWithoutWake_ms);
     const bool asked = drained(wake_);
-    const bool told = drained(signal_);
-    if (told) {
+    const bool signalled = drained(signal_);
+    if (signalled) {
       asked_.fetch_add(1);
     }
-    if ((asked || told) && !stop_.load()) {
+    if ((asked || signalled) && !stop_.load()) {
       reload();
     }
   }

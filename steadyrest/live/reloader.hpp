@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -40,7 +41,9 @@ class Reloader {
     std::function<void()> on_begin = {};
     std::function<void(const ReloadStatus&)> on_end = {};
     // NOLINTEND(readability-redundant-member-init)
-    int signal = 0;           ///< counts as a request; the caller blocks it in all threads. 0: none
+    /// Counts as a request, whichever thread it reaches; the caller blocks it in those that it must
+    /// not disturb. One reloader at a time may have one. 0: none.
+    int signal = 0;
     double patience_s = 2.0;  ///< for the loop to take an offer
   };
 
@@ -65,6 +68,7 @@ class Reloader {
   std::unique_ptr<Successor> next_;
   int wake_ = -1;
   int signal_ = -1;
+  struct sigaction before_{};  ///< what the signal did
   std::atomic<std::uint64_t> asked_{0};
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;

@@ -11,9 +11,9 @@ using kernel::signal::PathSegment;
 // and so to columns.hpp.
 TEST(Columns, NameEveryField) {
   [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15,
-                                f16, f17, f18, f19, f20, f21, f22, f23, f24, f25] =
+                                f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26] =
       kernel::signal::Frame{};
-  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11] =
+  [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12] =
       kernel::signal::AxisSample{};
   [[maybe_unused]] const auto& [o1, o2, o3, o4] = kernel::signal::OverrideState{};
   [[maybe_unused]] const auto& [p1, p2, p3, p4] = kernel::signal::ProbeReading{};
@@ -21,12 +21,12 @@ TEST(Columns, NameEveryField) {
       kernel::signal::Command{};
   [[maybe_unused]] const auto& [s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12, s13, s14, s15,
                                 s16, s17, s18, s19] = PathSegment{};
-  [[maybe_unused]] const auto& [k1, k2, k3, k4, k5] = kernel::port::Capability{};
+  [[maybe_unused]] const auto& [k1, k2, k3, k4, k5, k6] = kernel::port::Capability{};
   std::size_t columns = 0;
   Sample sample;
   sample_columns(sample, [&columns](const ColumnName&, auto&) { ++columns; });
-  // Of the sample itself 3; of the frame 17 single ones; of the command 12 single ones.
-  EXPECT_EQ(columns, 3 + 17 + 8 * 11 + 3 * 4 + 16 + 4 + 12 + 2 * 8U);
+  // Of the sample itself 3; of the frame 18 single ones; of the command 12 single ones.
+  EXPECT_EQ(columns, 3 + 18 + 8 * 12 + 3 * 4 + 16 + 4 + 12 + 2 * 8U);
 }
 
 TEST(RoundTrip, EveryFieldComesBackBitForBit) {

@@ -116,7 +116,7 @@ pid_t on_terminal(int master, const std::string& socket) {
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(slave, STDIN_FILENO);
     ::dup2(nowhere, STDOUT_FILENO);
-    ::dup2(nowhere, STDERR_FILENO);
+    ::dup2(slave, STDERR_FILENO);  // so that it has the thread that draws progress
     ::close(slave);
     ::close(master);
     ::execl(STEADYREST_PROGRAM, "steadyrest", "run", "--machine", machine.c_str(), "--program",

@@ -21,8 +21,8 @@ class StopSignals {
   struct sigaction terminate_{};
 };
 
-/// While this lives, SIGHUP waits for the reloader's thread and disturbs no other. Made before any
-/// thread: they inherit it.
+/// While this lives, SIGHUP waits for the reloader's thread and disturbs neither the loop nor the
+/// threads that are made after it.
 class HangupWaits {
  public:
   HangupWaits();

@@ -133,19 +133,23 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
                   .layer = std::move(*layer)};
 }
 
+/// fmt::print() throws where stderr has gone with its terminal; a run must not end for that.
+void say(const std::string& line) noexcept {
+  std::fputs(line.c_str(), stderr);
+}
+
 /// At the start, since a run may take days.
 void show_warnings(const std::vector<passport::Finding>& findings) {
   for (const passport::Finding& finding : findings) {
     if (finding.severity == passport::Severity::warning) {
-      fmt::print(stderr, "steadyrest: warning: {}; {}\n", finding.what, finding.to_do);
+      say(fmt::format("steadyrest: warning: {}; {}\n", finding.what, finding.to_do));
     }
   }
 }
 
-void say(const steadyrest::live::ReloadStatus& reload) {
-  fmt::print(stderr, "steadyrest: {}\n",
-             reload.taken ? "the machine file was read again and is in force"
-                          : "the machine file was not taken: " + reload.words);
+std::string line_of(const steadyrest::live::ReloadStatus& reload) {
+  return "steadyrest: " + (reload.taken ? "the machine file was read again and is in force\n"
+                                        : "the machine file was not taken: " + reload.words + "\n");
 }
 
 Reloader::Config reloader_config(const Options& options, const Prepared& of, RunRecord* record,
@@ -166,7 +170,7 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
       .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },
       .on_end =
           [&manager](const auto& reload) {
-            say(reload);
+            say(line_of(reload));
             manager.tell("READY=1\nSTATUS=" + (reload.taken ? "" : "not taken: " + reload.words));
           },
       .signal = SIGHUP};
