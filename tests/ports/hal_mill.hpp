@@ -19,7 +19,8 @@ class HalMill final : public adapters::linuxcnc::HalSide {
  public:
   static constexpr double kPeriod_s = 0.001;
 
-  explicit HalMill(std::vector<Turn> turns) : turns_(std::move(turns)) {}
+  HalMill(std::vector<Turn> turns, bool offsets)
+      : turns_(std::move(turns)), with_offsets_(offsets) {}
 
   bool read_row(std::size_t channel, adapters::linuxcnc::Row& row) noexcept override {
     if (lost) {
@@ -36,6 +37,11 @@ class HalMill final : public adapters::linuxcnc::HalSide {
     unheard_ = pins.heartbeat == pins_.heartbeat ? unheard_ : 0;
     alive_ = alive_ || (pins.armed && !pins_.armed);
     pins_ = pins;
+  }
+  adapters::linuxcnc::Inputs read_inputs() noexcept override { return {}; }
+  [[nodiscard]] bool offsets_connected() const noexcept override { return with_offsets_; }
+  [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
+    return {};
   }
   void pause() noexcept override {}
 
@@ -77,17 +83,22 @@ class HalMill final : public adapters::linuxcnc::HalSide {
             1.0,
             feed_,
             spindle_,
-            alive_ ? 1.0 : 0.0};
+            alive_ ? 1.0 : 0.0,
+            1.0,
+            1.0};
   }
   [[nodiscard]] adapters::linuxcnc::Row axis_row() const noexcept {
     adapters::linuxcnc::Row row{static_cast<double>(tick_)};
     for (std::size_t i = 0; i < 3; ++i) {
-      row[1 + 3 * i] = row[2 + 3 * i] = (i == 0 ? x_mm_ : 0.0) + offset_mm_[i];
+      const std::size_t first = 1 + adapters::linuxcnc::kAxisColumns * i;
+      row[first] = row[first + 1] = (i == 0 ? x_mm_ : 0.0) + offset_mm_[i];
+      row[first + 3] = offset_mm_[i];
     }
     return row;
   }
 
   std::vector<Turn> turns_;
+  bool with_offsets_;
   adapters::linuxcnc::Pins pins_;
   kernel::signal::AxisValues offset_mm_{};
   std::uint64_t tick_ = 0;

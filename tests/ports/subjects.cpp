@@ -74,11 +74,9 @@ std::shared_ptr<std::string> own_folder() {
 Subject linuxcnc(const std::vector<Turn>& turns, bool offsets) {
   Subject subject;
   subject.machine = machine_of("linuxcnc-mill");
-  const auto hal = std::make_shared<HalMill>(turns);
+  const auto hal = std::make_shared<HalMill>(turns, offsets);
   subject.port = adapters::linuxcnc::LinuxCncPort::make(
-                     {.units = {.axes = 3, .servo_period_s = HalMill::kPeriod_s},
-                      .offsets_connected = offsets},
-                     *hal)
+                     {.units = {.axes = 3, .servo_period_s = HalMill::kPeriod_s}}, *hal)
                      .value();
   subject.in_force_s = 0.1;  // the factor rises by 15 1/s
   subject.cut_link = [hal] { hal->lost = true; };

@@ -211,7 +211,8 @@ void DaemonScene::begin_cycle() {
 /// What a client sees is JSON whatever the machine showed.
 void DaemonScene::ask() {
   ++tally_.asked;
-  const std::string answer = live::answer(*loop_, "hostile", R"({"version":1,"ask":"status"})");
+  const std::string answer =
+      live::answer({.loop = *loop_, .port = "hostile"}, R"({"version":1,"ask":"status"})");
   if (!nlohmann::json::accept(answer)) {
     broken("status: no JSON: " + answer);
   }

@@ -3,10 +3,10 @@
 #include <memory>
 #include <thread>
 
-#include "desk.hpp"
 #include <gtest/gtest.h>
 
 #include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/test/desk.hpp>
 
 namespace steadyrest::live {
 namespace {
@@ -52,8 +52,8 @@ TEST(FollowedPort, ShowsThePathThatTheMachineHides) {
   ASSERT_TRUE(before.has_value());
   EXPECT_TRUE(before->path.empty());
   EXPECT_EQ(followed.place(), Place::no_route);
-  followed.offer(std::make_shared<const Route>(
-      std::vector(before->path.begin(), before->path.end())));
+  followed.offer(
+      std::make_shared<const Route>(std::vector(before->path.begin(), before->path.end())));
   followed.offer(std::make_shared<const Route>(
       std::vector(hidden.truth.path.begin(), hidden.truth.path.end())));
   std::size_t found = 0;

@@ -6,13 +6,13 @@
 #include <string>
 #include <thread>
 
-#include "desk.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/live/test/desk.hpp>
 
 namespace steadyrest::live {
 namespace {

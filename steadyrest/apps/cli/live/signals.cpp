@@ -11,10 +11,10 @@ namespace {
 
 using steadyrest::live::Loop;
 
-std::atomic<Loop*> running{nullptr};
+std::atomic<Loop*> the_loop{nullptr};
 
 void on_signal(int /*signal*/) {
-  if (Loop* const loop = running.exchange(nullptr); loop != nullptr) {
+  if (Loop* const loop = the_loop.exchange(nullptr); loop != nullptr) {
     loop->ask_stop();
   }
 }
@@ -29,7 +29,7 @@ sigset_t hangup() noexcept {
 }  // namespace
 
 StopSignals::StopSignals(Loop& loop) {
-  running.store(&loop);
+  the_loop.store(&loop);
   struct sigaction now{};
   now.sa_handler = on_signal;
   now.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -40,7 +40,7 @@ StopSignals::StopSignals(Loop& loop) {
 StopSignals::~StopSignals() {
   ::sigaction(SIGINT, &interrupt_, nullptr);
   ::sigaction(SIGTERM, &terminate_, nullptr);
-  running.store(nullptr);
+  the_loop.store(nullptr);
 }
 
 HangupWaits::HangupWaits() : on_terminal_(::isatty(STDIN_FILENO) == 1) {

@@ -73,8 +73,7 @@ inline std::vector<Step> driven(
   (void)locator.update(stopped);
   double ratio = 1.0;
   for (std::size_t i = 0; i < 2'000'000; ++i) {
-    const auto setpoint =
-        interpolator.update({.feed_ratio = ratio, .rapid_ratio = ratio});
+    const auto setpoint = interpolator.update({.feed_ratio = ratio, .rapid_ratio = ratio});
     if (setpoint.finished) {
       break;
     }
@@ -101,8 +100,8 @@ inline Told told(const std::vector<Step>& steps) {
     ++out.moving;
     if (step.seen.place == Place::on_path) {
       ++out.cycles;
-      out.worst_mm = std::max(out.worst_mm,
-                              std::abs(step.seen.position_mm - step.truth.path_position_mm));
+      out.worst_mm =
+          std::max(out.worst_mm, std::abs(step.seen.position_mm - step.truth.path_position_mm));
     }
   }
   return out;

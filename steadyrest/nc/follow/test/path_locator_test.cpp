@@ -3,11 +3,11 @@
 #include <random>
 #include <string>
 
-#include "driven.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/nc/follow/test/driven.hpp>
 
 namespace steadyrest::nc::follow {
 namespace {
@@ -21,9 +21,11 @@ using test::told;
 /// Where a path goes back on itself, both ways are equally near.
 constexpr double kAtTurn_mm = 0.002;
 
-void expect_followed(const std::string& text, double worst_mm,
-                     const std::function<double(std::size_t, Frame&)>& change =
-                         [](std::size_t, Frame&) { return 1.0; }) {
+void expect_followed(
+    const std::string& text, double worst_mm,
+    const std::function<double(std::size_t, Frame&)>& change = [](std::size_t, Frame&) {
+      return 1.0;
+    }) {
   const auto path = planned(text);
   const Route route(path.segments);
   const auto result = told(driven(path, route, change));
@@ -34,11 +36,13 @@ void expect_followed(const std::string& text, double worst_mm,
 }
 
 TEST(PathLocator, FollowsLinesArcsAndCorners) {
-  expect_followed(kHead + "G0 X5 Z2\nG1 Z0 F3000\nX40\nG3 X40 Y20 J10\nG1 X0\nY0\nG0 Z2\nM2\n", 1e-6);
+  expect_followed(kHead + "G0 X5 Z2\nG1 Z0 F3000\nX40\nG3 X40 Y20 J10\nG1 X0\nY0\nG0 Z2\nM2\n",
+                  1e-6);
 }
 
 TEST(PathLocator, TurnsWithAPathThatGoesBackOnItself) {
-  expect_followed(kHead + "G1 X10 F3000\nX0\nX10\nX2\nX9\nZ-5\nZ0\nZ-5\nZ0\nG4 P0.1\nX0\nM2\n", kAtTurn_mm);
+  expect_followed(kHead + "G1 X10 F3000\nX0\nX10\nX2\nX9\nZ-5\nZ0\nZ-5\nZ0\nG4 P0.1\nX0\nM2\n",
+                  kAtTurn_mm);
 }
 
 TEST(PathLocator, KnowsTheTurnOfACircle) {

@@ -4,8 +4,9 @@
 #include <limits>
 #include <string>
 
-#include "driven.hpp"
 #include <gtest/gtest.h>
+
+#include <steadyrest/nc/follow/test/driven.hpp>
 
 namespace steadyrest::nc::follow {
 namespace {
@@ -110,7 +111,8 @@ TEST(PathLost, DoesNotGuessThePassOfALoop) {
 // A program that is started at a line does that line from where the machine stands.
 TEST(PathLost, RestartFromALineIsFoundWhereItMeetsThePath) {
   const Route route(planned(kHead + "G1 X40 F4000\nY20\nX0\nY0\nM2\n").segments);
-  // Line 3 from (30, 5): along the path's line 3 it is 10 mm away; line 4 is met at its full length.
+  // Line 3 from (30, 5): along the path's line 3 it is 10 mm away; line 4 is met at its full
+  // length.
   interpret::Config config;
   config.dialect = read::Dialect::linuxcnc;
   config.axes = "XYZ";
