@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,6 +17,7 @@
 #include <unistd.h>
 
 #include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/realtime.hpp>
 #include <steadyrest/record/recording_port.hpp>
 
 namespace {
@@ -75,14 +77,17 @@ int main(int argc, char** argv) {
       half = std::max(half, kib);
       if (step % 10 == 0) {
         fmt::print("{:6.0f} s  {} KiB\n", passed_s, kib);
+        std::fflush(stdout);
       }
       std::this_thread::sleep_for(std::chrono::seconds(1));
     }
   });
+  const auto real_time = live::ask_for_real_time();  // the other threads go without
   const live::LoopFigures& figures = loop.run();
   done.store(true);
   watch.join();
   writer->flush();
+  fmt::print("real-time priority: {}\n", real_time.priority);
   fmt::print("{} cycles, {} overruns, {} lost to the record of {} MiB\n", figures.cycles,
              figures.overruns, writer->dropped(), std::filesystem::file_size(file) >> 20U);
   fmt::print("at most {} KiB in the first half, {} KiB in the second\n", first_half_kib,

@@ -78,7 +78,7 @@ class Supervisor {
     FrameClock::State clock;
     double delivered_s = 0.0;          ///< good time of the last written cycle
     double delivered_stamped_s = 0.0;  ///< the same by its stamp, which may have been in doubt
-    /// Of the cycles since the last written one; NaN: restored, not known; infinite: none yet.
+    /// Of the cycles since the last written one; infinite: none yet.
     double silent_s = std::numeric_limits<double>::infinity();
     double stamp_s = std::numeric_limits<double>::quiet_NaN();  ///< of the last frame read
     double stands_s = 0.0;  ///< of the cycles that have shown the same stamp again
@@ -86,7 +86,8 @@ class Supervisor {
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
-    bool clock_set = false;    ///< since then
+    double silence_began_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not restored
+    bool clock_set = false;                                             ///< since then
     kernel::override::Channel::State feed;
     kernel::override::Channel::State spindle;
     kernel::override::OffsetEnvelope::State offset;
@@ -177,6 +178,8 @@ class Supervisor {
                                   const FrameClock::Tick& tick) noexcept;
   void settle_mode() noexcept;
   void watch_source(double stamp_s) noexcept;
+  [[nodiscard]] bool stamps_say_short(const FrameClock::Tick& tick) const noexcept;
+  [[nodiscard]] bool is_dropped(const FrameClock::Tick& tick) const noexcept;
   [[nodiscard]] bool source_stands() const noexcept { return state_.stands_s > watchdog_s_; }
   void begin_at_panel() noexcept;
   void resume(const FrameClock::Tick& tick) noexcept;

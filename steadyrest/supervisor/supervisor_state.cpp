@@ -44,11 +44,29 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
   }
 }
 
+/// The stamps tell that the machine still holds everything, and agree with the silent cycles: a
+/// clock that stood, or gave the last delivery a wrong stamp, would make any silence look short.
+bool Supervisor::stamps_say_short(const FrameClock::Tick& tick) const noexcept {
+  constexpr double kSlackCycles = 2.5;  // FrameClock's own
+  const double gap_s = tick.time_s - state_.delivered_s;
+  return !state_.clock_set && gap_s <= watchdog_s_ &&
+         gap_s >= state_.silent_s - kSlackCycles * cycle_s_;
+}
+
+/// By the silent cycles; a restored process adds, by the stamps, how long it was away.
+bool Supervisor::is_dropped(const FrameClock::Tick& tick) const noexcept {
+  if (std::isnan(state_.silence_began_s)) {
+    return state_.silent_s > watchdog_s_;
+  }
+  return !stamps_say_short(tick) &&
+         (state_.clock_set || tick.time_s - state_.silence_began_s > watchdog_s_);
+}
+
 // An interruption ends with the first good stamp. Up to the watchdog's time the machine still holds
 // what was written, and the layer continues from there; beyond it, it begins at the panel. How long
-// it was is told by the silent cycles. Where the stamps say longer (a clock that was set, or jumped
-// for another reason), the machine may hold everything still: the layer stays silent until the
-// watchdog has dropped it for certain. A restored process knows the stamps alone.
+// it was is told by the silent cycles. Where the stamps do not agree (a clock that was set, stood
+// or jumped), the machine may hold everything still, or not: the layer stays silent until the
+// watchdog has dropped it for certain.
 void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
   // A confirmed jump means that the last delivery's stamp was right, doubt or not: the gap counts
   // from there, else a long cycle would pass for an interruption.
@@ -59,13 +77,12 @@ void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
   if (!state_.interrupted || !tick.good || source_stands()) {
     return;
   }
-  const bool long_by_stamps = state_.clock_set || tick.time_s - state_.delivered_s > watchdog_s_;
-  const bool restored = std::isnan(state_.silent_s);
-  const bool dropped = restored ? long_by_stamps : state_.silent_s > watchdog_s_;
-  if (long_by_stamps && !dropped) {
+  const bool dropped = is_dropped(tick);
+  if (!dropped && !stamps_say_short(tick)) {
     return;
   }
   state_.interrupted = false;
+  state_.silence_began_s = kNan;
   if (dropped) {
     begin_at_panel();
   }
@@ -154,7 +171,8 @@ void Supervisor::restore(const State& state) noexcept {
             .path_offset = state.path_offset,
             .delivered_s = state.delivered_s,
             .delivered_stamped_s = state.delivered_stamped_s,
-            .silent_s = kNan});
+            .silent_s = state.silent_s});
+  state_.silence_began_s = clock_.time_s() - state.silent_s;
   motion_.reset();
   if (contour_) {
     contour_->reset();

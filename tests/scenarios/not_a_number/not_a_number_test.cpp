@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position of an axis reads NaN for 0.4 s in the cut.
+// The position of an axis reads NaN for 2.4 s in the cut.
 #include <cmath>
 #include <limits>
 
@@ -12,7 +12,7 @@ namespace {
 using kernel::outcome::Reason;
 
 constexpr std::size_t kBegins = 1000;
-constexpr std::size_t kEnds = 1100;
+constexpr std::size_t kEnds = 1600;
 
 TEST(NotANumber, HandsBackBySlewFreezesTheOffsetAndComesBack) {
   Stage stage;
@@ -21,11 +21,11 @@ TEST(NotANumber, HandsBackBySlewFreezesTheOffsetAndComesBack) {
       frame.axis[0].actual_mm = std::numeric_limits<double>::quiet_NaN();
     }
   };
-  stage.run(2000);
+  stage.run(2600);
   const auto& log = stage.log();
   EXPECT_LT(log[kBegins - 1].feed_ratio(), 0.6);
   EXPECT_EQ(stage.named(Reason::input_not_finite, kBegins, kEnds), kEnds - kBegins);
-  // 0.4 s at 2 1/s: from below 60 % to the panel.
+  // At 2 1/s from below 60 % to the panel: over 0.2 s.
   EXPECT_LT(log[kBegins + 20].feed_ratio(), 0.85) << "not at once";
   EXPECT_EQ(log[kEnds - 1].feed_ratio(), 1.0);
   const auto& frozen_mm = log[kBegins].written->offset_mm;
@@ -34,7 +34,7 @@ TEST(NotANumber, HandsBackBySlewFreezesTheOffsetAndComesBack) {
     ASSERT_TRUE(log[i].written);
     ASSERT_EQ(log[i].written->offset_mm, frozen_mm) << "in the cut";
   }
-  EXPECT_LT(log[1999].feed_ratio(), 0.6) << "it corrects again";
+  EXPECT_LT(log[2599].feed_ratio(), 0.6) << "it corrects again";
 }
 
 TEST(NotANumber, OffsetsAgainstTheContourErrorRampOut) {
@@ -44,7 +44,7 @@ TEST(NotANumber, OffsetsAgainstTheContourErrorRampOut) {
       frame.axis[1].command_mm = std::numeric_limits<double>::infinity();
     }
   };
-  stage.run(1200);
+  stage.run(1700);
   const auto size_mm = [&](std::size_t cycle) {
     const auto& mm = stage.log()[cycle].written->path_offset_mm;
     return std::hypot(mm[0], mm[1]);
