@@ -72,7 +72,7 @@ TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
   change(file, "PRAGMA user_version = 3");
-  EXPECT_THAT(refusal(file), testing::HasSubstr("has format 2; this program reads format 1"));
+  EXPECT_THAT(refusal(file), testing::HasSubstr("has format 3; this program reads format 2"));
 }
 
 TEST(RefusedRecord, DamageNamesThePlace) {

@@ -57,6 +57,8 @@ void randomize(Random& random, T& value) {
     value = bits % 3 == 0 ? awkward[random() % std::size(awkward)] : std::bit_cast<double>(bits);
   } else if constexpr (std::is_same_v<T, bool>) {
     value = bits % 2 == 0;
+  } else if constexpr (std::is_same_v<T, kernel::signal::ProgramState>) {
+    value = static_cast<T>(bits % 4);
   } else if constexpr (std::is_same_v<T, kernel::signal::Motion>) {
     value = static_cast<T>(bits % 9);
   } else if constexpr (std::is_same_v<T, kernel::signal::Geometry>) {
