@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <limits>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -49,6 +51,24 @@ Result<void> check_format(Database& database, const std::string& file) {
                   "has format " + std::to_string(*format) + "; this program reads format " +
                       std::to_string(kFormat),
                   "use the version of Steadyrest that recorded it");
+  }
+  return {};
+}
+
+/// SQLite sees a missing page only when it is read. While a log lies beside the file, pages may be
+/// there.
+Result<void> check_size(Database& database, const std::string& file) {
+  const auto pages = database.number("PRAGMA page_count");
+  const auto page_bytes = database.number("PRAGMA page_size");
+  if (!pages || !page_bytes) {
+    return std::unexpected(pages ? page_bytes.error() : pages.error());
+  }
+  std::error_code none;
+  const auto log = std::filesystem::file_size(file + "-wal", none);
+  const bool logged = !none && log > 0;
+  const auto bytes = std::filesystem::file_size(file, none);
+  if (!none && !logged && std::cmp_less(bytes, *pages * *page_bytes)) {
+    return refuse(file, "is damaged: it is cut off", "restore it from a copy, or delete it");
   }
   return {};
 }
@@ -112,8 +132,10 @@ Result<RecordReader> RecordReader::open(const std::string& file) {
   if (!database) {
     return std::unexpected(std::move(database.error()));
   }
-  if (auto format = check_format(*database, file); !format) {
-    return std::unexpected(std::move(format.error()));
+  if (auto fit = in_turn([&] { return check_format(*database, file); },
+                         [&] { return check_size(*database, file); });
+      !fit) {
+    return std::unexpected(std::move(fit.error()));
   }
   auto chunks =
       database->prepare("SELECT chunk, samples FROM chunk WHERE chunk > ? ORDER BY chunk");
