@@ -19,7 +19,7 @@ def bring_up(program):
     ask(command.mode, linuxcnc.MODE_MANUAL)
     ask(command.teleop_enable, 0)
     command.home(-1)
-    for _ in range(200):
+    for _ in range(3000):
         status.poll()
         if all(status.homed[:3]):
             break

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -35,8 +36,6 @@ struct SharedPins {
   struct Axis {
     hal_float_t* offset;
     hal_float_t* path_offset;
-    hal_float_t* share;         ///< [AXIS_L] OFFSET_AV_RATIO
-    hal_float_t* acceleration;  ///< [AXIS_L] MAX_ACCELERATION
   };
   std::array<Axis, kernel::signal::kMaxAxes> axis;
   struct Sensor {
@@ -46,7 +45,6 @@ struct SharedPins {
   hal_float_t* probe_number;
   hal_float_t* probe_axis;
   hal_float_t* probe_displacement;
-  hal_float_t* vibration_rate;
   hal_bit_t* heartbeat;
   hal_bit_t* armed;
 };
@@ -60,6 +58,31 @@ std::unexpected<Refusal> unavailable(std::string what, std::string to_do) {
   return std::unexpected(Refusal{
       .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
 }
+
+/// Of a signal that a HAL file set; nothing where there is none of this name. Not by a pin: linking
+/// the first one would overwrite the value.
+std::optional<double> value_of(const std::string& signal) {
+  hal_type_t type = HAL_TYPE_UNSPECIFIED;
+  hal_data_u* data = nullptr;
+  bool has_writers = false;
+  if (hal_get_signal_value_by_name(signal.c_str(), &type, &data, &has_writers) != 0 ||
+      type != HAL_FLOAT || data == nullptr) {
+    return std::nullopt;
+  }
+  return data->f;
+}
+
+/// The HAL prints to stderr what it does not find; here it may be missing.
+class Quiet {
+ public:
+  Quiet() : before_(rtapi_get_msg_level()) { rtapi_set_msg_level(RTAPI_MSG_NONE); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+  ~Quiet() { rtapi_set_msg_level(before_); }
+
+ private:
+  int before_;
+};
 
 }  // namespace
 
@@ -97,6 +120,8 @@ struct HalProcess::Hal {
   bool has_probe = false;
   hal_stream_t vibration_stream{};
   bool has_vibration = false;
+  double vibration_rate_hz = 0.0;
+  kernel::signal::AxisValues offset_acceleration{};
   std::array<double, kMostReadings> vibration{};
   long pause_ns = 100'000;
 };
@@ -141,10 +166,6 @@ Result<void> HalProcess::Hal::make_pins(const Config& config) {
     code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].offset, component, "%s.offset-%d", name, n);
     code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].path_offset, component, "%s.path-offset-%d",
                                name, n);
-    code |=
-        hal_pin_float_newf(HAL_IN, &pins->axis[a].share, component, "%s.offset-share-%d", name, n);
-    code |= hal_pin_float_newf(HAL_IN, &pins->axis[a].acceleration, component,
-                               "%s.axis-acceleration-%d", name, n);
   }
   code |= make_inputs(name);
   if (code != 0) {
@@ -167,20 +188,21 @@ int HalProcess::Hal::make_inputs(const char* name) {
   code |= hal_pin_float_newf(HAL_IN, &pins->probe_axis, component, "%s.probe-axis", name);
   code |= hal_pin_float_newf(HAL_IN, &pins->probe_displacement, component, "%s.probe-displacement",
                              name);
-  code |= hal_pin_float_newf(HAL_IN, &pins->vibration_rate, component, "%s.vibration-rate", name);
   return code;
 }
 
 /// A HAL without these signals has no such sensor.
 void HalProcess::Hal::connect_inputs(const Config& config) {
+  const Quiet quiet;
   for (std::size_t i = 0; i < has_temperature.size(); ++i) {
     has_temperature[i] = link(config, fmt::format("temperature-{}", i)).has_value();
   }
   has_probe = link(config, "probe-number") && link(config, "probe-axis") &&
               link(config, "probe-displacement");
-  has_vibration =
-      link(config, "vibration-rate") &&
-      hal_stream_attach(&vibration_stream, component, kSamplerKey + kVibrationChannel, "f") >= 0;
+  const auto rate_hz = value_of("layer-vibration-rate");
+  vibration_rate_hz = rate_hz.value_or(0.0);
+  has_vibration = rate_hz && hal_stream_attach(&vibration_stream, component,
+                                               kSamplerKey + kVibrationChannel, "f") >= 0;
 }
 
 Result<void> HalProcess::Hal::link(const Config& config, const std::string& pin) {
@@ -204,12 +226,17 @@ Result<void> HalProcess::Hal::connect(const Config& config) {
   }
   connect_inputs(config);
   // A HAL without layer_offsets.hal has none of these signals.
-  if (!link(config, "offset-0")) {
-    return {};
+  {
+    const Quiet quiet;
+    if (!link(config, "offset-0")) {
+      return {};
+    }
   }
   offsets = config.axes;
   for (std::size_t a = 0; a < offsets; ++a) {
-    for (const char* pin : {"offset", "path-offset", "offset-share", "axis-acceleration"}) {
+    offset_acceleration[a] = value_of(fmt::format("layer-offset-share-{}", a)).value_or(0.0) *
+                             value_of(fmt::format("layer-axis-acceleration-{}", a)).value_or(0.0);
+    for (const char* pin : {"offset", "path-offset"}) {
       if (a == 0 && std::string_view(pin) == "offset") {
         continue;
       }
@@ -316,7 +343,7 @@ Inputs HalProcess::read_inputs() noexcept {
       hal_->vibration[count++] = row.f;
     }
     inputs.vibration = std::span<const double>(hal_->vibration).first(count);
-    inputs.vibration_rate_hz = *pins.vibration_rate;
+    inputs.vibration_rate_hz = hal_->vibration_rate_hz;
   }
   return inputs;
 }
@@ -340,16 +367,16 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
   *hal_->pins->heartbeat = pins.heartbeat;
 }
 
+double HalProcess::linear_unit_mm() const noexcept {
+  return value_of("layer-unit-mm").value_or(1.0);
+}
+
 bool HalProcess::offsets_connected() const noexcept {
   return hal_->offsets > 0;
 }
 
 kernel::signal::AxisValues HalProcess::offset_acceleration() const noexcept {
-  kernel::signal::AxisValues out{};
-  for (std::size_t a = 0; a < hal_->offsets; ++a) {
-    out[a] = *hal_->pins->axis[a].share * *hal_->pins->axis[a].acceleration;
-  }
-  return out;
+  return hal_->offset_acceleration;
 }
 
 void HalProcess::pause() noexcept {

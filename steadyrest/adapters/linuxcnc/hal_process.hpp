@@ -41,6 +41,8 @@ class HalProcess final : public HalSide {
   [[nodiscard]] bool offsets_connected() const noexcept override;
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override;
   void pause() noexcept override;
+  /// Millimetres in one of the machine's linear units, as the HAL file says; without it 1.
+  [[nodiscard]] double linear_unit_mm() const noexcept;
 
  private:
   struct Hal;

@@ -91,7 +91,6 @@ TEST_F(LinuxCncSetup, SaysWhichSpindleSpeedIsNotScaled) {
   EXPECT_THAT(notes, HasSubstr("m.hal:8: spindle-cmd takes spindle.0.speed-out to pwm.value: not "
                                "scaled by the layer; net layer-drive-rpm to the drive's pin"));
   EXPECT_THAT(notes, HasSubstr("M52 P1"));
-  EXPECT_THAT(notes, HasSubstr("m.ini:13: [TRAJ] LINEAR_UNITS = inch: the port reads"));
   EXPECT_THAT(notes, HasSubstr("Z has 2 joints; the layer reads joint 1"));
 }
 
@@ -104,6 +103,7 @@ TEST_F(LinuxCncSetup, ConnectsOffsetsWhenAsked) {
   EXPECT_THAT(ini_text, HasSubstr("[AXIS_Z]\nOFFSET_AV_RATIO = 0.05\nMIN_LIMIT"));
   EXPECT_THAT(ini_text, HasSubstr("[AXIS_C]\nMAX_VELOCITY"));
   const std::string layer = text_of_file(scratch_.at("m-layer.hal"));
+  EXPECT_THAT(layer, HasSubstr("sets layer-unit-mm 25.4\n"));
   // Counts of half a millionth of an inch; 5 mm/s in inches.
   EXPECT_THAT(layer, HasSubstr("setp axis.x.eoffset-scale 0.0000005\n"));
   EXPECT_THAT(layer, HasSubstr("setp layer.offset-x.gain0 2000000\n"));

@@ -223,6 +223,9 @@ void samples(Text& text, const LayerHal& layer) {
     ticks.push_back(fmt::format("sampler.{}.pin.0", i));
   }
   text.net("layer-tick", "layer.tick.out", ticks);
+  text.line("\n# Millimetres in one of the machine's units.");
+  text.line("newsig layer-unit-mm float");
+  text.line(fmt::format("sets layer-unit-mm {:.10g}", layer.mm_per_unit));
   text.line();
   state_samples(text);
   text.line("# Columns of an axis: command, actual position, following error, offset.");

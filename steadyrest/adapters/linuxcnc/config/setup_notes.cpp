@@ -43,11 +43,6 @@ void add_notes(const IniFile& ini, const Configuration& machine, const HalUse& u
                const LayerHal& layer, const SetupOptions& options, std::vector<Note>& notes) {
   notes.push_back({"", 0, "the layer acts on the feed only in programs with M52 P1",
                    "put M52 P1 at the beginning of each program"});
-  if (const IniEntry* unit = ini.find("TRAJ", "LINEAR_UNITS"); machine.mm_per_unit != 1.0) {
-    notes.push_back({unit->file, unit->line,
-                     unit->text() + ": the port reads every machine's positions as mm",
-                     "let the layer observe only: its figures are too small by the unit"});
-  }
   spindle(ini, use, notes);
   for (const ConfiguredAxis& axis : machine.axes) {
     if (axis.joints.size() > 1) {

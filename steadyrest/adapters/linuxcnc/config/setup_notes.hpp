@@ -11,7 +11,7 @@
 
 namespace steadyrest::adapters::linuxcnc::config {
 
-/// What setup leaves to the user: the spindle's drive, M52 P1, the units of a machine in inches.
+/// What setup leaves to the user: the spindle's drive, M52 P1.
 void add_notes(const IniFile& ini, const Configuration& machine, const HalUse& use,
                const LayerHal& layer, const SetupOptions& options, std::vector<Note>& notes);
 

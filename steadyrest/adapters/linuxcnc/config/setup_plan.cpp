@@ -74,6 +74,7 @@ class Planner {
     layer_.offset_components = options_.offsets;
     // Finer than any machine resolves: 0.01 µm, or half a millionth of an inch.
     layer_.offset_count = machine_.mm_per_unit > 10.0 ? 5e-7 : 1e-5;
+    layer_.mm_per_unit = machine_.mm_per_unit;
     layer_.path_ramp_s = 5.0 / machine_.mm_per_unit;
     layer_.signal = use_.signals();
     for (const SpindleUse& use : use_.spindle_uses()) {

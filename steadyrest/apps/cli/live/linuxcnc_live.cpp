@@ -95,6 +95,7 @@ Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine)
   }
   adapter::LinuxCncPort::Config config;
   config.units.axes = machine.axes.size();
+  config.units.linear_unit_mm = (*hal)->linear_unit_mm();
   config.units.servo_period_s = machine.control.servo_period_s;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), config.units.rotary.size()); ++i) {
     config.units.rotary[i] = machine.axes[i].rotary;

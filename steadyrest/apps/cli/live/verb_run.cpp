@@ -229,8 +229,9 @@ Outcome run(const Options& options) {
   Reloader reloader(loop, reloader_config(options, *prepared, record, hangup, manager, loop));
   const auto socket = steadyrest::live::ControlSocket::open(
       options.socket, [&, port = passport::word(prepared->machine.port)](std::string_view line) {
-        return steadyrest::live::answer({.loop = loop, .port = port, .reloader = &reloader, .program = prepared->port.program},
-             line);
+        return steadyrest::live::answer(
+            {.loop = loop, .port = port, .reloader = &reloader, .program = prepared->port.program},
+            line);
       });
   if (!socket) {
     return refused(socket.error());

@@ -18,6 +18,20 @@ std::string percent(const Json& status, const char* key) {
   return fmt::format("{:.1f} %", status.value(key, 0.0));
 }
 
+/// Whether the layer knows where the control is on its program.
+std::string path_text(const Json& program) {
+  if (const Json words = program.value("words", Json()); words.is_string()) {
+    return "no path: " + words.get<std::string>();
+  }
+  const std::string place = program.value("place", "");
+  const std::string file = program.value("file", "");
+  return place == "on_path"      ? "on the path of " + file
+         : place == "off_path"   ? "off the planned path of " + file + " here"
+         : place == "searching"  ? "looking for the place on " + file
+         : place == "no_program" ? "no program runs; " + file + " is known"
+                                 : "no program is known";
+}
+
 std::string text_of(const Json& status) {
   const Json error = status.value("contour_error_um", Json());
   Table table({"layer", ""});
@@ -41,6 +55,9 @@ std::string text_of(const Json& status) {
   std::string text = table.text();
   if (const Json fault = status.value("port_fault", Json()); fault.is_string()) {
     text += "the port cannot be read or written: " + fault.get<std::string>() + "\n";
+  }
+  if (const Json program = status.value("program", Json()); program.is_object()) {
+    text += path_text(program) + "\n";
   }
   if (const Json reload = status.value("reload", Json()); reload.is_object()) {
     text += fmt::format("machine file read again {}: {} {}\n", reload.value("utc", ""),
