@@ -15,7 +15,7 @@ using kernel::outcome::Result;
 using Got = SampleQueue::Got;
 
 /// From the write to the command that contains it, beyond one: measured on 2.9.0~pre1.
-constexpr double kOffsetCycles = 4.0;
+constexpr double kOffsetCycles = 3.0;
 constexpr double kPausesPerPeriod = 10.0;
 /// Beats until an armed watchdog must show in the samples, and until a released one has seen it.
 constexpr std::uint32_t kBeatsToShow = 30;

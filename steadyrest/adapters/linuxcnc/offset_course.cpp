@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kReturn_s = 1.0;  ///< of the control's units
 constexpr double kUsedShare = 0.9;
+constexpr double kOvershoot = 0.05;
+constexpr double kForgets_s = 0.5;
 constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 
 }  // namespace
@@ -52,7 +54,11 @@ double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcep
       std::copysign(std::min(std::abs(away - asked_speed * dt_s) / dt_s,
                              std::sqrt(2.0 * most * std::abs(away) + step * step) - step),
                     away);
-  const double wish = asked_speed + closing;
+  // A target that moves fast may stop at once: the speed stays within what overshoots by a share of
+  // the offset's size.
+  now.size = std::max(std::abs(asked), now.size * (1.0 - std::min(1.0, dt_s / kForgets_s)));
+  const double brakable = std::sqrt(2.0 * most * (std::abs(away) + kOvershoot * now.size));
+  const double wish = std::clamp(asked_speed + closing, -brakable, brakable);
   now.asked = asked;
   now.speed += std::clamp(wish - now.speed, -step, step);
   now.at += now.speed * dt_s;

@@ -14,7 +14,8 @@ namespace steadyrest::adapters::linuxcnc {
 ///   v = √(2a·(T − o) + (a·Δt)²) − a·Δt,
 /// so it stays v²/2a behind a target that moves. Here p follows what is asked for with at most
 /// 0.9·a, w being its speed, and the target leads it: T = p + w·|w|/2a. Where the layer asks for no
-/// more than the axis can do, p is what it asks for; where it asks for more, p does not overshoot.
+/// more than the axis can do, p is what it asks for; where it asks for more, p overshoots
+/// by a twentieth of the offset at most.
 ///
 /// While the machine is off LinuxCNC takes the offset in force into the commanded position: the
 /// target is 0 then, and the offset against heat grows from 0 at 1 mm/s afterwards.
@@ -32,6 +33,7 @@ class OffsetCourse {
     double asked = 0.0;  ///< the last sum of both offsets
     double at = 0.0;     ///< p
     double speed = 0.0;  ///< w
+    double size = 0.0;   ///< of the offset in the last half second
     double given = 0.0;  ///< of the offset against heat, after the machine was off
   };
 

@@ -96,6 +96,21 @@ TEST(OffsetCourse, DoesNotOvershootWhereMoreIsAskedThanTheAxisCanDo) {
   EXPECT_GT(least, -2.02);
 }
 
+// The offset that a circle's beginning asks for: it grows as fast as the axis can and then stays.
+TEST(OffsetCourse, OvershootsLittleWhereATargetStopsAtOnce) {
+  OffsetCourse course({400.0});
+  OffsetPlanner planner(40.0, 400.0);
+  double most = 0.0;
+  for (std::uint64_t tick = 1; tick < 400; ++tick) {
+    const double t = kPeriod_s * static_cast<double>(tick);
+    Pins pins;
+    pins.path_offset[0] = std::min(0.578, 0.023 + 5.0 * t + 180.0 * t * t);
+    course.apply(pins, true, tick, kPeriod_s);
+    most = std::max(most, planner.update(pins.offset[0] + pins.path_offset[0]));
+  }
+  EXPECT_LT(most, 1.07 * 0.578) << "without the bound 0.73";
+}
+
 // Off and on bakes an offset into the position (LinuxCNC 2.9): it must be 0 when the machine comes
 // on again, and grow from there.
 TEST(OffsetCourse, GrowsFromNothingAfterTheMachineWasOff) {
