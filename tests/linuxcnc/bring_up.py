@@ -18,7 +18,8 @@ def bring_up(program):
     ask(command.state, linuxcnc.STATE_ON)
     ask(command.mode, linuxcnc.MODE_MANUAL)
     ask(command.teleop_enable, 0)
-    command.home(-1)
+    if not all(status.homed[:3]):
+        command.home(-1)
     for _ in range(3000):
         status.poll()
         if all(status.homed[:3]):

@@ -252,7 +252,7 @@ class Writer {
     line("binary_max_percent = 100");
     line("binary_step_percent = 0.5");
     line(fmt::format("scan_period_ms = {:.10g}", machine_.servo_period_ms));
-    line("dead_time_ms = 0");
+    line("dead_time_ms = 1");
     line("latched_word = true");
     line("max_percent = 100");
     return spindle_override();
