@@ -20,9 +20,10 @@ constexpr double kLongPlan_s = 1.0;
 }  // namespace
 
 ProgramWatch::ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source)
-    : port_(port), machine_(std::move(machine)), source_(std::move(source)), thread_([this] {
-        watch();
-      }) {}
+    : port_(port),
+      machine_(std::move(machine)),
+      source_(std::move(source)),
+      thread_([this] { watch(); }) {}
 
 ProgramWatch::~ProgramWatch() {
   ends_.store(true);
@@ -84,7 +85,8 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
   if (same_file && !loaded.stopped) {
     if (stamp != *stamp_ && !withdrawn_) {
       withdrawn_ = true;
-      withdraw(loaded.file, loaded.file + " has changed while it runs; the control may run either text");
+      withdraw(loaded.file,
+               loaded.file + " has changed while it runs; the control may run either text");
     }
     return;
   }

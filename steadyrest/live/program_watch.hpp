@@ -33,7 +33,8 @@ class ProgramWatch {
  public:
   /// The newest state of the control; nothing when none came within the time. Called in the
   /// watch's thread alone.
-  using Source = std::function<kernel::outcome::Result<std::optional<LoadedProgram>>(double wait_s)>;
+  using Source =
+      std::function<kernel::outcome::Result<std::optional<LoadedProgram>>(double wait_s)>;
   struct Status {
     std::string file;          ///< empty: none loaded
     std::size_t segments = 0;  ///< of the path; 0: there is none

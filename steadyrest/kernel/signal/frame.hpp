@@ -20,10 +20,10 @@ struct AxisSample {
   double actual_mm = 0.0;           ///< position by the encoder
   double following_error_mm = 0.0;  ///< command − actual, as the control reports it; shown as
                                     ///< Ed, no decision uses it
-  double offset_mm = 0.0;           ///< in force on this axis, a part of both positions; 0 where the
-                                    ///< control does not show it
-  bool encoder_shown = false;       ///< `count` is valid
-  std::int64_t count = 0;           ///< of the encoder at `time_s`, ×4 decoded
+  double offset_mm = 0.0;      ///< in force on this axis, a part of both positions; 0 where the
+                               ///< control does not show it
+  bool encoder_shown = false;  ///< `count` is valid
+  std::int64_t count = 0;      ///< of the encoder at `time_s`, ×4 decoded
   /// Time of the last edge up to now, in the frame's time; NaN: none yet, or no time stamps.
   double edge_s = std::numeric_limits<double>::quiet_NaN();
   std::int8_t edge_direction = 0;  ///< +1: that edge raised the count, −1: lowered; 0: not shown

@@ -19,21 +19,21 @@ using kernel::signal::PathView;
 using kernel::signal::Point;
 using kernel::units::kTurn;
 
-constexpr std::size_t kLinesPerCycle = 32;   ///< segments of a line in one cycle
+constexpr std::size_t kLinesPerCycle = 32;  ///< segments of a line in one cycle
 // Merged and rounded blocks show a neighbour's line: in 3D_Chips.ngc on LinuxCNC from one segment
 // back to four ahead.
 constexpr std::size_t kLineBehind = 2;
 constexpr std::size_t kLineAhead = 6;
-constexpr std::size_t kMostSegments = 200;   ///< looked at for one trail in one cycle
-constexpr double kBack_mm = 0.005;           ///< rounding of the control's figures
+constexpr std::size_t kMostSegments = 200;  ///< looked at for one trail in one cycle
+constexpr double kBack_mm = 0.005;          ///< rounding of the control's figures
 constexpr double kAhead_mm = 0.05;
-constexpr double kTravelShare = 1.5;         ///< the speed may rise within the cycle
-constexpr double kRoundedShare = 4.0;        ///< a rounded corner is shorter than its legs
-constexpr double kConfirm_mm = 0.1;          ///< on the way since it was found
+constexpr double kTravelShare = 1.5;   ///< the speed may rise within the cycle
+constexpr double kRoundedShare = 4.0;  ///< a rounded corner is shorter than its legs
+constexpr double kConfirm_mm = 0.1;    ///< on the way since it was found
 constexpr double kWrongLine_mm = 5.0;
-constexpr double kOffPath_mm = 20.0;         ///< no rounded corner is longer
-constexpr double kPreference = 0.01;         ///< of the expected place among equally near ones
-constexpr double kRotaryWeight = 10.0;       ///< mm for a radian
+constexpr double kOffPath_mm = 20.0;    ///< no rounded corner is longer
+constexpr double kPreference = 0.01;    ///< of the expected place among equally near ones
+constexpr double kRotaryWeight = 10.0;  ///< mm for a radian
 constexpr double kSame_mm = 1e-6;
 constexpr double kLongestGap_s = 0.5;
 
@@ -175,8 +175,8 @@ bool PathLocator::advance(Trail& trail, const Axes& point, double travel_mm) con
   const PathView path = route_->path();
   const double expected = trail.position_mm + travel_mm;
   const double low = std::max(trail.position_mm, trail.farthest_mm) - kBack_mm;
-  const double high = trail.position_mm + kTravelShare * travel_mm + kAhead_mm +
-                      kRoundedShare * trail.away_mm;
+  const double high =
+      trail.position_mm + kTravelShare * travel_mm + kAhead_mm + kRoundedShare * trail.away_mm;
   std::size_t first = trail.index;
   while (first > 0 && path[first].position_mm > low && trail.index - first < kMostSegments) {
     --first;
@@ -228,7 +228,8 @@ void PathLocator::look_at(std::size_t index, const Axes& point) noexcept {
   const auto turns = static_cast<std::size_t>(
       std::clamp(std::ceil(segment.sweep_rad / kTurn), 1.0, static_cast<double>(kMostTrails)));
   overflow_ = overflow_ || segment.sweep_rad > kTurn * static_cast<double>(kMostTrails);
-  const double turn_mm = turns == 1 ? segment.length_mm : segment.length_mm * kTurn / segment.sweep_rad;
+  const double turn_mm =
+      turns == 1 ? segment.length_mm : segment.length_mm * kTurn / segment.sweep_rad;
   for (std::size_t i = 0; i < turns; ++i) {
     const double low = turn_mm * static_cast<double>(i);
     const double high = std::min(segment.length_mm, low + turn_mm);

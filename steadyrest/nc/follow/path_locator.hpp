@@ -30,9 +30,9 @@ class PathLocator {
   };
   struct Output {
     Place place = Place::no_route;
-    std::size_t index = 0;      ///< segment, if on_path or off_path
-    double position_mm = 0.0;   ///< path length from the program's start
-    double away_mm = 0.0;       ///< distance from the path; ten millimetres count as a radian
+    std::size_t index = 0;     ///< segment, if on_path or off_path
+    double position_mm = 0.0;  ///< path length from the program's start
+    double away_mm = 0.0;      ///< distance from the path; ten millimetres count as a radian
   };
 
   PathLocator() noexcept : PathLocator(Config{}) {}

@@ -19,7 +19,8 @@ std::span<const std::uint32_t> Route::of_line(std::uint32_t line) const noexcept
   if (end == by_line_.begin()) {
     return {};
   }
-  const auto begin = std::ranges::lower_bound(by_line_.begin(), end, line_of(*(end - 1)), {}, line_of);
+  const auto begin =
+      std::ranges::lower_bound(by_line_.begin(), end, line_of(*(end - 1)), {}, line_of);
   return {begin, end};
 }
 

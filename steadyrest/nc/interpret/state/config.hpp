@@ -39,8 +39,8 @@ struct Config {
   read::Dialect dialect = read::Dialect::linuxcnc;
   bool block_delete = false;  ///< the operator's switch: lines that begin with / are left out
   DecimalRule decimal_rule = DecimalRule::calculator;
-  bool inch = false;            ///< units in force at the start (G20)
-  bool incremental = false;     ///< G91 in force at the start
+  bool inch = false;                          ///< units in force at the start (G20)
+  bool incremental = false;                   ///< G91 in force at the start
   PathMode path_mode = PathMode::continuous;  ///< in force at the start, with its tolerance
   double path_tolerance_mm = 0.0;
   bool external_offset = true;  ///< fanuc: G10 L2 P0 is the external offset; false: G52 (Haas)
