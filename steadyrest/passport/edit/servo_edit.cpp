@@ -17,7 +17,6 @@ namespace steadyrest::passport {
 namespace {
 
 using kernel::machine::Axis;
-using kernel::machine::Machine;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
