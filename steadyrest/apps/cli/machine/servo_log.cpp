@@ -229,8 +229,10 @@ bool is_table(const std::string& file) {
 }  // namespace
 }  // namespace servo_log
 
-Result<RecordedServos> read_servos(const std::string& file, const kernel::machine::Machine& machine,
-                                   const std::vector<std::size_t>& places, Progress& progress) {
+kernel::outcome::Result<RecordedServos> read_servos(const std::string& file,
+                                                    const kernel::machine::Machine& machine,
+                                                    const std::vector<std::size_t>& places,
+                                                    Progress& progress) {
   auto out = servo_log::is_table(file) ? servo_log::from_table(file, machine, places)
                                        : servo_log::from_record(file, machine, places, progress);
   if (out) {

@@ -154,6 +154,7 @@ std::vector<passport::ServoValues> values_of(const ServoFits& fits, const Option
   const std::string from =
       std::filesystem::path(options.record).filename().string() + (date.empty() ? "" : ", " + date);
   std::vector<passport::ServoValues> out;
+  out.reserve(fits.axes.size());
   for (const ServoFit& fit : fits.axes) {
     out.push_back({fit.axis, fit.gain_1_s, fit.feed_forward,
                    fmt::format("fitted: sd {:.2g} 1/s, from {}", fit.gain_sd_1_s, from),
