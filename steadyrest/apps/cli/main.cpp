@@ -19,6 +19,7 @@
 #include <steadyrest/apps/cli/live/verb_run.hpp>
 #include <steadyrest/apps/cli/live/verb_status.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
+#include <steadyrest/apps/cli/machine/verb_machine_from_log.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_bench.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_calibrate.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_encoder.hpp>
@@ -82,6 +83,10 @@ constexpr Entry kVerbs[] = {
      "Make the machine file of a LinuxCNC configuration",
      add_verb_machine_from_linuxcnc,
      {"examples/linuxcnc/mill.ini -o machine.toml"}},
+    {"machine from-log",
+     "Fit servo gain and feed-forward of each axis to a record, and put them into the machine file",
+     add_verb_machine_from_log,
+     {"examples/logs/servo-test.csv --machine examples/machines/vmc-840d.toml -o fitted.toml"}},
     {"linuxcnc", "LinuxCNC configurations"},
     {"linuxcnc setup",
      "Put the layer into a LinuxCNC configuration, or take it out",

@@ -8,6 +8,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/edit/calibration_text.hpp>
+#include <steadyrest/passport/edit/text_edit.hpp>
 #include <steadyrest/passport/file/contradictions.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/keys/section_reader.hpp>
@@ -82,50 +83,6 @@ std::vector<KeyValue> key_values(const Encoder& encoder, bool rotary) {
   return out;
 }
 
-/// Converts the parser's lines and columns to byte offsets. Its columns count characters, so the
-/// continuation bytes of UTF-8 must be skipped.
-class Places {
- public:
-  explicit Places(std::string_view text) : text_(text), lines_{0} {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] == '\n') {
-        lines_.push_back(i + 1);
-      }
-    }
-  }
-  [[nodiscard]] std::size_t at(const toml::source_position& place) const {
-    std::size_t i = lines_[std::min<std::size_t>(place.line, lines_.size()) - 1];
-    for (std::size_t column = 1; column < place.column && i < text_.size(); ++column) {
-      ++i;
-      while (i < text_.size() && (static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U) {
-        ++i;
-      }
-    }
-    return i;
-  }
-  /// After the end of the line that contains `i`.
-  [[nodiscard]] std::size_t line_end(std::size_t i) const {
-    const std::size_t end = text_.find('\n', i);
-    return end == std::string_view::npos ? text_.size() : end + 1;
-  }
-
- private:
-  std::string_view text_;
-  std::vector<std::size_t> lines_;
-};
-
-const toml::table* axis_of(const toml::table& root, std::string_view name) {
-  if (const toml::array* axes = root["axis"].as_array()) {
-    for (const toml::node& element : *axes) {
-      const toml::table* axis = element.as_table();
-      if (axis != nullptr && (*axis)["name"].value<std::string_view>() == name) {
-        return axis;
-      }
-    }
-  }
-  return nullptr;
-}
-
 /// Where a section's new keys go: after its last plain value, or after its head. After a subsection
 /// they would belong to that one.
 std::size_t end_of(const toml::table& section, const Places& places) {
@@ -135,38 +92,6 @@ std::size_t end_of(const toml::table& section, const Places& places) {
       const std::size_t end = places.at(node.source().end);
       out = std::max(out, places.line_end(end == 0 ? 0 : end - 1));
     }
-  }
-  return out;
-}
-
-struct Edit {
-  std::size_t from = 0;
-  std::size_t to = 0;
-  std::string text;
-};
-
-std::string applied(std::string_view text, std::vector<Edit> edits) {
-  // Edits do not overlap; applied in order, each leaves the text in between untouched.
-  std::ranges::stable_sort(edits, {}, &Edit::from);
-  std::string out;
-  std::size_t at = 0;
-  for (const Edit& edit : edits) {
-    out += text.substr(at, edit.from - at);
-    out += edit.text;
-    at = edit.to;
-  }
-  out += text.substr(at);
-  return out;
-}
-
-/// Inserted text uses the file's own line ends: a mixed file confuses editors and version control.
-std::string with_line_ends(std::string text, std::string_view of) {
-  if (of.find("\r\n") == std::string_view::npos) {
-    return text;
-  }
-  std::string out;
-  for (const char c : text) {
-    out += c == '\n' ? "\r\n" : std::string(1, c);
   }
   return out;
 }

@@ -148,7 +148,9 @@ std::vector<OutputRow> of_record() {
 
 std::vector<OutputRow> of_machine() {
   const std::string ini = "examples/linuxcnc/mill.ini";
-  return {{"machine from-linuxcnc", ini, {file("machine.toml")}, {ini}}};
+  const std::string log = "examples/logs/servo-test.csv";
+  return {{"machine from-linuxcnc", ini, {file("machine.toml")}, {ini}},
+          {"machine from-log", log + " --machine " + kVmc, {file("machine.toml")}, {log, kVmc}}};
 }
 
 std::vector<OutputRow> all() {
