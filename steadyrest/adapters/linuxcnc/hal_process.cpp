@@ -3,62 +3,34 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <string_view>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <hal.h>
 #include <rtapi.h>
 #include <time.h>
+#include <unistd.h>
 
+#include <steadyrest/adapters/linuxcnc/hal_pins.hpp>
 #include <steadyrest/adapters/linuxcnc/hal_process.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr int kSamplerKey = 0x48534130;  ///< SAMPLER_SHMEM_KEY, channel 0
-constexpr std::size_t kLongestName = 30;
+constexpr std::size_t kLongestName = 20;
 constexpr double kPausesPerPeriod = 10.0;
 constexpr int kVibrationChannel = 7;  ///< the last that the sampler has
 constexpr std::size_t kMostReadings = 256;
 
-/// In the HAL's shared memory, where the HAL rewrites the pointers when pins are linked.
-struct SharedPins {
-  hal_float_t* feed;
-  hal_float_t* spindle;
-  struct Axis {
-    hal_float_t* offset;
-    hal_float_t* path_offset;
-    hal_float_t* share;         ///< [AXIS_L] OFFSET_AV_RATIO
-    hal_float_t* acceleration;  ///< [AXIS_L] MAX_ACCELERATION
-  };
-  std::array<Axis, kernel::signal::kMaxAxes> axis;
-  struct Sensor {
-    hal_float_t* value;
-  };
-  std::array<Sensor, kernel::signal::kMaxTemperatures> temperature;
-  hal_float_t* probe_number;
-  hal_float_t* probe_axis;
-  hal_float_t* probe_displacement;
-  hal_float_t* vibration_rate;
-  hal_bit_t* heartbeat;
-  hal_bit_t* armed;
-};
-
 std::string types_of(std::size_t channel, std::size_t axes) {
   return channel == 0 ? std::string(kStateTypes)
                       : std::string(1 + kAxisColumns * axes_in(channel, axes), 'f');
-}
-
-std::unexpected<Refusal> unavailable(std::string what, std::string to_do) {
-  return std::unexpected(Refusal{
-      .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
 }
 
 }  // namespace
@@ -80,21 +52,14 @@ struct HalProcess::Hal {
   }
 
   Result<void> attach(std::size_t axes);
-  Result<void> make_pins(const Config& config);
   Result<void> connect(const Config& config);
-  int make_inputs(const char* name);
-  void connect_inputs(const Config& config);
-  Result<void> link(const Config& config, const std::string& pin);
 
   int component = -1;
   std::size_t attached = 0;
   std::array<hal_stream_t, kMaxChannels> stream{};
   std::array<std::array<hal_type_t, kMaxColumns>, kMaxChannels> type{};
   std::array<std::size_t, kMaxChannels> columns{};
-  SharedPins* pins = nullptr;
-  std::size_t offsets = 0;
-  std::array<bool, kernel::signal::kMaxTemperatures> has_temperature{};
-  bool has_probe = false;
+  std::optional<HalPins> pins;
   hal_stream_t vibration_stream{};
   bool has_vibration = false;
   std::array<double, kMostReadings> vibration{};
@@ -126,106 +91,30 @@ Result<void> HalProcess::Hal::attach(std::size_t axes) {
   return {};
 }
 
-Result<void> HalProcess::Hal::make_pins(const Config& config) {
-  pins = static_cast<SharedPins*>(hal_malloc(static_cast<long>(sizeof(SharedPins))));
-  if (pins == nullptr) {
-    return unavailable("the HAL's shared memory is full", "restart LinuxCNC");
-  }
-  const char* name = config.name.c_str();
-  int code = hal_pin_float_newf(HAL_OUT, &pins->feed, component, "%s.feed", name);
-  code |= hal_pin_float_newf(HAL_OUT, &pins->spindle, component, "%s.spindle", name);
-  code |= hal_pin_bit_newf(HAL_OUT, &pins->heartbeat, component, "%s.heartbeat", name);
-  code |= hal_pin_bit_newf(HAL_OUT, &pins->armed, component, "%s.armed", name);
-  for (std::size_t a = 0; a < config.axes; ++a) {
-    const int n = static_cast<int>(a);
-    code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].offset, component, "%s.offset-%d", name, n);
-    code |= hal_pin_float_newf(HAL_OUT, &pins->axis[a].path_offset, component, "%s.path-offset-%d",
-                               name, n);
-    code |=
-        hal_pin_float_newf(HAL_IN, &pins->axis[a].share, component, "%s.offset-share-%d", name, n);
-    code |= hal_pin_float_newf(HAL_IN, &pins->axis[a].acceleration, component,
-                               "%s.axis-acceleration-%d", name, n);
-  }
-  code |= make_inputs(name);
-  if (code != 0) {
-    return unavailable(fmt::format("the pins of {} cannot be made ({})", name, code),
-                       "give another name of the component");
-  }
-  *pins->feed = 1.0;
-  *pins->spindle = 1.0;
-  *pins->armed = false;
-  return {};
-}
-
-int HalProcess::Hal::make_inputs(const char* name) {
-  int code = 0;
-  for (std::size_t i = 0; i < pins->temperature.size(); ++i) {
-    code |= hal_pin_float_newf(HAL_IN, &pins->temperature[i].value, component, "%s.temperature-%d",
-                               name, static_cast<int>(i));
-  }
-  code |= hal_pin_float_newf(HAL_IN, &pins->probe_number, component, "%s.probe-number", name);
-  code |= hal_pin_float_newf(HAL_IN, &pins->probe_axis, component, "%s.probe-axis", name);
-  code |= hal_pin_float_newf(HAL_IN, &pins->probe_displacement, component, "%s.probe-displacement",
-                             name);
-  code |= hal_pin_float_newf(HAL_IN, &pins->vibration_rate, component, "%s.vibration-rate", name);
-  return code;
-}
-
-/// A HAL without these signals has no such sensor.
-void HalProcess::Hal::connect_inputs(const Config& config) {
-  for (std::size_t i = 0; i < has_temperature.size(); ++i) {
-    has_temperature[i] = link(config, fmt::format("temperature-{}", i)).has_value();
-  }
-  has_probe = link(config, "probe-number") && link(config, "probe-axis") &&
-              link(config, "probe-displacement");
-  has_vibration =
-      link(config, "vibration-rate") &&
-      hal_stream_attach(&vibration_stream, component, kSamplerKey + kVibrationChannel, "f") >= 0;
-}
-
-Result<void> HalProcess::Hal::link(const Config& config, const std::string& pin) {
-  if (!config.replaces.empty()) {
-    hal_unlink((config.replaces + "." + pin).c_str());
-  }
-  const std::string signal = "layer-" + pin;
-  if (const int code = hal_link((config.name + "." + pin).c_str(), signal.c_str()); code != 0) {
-    return unavailable(
-        fmt::format("the signal {} is missing or another component drives it ({})", signal, code),
-        "load layer.hal; if an earlier layer was killed, name its component as the one replaced");
-  }
-  return {};
-}
-
 Result<void> HalProcess::Hal::connect(const Config& config) {
-  for (const char* pin : {"feed", "spindle", "heartbeat", "armed"}) {
-    if (auto linked = link(config, pin); !linked) {
-      return linked;
-    }
+  auto made = HalPins::make(config.name, config.axes, component);
+  hal_ready(component);
+  if (!made) {
+    return std::unexpected(std::move(made.error()));
   }
-  connect_inputs(config);
-  // A HAL without layer_offsets.hal has none of these signals.
-  if (!link(config, "offset-0")) {
-    return {};
+  if (auto connected = made->connect(); !connected) {
+    return connected;
   }
-  offsets = config.axes;
-  for (std::size_t a = 0; a < offsets; ++a) {
-    for (const char* pin : {"offset", "path-offset", "offset-share", "axis-acceleration"}) {
-      if (a == 0 && std::string_view(pin) == "offset") {
-        continue;
-      }
-      if (auto linked = link(config, fmt::format("{}-{}", pin, a)); !linked) {
-        return linked;
-      }
-    }
-  }
+  has_vibration =
+      made->has_vibration_rate() &&
+      hal_stream_attach(&vibration_stream, component, kSamplerKey + kVibrationChannel, "f") >= 0;
+  pins.emplace(std::move(*made));
   return {};
 }
 
 HalProcess::HalProcess(std::unique_ptr<Hal> hal) noexcept : hal_(std::move(hal)) {}
 
+// The offset against heat stays as after a kill: what is left of it may not jump out in the cut.
 HalProcess::~HalProcess() {
-  if (hal_->pins != nullptr) {
-    write_pins(Pins{});
+  if (hal_->pins) {
+    Pins pins;
+    pins.offset = offset_in_force();
+    write_pins(pins);
   }
 }
 
@@ -236,23 +125,20 @@ Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
                   "give a shorter name");
   }
   auto hal = std::make_unique<Hal>();
-  hal->component = hal_init(config.name.c_str());
+  // One name for each process: that of a killed one is taken until LinuxCNC ends.
+  const std::string component = fmt::format("{}-{}", config.name, ::getpid());
+  hal->component = hal_init(component.c_str());
   if (hal->component < 0) {
     return unavailable(
-        fmt::format("the HAL does not take the component {} ({})", config.name, hal->component),
-        "run as the user of LinuxCNC; a component that was killed keeps its name until LinuxCNC "
-        "restarts: give another name and name the old one as replaced");
+        fmt::format("the HAL does not take the component {} ({})", component, hal->component),
+        "run as the user of LinuxCNC");
   }
   hal->pause_ns = std::lround(config.servo_period_s * 1e9 / kPausesPerPeriod);
   auto done = hal->attach(config.axes);
   if (done && config.writes) {
-    done = hal->make_pins(config);
-  }
-  if (done) {
-    hal_ready(hal->component);
-  }
-  if (done && config.writes) {
     done = hal->connect(config);
+  } else if (done) {
+    hal_ready(hal->component);
   }
   if (!done) {
     return std::unexpected(done.error());
@@ -291,21 +177,21 @@ bool HalProcess::read_row(std::size_t channel, Row& row) noexcept {
 
 Inputs HalProcess::read_inputs() noexcept {
   Inputs inputs;
-  if (hal_->pins == nullptr) {
+  if (!hal_->pins) {
     return inputs;
   }
-  const SharedPins& pins = *hal_->pins;
+  const PinValues& pins = hal_->pins->values();
   for (std::size_t i = 0; i < pins.temperature.size(); ++i) {
-    if (hal_->has_temperature[i]) {
-      inputs.temperature_c[i] = *pins.temperature[i].value;
+    if (hal_->pins->has_temperature(i)) {
+      inputs.temperature_c[i] = pins.temperature[i]->f;
     }
   }
-  const double number = hal_->has_probe ? *pins.probe_number : 0.0;
-  const double axis = hal_->has_probe ? *pins.probe_axis : -1.0;
+  const double number = hal_->pins->has_probe() ? pins.probe_number->f : 0.0;
+  const double axis = hal_->pins->has_probe() ? pins.probe_axis->f : -1.0;
   if (number >= 1.0 && axis >= 0.0 && axis < static_cast<double>(kernel::signal::kMaxAxes)) {
     inputs.probe.number = static_cast<std::uint64_t>(number);
     inputs.probe.axis = static_cast<std::uint8_t>(axis);
-    inputs.probe.displacement_mm = *pins.probe_displacement;
+    inputs.probe.displacement_mm = pins.probe_displacement->f;
   }
   if (hal_->has_vibration) {
     std::size_t count = 0;
@@ -316,7 +202,7 @@ Inputs HalProcess::read_inputs() noexcept {
       hal_->vibration[count++] = row.f;
     }
     inputs.vibration = std::span<const double>(hal_->vibration).first(count);
-    inputs.vibration_rate_hz = *pins.vibration_rate;
+    inputs.vibration_rate_hz = pins.vibration_rate->f;
   }
   return inputs;
 }
@@ -326,28 +212,38 @@ std::size_t HalProcess::waiting(std::size_t channel) const noexcept {
 }
 
 void HalProcess::write_pins(const Pins& pins) noexcept {
-  if (hal_->pins == nullptr) {
+  if (!hal_->pins) {
     return;
   }
-  *hal_->pins->feed = pins.feed;
-  *hal_->pins->spindle = pins.spindle;
-  for (std::size_t a = 0; a < hal_->offsets; ++a) {
-    *hal_->pins->axis[a].offset = pins.offset[a];
-    *hal_->pins->axis[a].path_offset = pins.path_offset[a];
+  const PinValues& at = hal_->pins->values();
+  at.feed->f = pins.feed;
+  at.spindle->f = pins.spindle;
+  for (std::size_t a = 0; a < hal_->pins->offsets(); ++a) {
+    at.axis[a].offset->f = pins.offset[a];
+    at.axis[a].path_offset->f = pins.path_offset[a];
   }
   // After the values: who sees the beat finds them in place.
-  *hal_->pins->armed = pins.armed;
-  *hal_->pins->heartbeat = pins.heartbeat;
+  at.armed->b = pins.armed;
+  at.heartbeat->b = pins.heartbeat;
 }
 
 bool HalProcess::offsets_connected() const noexcept {
-  return hal_->offsets > 0;
+  return hal_->pins && hal_->pins->offsets() > 0;
+}
+
+kernel::signal::AxisValues HalProcess::offset_in_force() const noexcept {
+  kernel::signal::AxisValues out{};
+  for (std::size_t a = 0; hal_->pins && a < hal_->pins->offsets(); ++a) {
+    out[a] = hal_->pins->values().axis[a].offset->f;
+  }
+  return out;
 }
 
 kernel::signal::AxisValues HalProcess::offset_acceleration() const noexcept {
   kernel::signal::AxisValues out{};
-  for (std::size_t a = 0; a < hal_->offsets; ++a) {
-    out[a] = *hal_->pins->axis[a].share * *hal_->pins->axis[a].acceleration;
+  for (std::size_t a = 0; hal_->pins && a < hal_->pins->offsets(); ++a) {
+    const PinValues::Axis& axis = hal_->pins->values().axis[a];
+    out[a] = axis.share->f * axis.acceleration->f;
   }
   return out;
 }

@@ -60,6 +60,10 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
     return refuse("time without a sample (allowed: above the servo period, up to 10 s)",
                   "give about 0.1 s");
   }
+  if (!(config.offset_slew_mm_s > 0.0 && std::isfinite(config.offset_slew_mm_s))) {
+    return refuse("slew of the axis offsets (allowed: above 0 mm/s)",
+                  "give [envelope] offset_slew_um_s");
+  }
   return std::unique_ptr<LinuxCncPort>(new LinuxCncPort(config, hal));
 }
 

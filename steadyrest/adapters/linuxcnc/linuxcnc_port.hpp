@@ -25,9 +25,10 @@ class LinuxCncPort final : public kernel::port::Port {
  public:
   struct Config {
     Units units;
-    bool spindle_connected = true;  ///< layer.hal's factor lies before the drive
-    double lost_after_s = 0.1;      ///< without a sample: the link is lost; > servo period
-    std::size_t most_waiting = 20;  ///< servo cycles
+    bool spindle_connected = true;   ///< layer.hal's factor lies before the drive
+    double lost_after_s = 0.1;       ///< without a sample: the link is lost; > servo period
+    std::size_t most_waiting = 20;   ///< servo cycles
+    double offset_slew_mm_s = 0.05;  ///< of the offset against heat, > 0; the envelope's
   };
 
   static kernel::outcome::Result<std::unique_ptr<LinuxCncPort>> make(const Config& config,
@@ -51,7 +52,9 @@ class LinuxCncPort final : public kernel::port::Port {
       : config_(config),
         hal_(hal),
         queue_(config.units.axes),
-        course_(hal.offset_acceleration()),
+        course_({.acceleration = hal.offset_acceleration(),
+                 .in_force = hal.offset_in_force(),
+                 .slew = config.offset_slew_mm_s / config.units.linear_unit_mm}),
         offsets_connected_(hal.offsets_connected()) {}
   void arm() noexcept;
   void remember_offsets() noexcept;
