@@ -14,7 +14,7 @@ namespace {
 
 using kernel::outcome::Result;
 
-constexpr int kLetGo_ms = 100;  ///< five times the watchdog's time
+constexpr int kLongestWait_ms = 2000;
 
 hal_data_u* value_of_pin(const std::string& name) {
   hal_type_t type{};
@@ -30,17 +30,19 @@ hal_data_u* value_of_signal(const std::string& name) {
   return hal_get_signal_value_by_name(name.c_str(), &type, &value, &written) == 0 ? value : nullptr;
 }
 
-/// The watchdog sees no heartbeat: nothing of a killed layer's ratios is in force.
-bool watchdog_let_go() {
+/// No heartbeat, and the watchdog has seen it: nothing of a killed layer's ratios is in force. The
+/// servo thread of a busy computer may take longer than the watchdog's 20 ms.
+bool let_go(const hal_data_u& heartbeat) {
   const hal_data_u* const alive = value_of_signal("layer-alive");
-  if (alive == nullptr) {
-    return true;
-  }
-  for (int i = 0; i < kLetGo_ms && alive->b; ++i) {
+  const bool before = heartbeat.b;
+  for (int i = 0; alive != nullptr && alive->b; ++i) {
+    if (heartbeat.b != before || i == kLongestWait_ms) {
+      return false;
+    }
     const timespec time{.tv_sec = 0, .tv_nsec = 1'000'000};
     nanosleep(&time, nullptr);
   }
-  return !alive->b;
+  return true;
 }
 
 }  // namespace
@@ -101,8 +103,8 @@ Result<HalPins> HalPins::make(const std::string& name, std::size_t axes, int com
   return pins;
 }
 
-/// Linked as the first pin that drives a signal, a pin gives it its value: an offset that an earlier
-/// layer left would jump to 0.
+/// Linked as the first pin that drives a signal, a pin gives it its value: an offset that an
+/// earlier layer left would jump to 0.
 void HalPins::begin() {
   values_->feed->f = 1.0;
   values_->spindle->f = 1.0;
@@ -140,7 +142,7 @@ Result<void> HalPins::claim() {
   if (!found_.empty() && (runs({.number = before, .start = at.process_start->u}))) {
     return taken(before);
   }
-  if (!found_.empty() && !watchdog_let_go()) {
+  if (!found_.empty() && !let_go(*at.heartbeat)) {
     return unavailable("the heartbeat of another layer goes on", "stop that layer first");
   }
   // Of two that start at once the first has them. Until its time is there its number counts alone.

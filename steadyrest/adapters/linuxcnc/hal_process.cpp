@@ -52,7 +52,7 @@ struct HalProcess::Hal {
   }
 
   Result<void> attach(std::size_t axes);
-  Result<void> connect(const Config& config);
+  Result<void> connect();
 
   int component = -1;
   std::size_t attached = 0;
@@ -91,19 +91,13 @@ Result<void> HalProcess::Hal::attach(std::size_t axes) {
   return {};
 }
 
-Result<void> HalProcess::Hal::connect(const Config& config) {
-  auto made = HalPins::make(config.name, config.axes, component);
-  hal_ready(component);
-  if (!made) {
-    return std::unexpected(std::move(made.error()));
-  }
-  if (auto connected = made->connect(); !connected) {
+Result<void> HalProcess::Hal::connect() {
+  if (auto connected = pins->connect(); !connected) {
     return connected;
   }
   has_vibration =
-      made->has_vibration_rate() &&
+      pins->has_vibration_rate() &&
       hal_stream_attach(&vibration_stream, component, kSamplerKey + kVibrationChannel, "f") >= 0;
-  pins.emplace(std::move(*made));
   return {};
 }
 
@@ -134,14 +128,20 @@ Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
         "run as the user of LinuxCNC");
   }
   hal->pause_ns = std::lround(config.servo_period_s * 1e9 / kPausesPerPeriod);
-  auto done = hal->attach(config.axes);
-  if (done && config.writes) {
-    done = hal->connect(config);
-  } else if (done) {
-    hal_ready(hal->component);
+  // The pins first: samples that this process takes are missing in a layer that runs.
+  if (config.writes) {
+    auto pins = HalPins::make(config.name, config.axes, hal->component);
+    if (!pins) {
+      return std::unexpected(std::move(pins.error()));
+    }
+    hal->pins.emplace(std::move(*pins));
   }
-  if (!done) {
-    return std::unexpected(done.error());
+  if (auto attached = hal->attach(config.axes); !attached) {
+    return std::unexpected(std::move(attached.error()));
+  }
+  hal_ready(hal->component);
+  if (auto connected = hal->pins ? hal->connect() : Result<void>(); !connected) {
+    return std::unexpected(std::move(connected.error()));
   }
   return std::unique_ptr<HalProcess>(new HalProcess(std::move(hal)));
 }
