@@ -143,7 +143,8 @@ Result<void> HalPins::claim() {
     return taken(before);
   }
   if (!found_.empty() && !let_go(*at.heartbeat)) {
-    return unavailable("the heartbeat of another layer goes on", "stop that layer first");
+    return unavailable("the watchdog of layer.hal still has a heartbeat of another layer",
+                       "stop that layer; see whether LinuxCNC's servo thread runs");
   }
   // Of two that start at once the first has them. Until its time is there its number counts alone.
   at.process_start->u = 0;

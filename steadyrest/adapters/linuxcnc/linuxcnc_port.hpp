@@ -52,11 +52,13 @@ class LinuxCncPort final : public kernel::port::Port {
       : config_(config),
         hal_(hal),
         queue_(config.units.axes),
+        heat_offset_(hal.offset_in_force()),
         course_({.acceleration = hal.offset_acceleration(),
                  .in_force = hal.offset_in_force(),
                  .slew = config.offset_slew_mm_s / config.units.linear_unit_mm}),
         offsets_connected_(hal.offsets_connected()) {}
   void arm() noexcept;
+  [[nodiscard]] bool path_offset_gone() const noexcept;
   void remember_offsets() noexcept;
 
   Config config_;
@@ -65,6 +67,7 @@ class LinuxCncPort final : public kernel::port::Port {
   Sample sample_;
   /// Offsets in force as the last samples showed them, newest first.
   std::array<kernel::signal::AxisValues, 2> offsets_{};
+  kernel::signal::AxisValues heat_offset_;  ///< that the HAL has
   OffsetCourse course_;
   bool offsets_connected_;
   Pins pins_;  ///< as asked for; the HAL gets the course's offsets
