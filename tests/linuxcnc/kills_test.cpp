@@ -101,16 +101,23 @@ struct Life {
   bool seen = false;        ///< the log has each of these cycles
 };
 
-/// Of the layer that beat in (from, killed].
+/// Of the layer that beat in (from, killed]. What it wrote last shows one cycle later.
 Life life(const std::vector<Row>& log, double from, double killed) {
   Life out;
-  const At begin = at_tick(log, from) + 1;
+  const At before = at_tick(log, from + 1.0);
+  if (before == log.end()) {
+    return out;
+  }
+  const At begin = before + 1;
   At last = begin;
-  for (At i = begin; i != log.end() && i->tick <= killed; ++i) {
+  for (At i = begin; i != log.end() && i->tick <= killed + 1.0; ++i) {
     if (i->beat != (i - 1)->beat) {
       out.first_beat = out.first_beat == 0.0 ? i->tick : out.first_beat;
       last = i;
     }
+  }
+  if (out.first_beat == 0.0) {
+    return out;
   }
   out.last_beat = last->tick;
   const auto cycles_until = [&](auto reached) {
