@@ -25,12 +25,27 @@ std::uint64_t size_of(const fs::path& file) {
   return error ? 0 : bytes;
 }
 
-/// `#` is a digit.
+constexpr std::string_view kEnding = ".sqlite";
+
+std::string_view stem_of(std::string_view name) {
+  return name.substr(0, name.size() - std::min(name.size(), kEnding.size()));
+}
+
+bool is_digit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+/// `#` is a digit; a run's number may follow.
 bool is_run_name(std::string_view name) {
-  constexpr std::string_view kForm = "run-########T######Z.sqlite";
-  return std::ranges::equal(name, kForm, [](char c, char form) {
-    return form == '#' ? std::isdigit(static_cast<unsigned char>(c)) != 0 : c == form;
-  });
+  constexpr std::string_view kForm = "run-########T######Z";
+  const std::string_view stem = stem_of(name);
+  const std::string_view number = stem.substr(std::min(stem.size(), kForm.size()));
+  return name.ends_with(kEnding) &&
+         std::ranges::equal(
+             stem.substr(0, kForm.size()), kForm,
+             [](char c, char form) { return form == '#' ? is_digit(c) : c == form; }) &&
+         (number.empty() || (number.size() > 1 && number[0] == '-' &&
+                             std::ranges::all_of(number.substr(1), is_digit)));
 }
 
 std::string named(std::string name, const std::string& utc, int number = 1) {
@@ -49,8 +64,8 @@ std::string utc_now() {
   return {text, length};
 }
 
-std::string run_name(const std::string& utc) {
-  return named("run-", utc);
+std::string run_name(const std::string& utc, int number) {
+  return named("run-", utc, number);
 }
 
 std::string fault_name(const std::string& utc, int number) {
@@ -78,7 +93,8 @@ Result<std::vector<RunFile>> run_files(const std::string& folder) {
     }
     files.push_back(std::move(file));
   }
-  std::ranges::sort(files, {}, &RunFile::file);
+  // A second run of the same second has the longer name and comes after the first.
+  std::ranges::sort(files, {}, [](const RunFile& file) { return stem_of(file.file); });
   return files;
 }
 

@@ -11,8 +11,9 @@ namespace steadyrest::record {
 
 /// `2026-11-26T12:49:34Z`.
 [[nodiscard]] std::string utc_now();
-/// `run-20261126T124934Z.sqlite` from such a time.
-[[nodiscard]] std::string run_name(const std::string& utc);
+/// `run-20261126T124934Z.sqlite` from such a time; the second one in that second, after a run that
+/// was killed, is `run-20261126T124934Z-2.sqlite`.
+[[nodiscard]] std::string run_name(const std::string& utc, int number = 1);
 /// `fault-20260101T124934Z.sqlite`: the last seconds before a fault; the second one in that second
 /// is `fault-20260101T124934Z-2.sqlite`.
 [[nodiscard]] std::string fault_name(const std::string& utc, int number = 1);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # measure.sh PROGRAM [LOG]: how many servo periods (1 ms) LinuxCNC's motion takes for PROGRAM.
 # DRIVE=live.py PROBE=… HAL="lag.hal layer.hal layer_offsets.hal lag_log.hal" by environment: another driver, the program that it calls, other HAL
-# files; whatever the driver leaves beside its log is copied to LOG's folder.
+# files; DRIVE_ARGS: what the driver gets after PROGRAM and LOG; whatever the driver leaves beside its log is copied to LOG's folder.
 # Limits by environment: VX VY VZ (mm/s), AX AY AZ (mm/s²), VPATH_MM_S, APATH, MAX_OVERRIDE; the defaults are those of
 # examples/machines/linuxcnc-mill.toml.
 # LinuxCNC runs headless in namespaces of its own, as an unprivileged user; needs root. Exit status 77: cannot run here.
@@ -14,7 +14,7 @@ command -v linuxcnc >/dev/null && command -v halsampler >/dev/null || { echo "li
 program=$(readlink -f "$1"); log=${2:-}
 D=$(mktemp -d /var/tmp/measure.XXXXXX); export D
 mkdir -p "$D/cfg/bin" "$D/home" "$D/tmp" "$D/out"
-hal=${HAL:-mill.hal}; drive=${DRIVE:-drive.py}; export drive
+hal=${HAL:-mill.hal}; drive=${DRIVE:-drive.py}; export drive DRIVE_ARGS="${DRIVE_ARGS:-}"
 for f in $hal; do
   case $f in layer*.hal) f=../../steadyrest/adapters/linuxcnc/$f ;; esac
   cp "$here/$f" "$D/cfg/"; done
@@ -46,7 +46,7 @@ unshare --ipc --pid --fork --kill-child --mount --mount-proc bash -c '
       [ "$($U halcmd getp halui.mode.is-manual 2>/dev/null)" = TRUE ] && { ok=1; break; }
     sleep .02; done
   [ -n "$ok" ] || { echo "measure: LinuxCNC did not come up" >&2; cat "$D/linuxcnc.log" >&2; exit 99; }
-  cd "$D/cfg"; $U /usr/bin/python3 "$drive" "$D/cfg/program.ngc" "$D/out/log"; rc=$?
+  cd "$D/cfg"; $U /usr/bin/python3 "$drive" "$D/cfg/program.ngc" "$D/out/log" $DRIVE_ARGS; rc=$?
   kill -TERM $(pgrep -P $L -x hold); wait $L
   exit $rc'
 rc=$?

@@ -36,7 +36,6 @@ struct Options {
   double path_offset_z_mm = 0.0;
   double servo_period_s = 0.001;
   std::string name = "steadyrest";
-  std::string replaces;
   std::string out;
 };
 
@@ -91,14 +90,13 @@ bool save(const std::vector<signal::Frame>& frames, const std::string& name) {
 
 int run(const Options& options) {
   const auto hal = HalProcess::make({.name = options.name,
-                                     .replaces = options.replaces,
                                      .servo_period_s = options.servo_period_s,
                                      .writes = options.ratio >= 0.0});
   if (!hal) {
     return refused(hal.error());
   }
-  const auto port =
-      LinuxCncPort::make({.units = {.servo_period_s = options.servo_period_s}}, **hal);
+  const auto port = LinuxCncPort::make(
+      {.units = {.servo_period_s = options.servo_period_s}, .offset_slew_mm_s = 1.0}, **hal);
   if (!port) {
     return refused(port.error());
   }
@@ -123,8 +121,7 @@ int main(int argc, char** argv) {
   app.add_option("--offset-z-mm", options.offset_z_mm, "offset of Z, kept when the probe dies");
   app.add_option("--path-offset-z-mm", options.path_offset_z_mm, "offset of Z, taken back then");
   app.add_option("--servo-period-s", options.servo_period_s, "[EMCMOT] SERVO_PERIOD");
-  app.add_option("--name", options.name, "name of the HAL component");
-  app.add_option("--replaces", options.replaces, "component that was killed");
+  app.add_option("--name", options.name, "name of the pins");
   app.add_option("-o", options.out, "the frames")->required();
   CLI11_PARSE(app, argc, argv);
   return run(options);

@@ -40,6 +40,9 @@ class HalMill final : public adapters::linuxcnc::HalSide {
   }
   adapters::linuxcnc::Inputs read_inputs() noexcept override { return {}; }
   [[nodiscard]] bool offsets_connected() const noexcept override { return with_offsets_; }
+  [[nodiscard]] kernel::signal::AxisValues offset_in_force() const noexcept override {
+    return offset_mm_;
+  }
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
     return {};
   }

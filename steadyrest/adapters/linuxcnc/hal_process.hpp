@@ -16,16 +16,14 @@ namespace steadyrest::adapters::linuxcnc {
 /// `-axis`, `-displacement`) and a vibration sensor (sampler channel 7, `layer-vibration-rate`)
 /// where the HAL has these signals.
 ///
-/// It makes the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat and .armed,
-/// connects them to the signals of layer.hal and attaches to the sampler's channels. Destroyed in
-/// good order it disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
+/// It has the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat and .armed, connected
+/// to the signals of layer.hal, and attaches to the sampler's channels; its component is NAME-PID.
+/// Pins that a killed process left are taken over as they are (HalPins). Destroyed in good order it
+/// disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
 class HalProcess final : public HalSide {
  public:
   struct Config {
-    std::string name = "steadyrest";  ///< of the component; up to 30 characters
-    /// A component that was killed: its pins hold the signals until they are taken from it. Never
-    /// the name of one that lives.
-    std::string replaces;
+    std::string name = "steadyrest";  ///< of the pins; up to 20 characters
     std::size_t axes = 3;
     double servo_period_s = 0.001;
     bool writes = true;  ///< false: no pins, reading only
@@ -39,6 +37,7 @@ class HalProcess final : public HalSide {
   [[nodiscard]] std::size_t waiting(std::size_t channel) const noexcept override;
   void write_pins(const Pins& pins) noexcept override;
   [[nodiscard]] bool offsets_connected() const noexcept override;
+  [[nodiscard]] kernel::signal::AxisValues offset_in_force() const noexcept override;
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override;
   void pause() noexcept override;
   /// Millimetres in one of the machine's linear units, as the HAL file says; without it 1.

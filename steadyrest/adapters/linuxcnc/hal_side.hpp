@@ -24,6 +24,8 @@ class HalSide {
   virtual void write_pins(const Pins& pins) noexcept = 0;
   /// layer_offsets.hal is loaded.
   [[nodiscard]] virtual bool offsets_connected() const noexcept = 0;
+  /// The offset against heat that the HAL has, in the control's units: an earlier layer's at first.
+  [[nodiscard]] virtual kernel::signal::AxisValues offset_in_force() const noexcept = 0;
   /// Of each axis for its offset, in the control's units; 0: not known.
   [[nodiscard]] virtual kernel::signal::AxisValues offset_acceleration() const noexcept = 0;
   /// Lets a tenth of a servo period pass.

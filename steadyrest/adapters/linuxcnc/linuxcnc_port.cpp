@@ -19,6 +19,9 @@ constexpr double kOffsetCycles = 3.0;
 constexpr double kPausesPerPeriod = 10.0;
 /// Beats until an armed watchdog must show in the samples, and until a released one has seen it.
 constexpr std::uint32_t kBeatsToShow = 30;
+/// A path offset of 1.5 mm has ramped out by then; so long the watchdog stays released at most.
+constexpr std::uint32_t kBeatsToRampOut = 300;
+constexpr double kGone_mm = 0.002;
 
 std::unexpected<Refusal> lost(std::string what, std::string to_do) {
   return std::unexpected(Refusal{
@@ -59,6 +62,10 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
   if (!(config.lost_after_s > units.servo_period_s && config.lost_after_s <= 10.0)) {
     return refuse("time without a sample (allowed: above the servo period, up to 10 s)",
                   "give about 0.1 s");
+  }
+  if (!(config.offset_slew_mm_s > 0.0 && std::isfinite(config.offset_slew_mm_s))) {
+    return refuse("slew of the axis offsets (allowed: above 0 mm/s)",
+                  "give [envelope] offset_slew_um_s");
   }
   return std::unique_ptr<LinuxCncPort>(new LinuxCncPort(config, hal));
 }
@@ -115,11 +122,22 @@ void LinuxCncPort::remember_offsets() noexcept {
   offsets_[0] = shown;
 }
 
+/// Nothing but the offset against heat is in force.
+bool LinuxCncPort::path_offset_gone() const noexcept {
+  for (std::size_t a = 0; offsets_connected_ && a < config_.units.axes; ++a) {
+    if (std::abs(offsets_[0][a] - heat_offset_[a]) * config_.units.linear_unit_mm > kGone_mm) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void LinuxCncPort::arm() noexcept {
   ++beats_;
   if (!pins_.armed) {
-    // Let the servo thread see the released state before the next rising edge.
-    if (beats_ > kBeatsToShow / 10) {
+    // Let the servo thread see the released state before the next rising edge, and let the path
+    // offset of an earlier layer ramp out there: once armed, it would jump to this one's.
+    if (beats_ > kBeatsToShow / 10 && (path_offset_gone() || beats_ > kBeatsToRampOut)) {
       pins_.armed = true;
       beats_ = 0;
     }
@@ -142,7 +160,11 @@ Result<void> LinuxCncPort::write(const kernel::signal::Command& command) noexcep
   pins_.heartbeat = !pins_.heartbeat;
   arm();
   Pins given = pins_;
+  if (!in_force()) {
+    given.path_offset.fill(0.0);  // it begins when the servo thread lets it in
+  }
   course_.apply(given, sample_[Column::enabled] != 0.0, sample_.tick, config_.units.servo_period_s);
+  heat_offset_ = given.offset;
   hal_.write_pins(given);
   return {};
 }

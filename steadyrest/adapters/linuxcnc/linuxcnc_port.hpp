@@ -25,9 +25,10 @@ class LinuxCncPort final : public kernel::port::Port {
  public:
   struct Config {
     Units units;
-    bool spindle_connected = true;  ///< layer.hal's factor lies before the drive
-    double lost_after_s = 0.1;      ///< without a sample: the link is lost; > servo period
-    std::size_t most_waiting = 20;  ///< servo cycles
+    bool spindle_connected = true;   ///< layer.hal's factor lies before the drive
+    double lost_after_s = 0.1;       ///< without a sample: the link is lost; > servo period
+    std::size_t most_waiting = 20;   ///< servo cycles
+    double offset_slew_mm_s = 0.05;  ///< of the offset against heat, > 0; the envelope's
   };
 
   static kernel::outcome::Result<std::unique_ptr<LinuxCncPort>> make(const Config& config,
@@ -51,9 +52,13 @@ class LinuxCncPort final : public kernel::port::Port {
       : config_(config),
         hal_(hal),
         queue_(config.units.axes),
-        course_(hal.offset_acceleration()),
+        heat_offset_(hal.offset_in_force()),
+        course_({.acceleration = hal.offset_acceleration(),
+                 .in_force = hal.offset_in_force(),
+                 .slew = config.offset_slew_mm_s / config.units.linear_unit_mm}),
         offsets_connected_(hal.offsets_connected()) {}
   void arm() noexcept;
+  [[nodiscard]] bool path_offset_gone() const noexcept;
   void remember_offsets() noexcept;
 
   Config config_;
@@ -62,6 +67,7 @@ class LinuxCncPort final : public kernel::port::Port {
   Sample sample_;
   /// Offsets in force as the last samples showed them, newest first.
   std::array<kernel::signal::AxisValues, 2> offsets_{};
+  kernel::signal::AxisValues heat_offset_;  ///< that the HAL has
   OffsetCourse course_;
   bool offsets_connected_;
   Pins pins_;  ///< as asked for; the HAL gets the course's offsets

@@ -11,9 +11,18 @@ constexpr double kReturn_s = 1.0;  ///< of the control's units
 constexpr double kUsedShare = 0.9;
 constexpr double kOvershoot = 0.05;
 constexpr double kForgets_s = 0.5;
+constexpr double kSlack = 1.0 + 1e-9;      ///< for rounding
 constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 
 }  // namespace
+
+OffsetCourse::OffsetCourse(const Config& config) noexcept
+    : acceleration_(config.acceleration), slew_(config.slew) {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    const double now = config.in_force[a];
+    axis_[a] = {.asked = now, .at = now, .speed = 0.0, .given = now};
+  }
+}
 
 void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double period_s) noexcept {
   const std::uint64_t cycles = begun_ && tick > tick_ ? std::min(tick - tick_, kLongestGap) : 1;
@@ -28,13 +37,13 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
     return;
   }
   bool back = true;
+  const double step = (was_off_ ? kReturn_s : slew_) * dt_s;
   for (std::size_t a = 0; a < axis_.size(); ++a) {
-    if (was_off_) {
-      const double step = kReturn_s * dt_s;
-      axis_[a].given += std::clamp(pins.offset[a] - axis_[a].given, -step, step);
-      back = back && axis_[a].given == pins.offset[a];
-      pins.offset[a] = axis_[a].given;
-    }
+    const double away = pins.offset[a] - axis_[a].given;
+    axis_[a].given = std::abs(away) <= step * kSlack ? pins.offset[a]
+                                                     : axis_[a].given + std::copysign(step, away);
+    back = back && axis_[a].given == pins.offset[a];
+    pins.offset[a] = axis_[a].given;
     if (acceleration_[a] > 0.0) {
       const double asked = pins.offset[a] + pins.path_offset[a];
       pins.path_offset[a] = target(a, asked, dt_s) - pins.offset[a];

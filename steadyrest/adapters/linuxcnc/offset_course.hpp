@@ -17,13 +17,21 @@ namespace steadyrest::adapters::linuxcnc {
 /// more than the axis can do, p is what it asks for; where it asks for more, p overshoots
 /// by a twentieth of the offset at most.
 ///
+/// The offset against heat moves by no more than `slew`, in the control's units per second. The
+/// layer asks for no more than that, except where it begins at 0: after a start, or a stall, while
+/// the offset of before is still in force. It goes on from there.
+///
 /// While the machine is off LinuxCNC takes the offset in force into the commanded position: the
 /// target is 0 then, and the offset against heat grows from 0 at 1 mm/s afterwards.
 class OffsetCourse {
  public:
-  /// Of each axis for offsets, in the control's units; 0: not known, no lead.
-  explicit OffsetCourse(const kernel::signal::AxisValues& acceleration = {}) noexcept
-      : acceleration_(acceleration) {}
+  struct Config {
+    kernel::signal::AxisValues acceleration{};  ///< for offsets, ≥ 0; 0: not known, no lead
+    kernel::signal::AxisValues in_force{};      ///< offset against heat that the HAL has
+    double slew = 1.0;                          ///< > 0
+  };
+
+  explicit OffsetCourse(const Config& config) noexcept;
 
   /// Turns the offsets that `pins` has into what the HAL gets. Once for each command.
   void apply(Pins& pins, bool enabled, std::uint64_t tick, double period_s) noexcept;
@@ -34,13 +42,14 @@ class OffsetCourse {
     double at = 0.0;     ///< p
     double speed = 0.0;  ///< w
     double size = 0.0;   ///< of the offset in the last half second
-    double given = 0.0;  ///< of the offset against heat, after the machine was off
+    double given = 0.0;  ///< of the offset against heat
   };
 
   /// T for this axis.
   [[nodiscard]] double target(std::size_t axis, double asked, double dt_s) noexcept;
 
   kernel::signal::AxisValues acceleration_;
+  double slew_;
   std::array<Axis, kernel::signal::kMaxAxes> axis_{};
   std::uint64_t tick_ = 0;
   bool begun_ = false;

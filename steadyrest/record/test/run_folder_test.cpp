@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -24,6 +26,24 @@ std::vector<std::string> names(const std::string& folder) {
 TEST(RunFolder, ARunIsNamedByItsStart) {
   EXPECT_EQ(run_name("2026-11-26T12:49:34Z"), "run-20261126T124934Z.sqlite");
   EXPECT_THAT(run_name(utc_now()), testing::MatchesRegex("run-........T......Z.sqlite"));
+}
+
+// A layer that is killed and started again at once.
+TEST(RunFolder, ASecondRunInASecondHasANumberAndIsLater) {
+  EXPECT_EQ(run_name("2026-11-26T12:49:34Z", 2), "run-20261126T124934Z-2.sqlite");
+  const test::Folder folder;
+  for (const char* name : {"run-20260101T000000Z-2.sqlite", "run-20260101T000000Z.sqlite",
+                           "run-20260101T000000Z-.sqlite", "run-20260101T000000Z-x.sqlite"}) {
+    put(folder.file(name), 10);
+  }
+  const auto files = run_files(folder.path()).value();
+  ASSERT_EQ(files.size(), 4U);
+  EXPECT_EQ(files[0].file, folder.file("run-20260101T000000Z.sqlite"));
+  const auto rotates = std::ranges::count(files, true, &RunFile::rotates);
+  EXPECT_EQ(rotates, 2);
+  rotate(folder.file("run-20260101T000000Z-2.sqlite"), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("run-20260101T000000Z.sqlite")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("run-20260101T000000Z-2.sqlite")));
 }
 
 TEST(RunFolder, ListsRecordsByName) {

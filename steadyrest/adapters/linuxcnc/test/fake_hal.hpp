@@ -28,6 +28,9 @@ class FakeHal final : public HalSide {
   Inputs read_inputs() noexcept override { return inputs; }
   void pause() noexcept override { ++pauses; }
   [[nodiscard]] bool offsets_connected() const noexcept override { return with_offsets; }
+  [[nodiscard]] kernel::signal::AxisValues offset_in_force() const noexcept override {
+    return offset_before;
+  }
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
     return {};
   }
@@ -58,6 +61,7 @@ class FakeHal final : public HalSide {
   std::vector<Pins> written;
   std::size_t pauses = 0;
   bool with_offsets = false;
+  kernel::signal::AxisValues offset_before{};
   Inputs inputs;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 
 #include <gmock/gmock.h>
@@ -152,6 +153,46 @@ TEST(LinuxCncPort, WritesNoOffsetThatNobodyConnected) {
   EXPECT_FALSE(port->capability().path_offset);
   EXPECT_EQ(hal.written.back().offset[2], 0.0);
   EXPECT_EQ(hal.written.back().path_offset[2], 0.0);
+}
+
+// 0.3 mm against the contour error go out at 5 mm/s in the servo thread; 0.05 mm against heat stay.
+TEST(LinuxCncPort, LetsThePathOffsetOfAnEarlierLayerRampOutFirst) {
+  FakeHal hal;
+  hal.with_offsets = true;
+  hal.offset_before[2] = 0.05;
+  const auto port = port_on(hal);
+  Command command = kHalf;
+  command.offset_mm[2] = 0.05;
+  command.path_offset_mm[2] = 0.2;
+  for (std::uint64_t tick = 1; tick <= 90; ++tick) {
+    Sample sample = cutting(tick);
+    const double left = std::max(0.0, 0.3 - 0.005 * static_cast<double>(tick));
+    sample.axis[2].offset = 0.05 + left;
+    const bool armed = !hal.written.empty() && hal.written.back().armed;
+    sample[Column::layer_alive] = armed ? 1.0 : 0.0;
+    hal.push(sample);
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(command).has_value());
+    const auto& pins = hal.written.back();
+    EXPECT_EQ(pins.armed, left < 0.002) << tick;
+    EXPECT_EQ(pins.path_offset[2], armed ? 0.2 : 0.0) << tick;
+    EXPECT_EQ(pins.offset[2], 0.05);
+  }
+}
+
+// Another program may use the offsets, too.
+TEST(LinuxCncPort, WaitsForThatThreeHundredCyclesAtMost) {
+  FakeHal hal;
+  hal.with_offsets = true;
+  const auto port = port_on(hal);
+  for (std::uint64_t tick = 1; tick <= 310; ++tick) {
+    Sample sample = cutting(tick);
+    sample.axis[2].offset = 1.0;
+    hal.push(sample);
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(kHalf).has_value());
+    EXPECT_EQ(hal.written.back().armed, tick > 300) << tick;
+  }
 }
 
 TEST(LinuxCncPort, AllocatesNothingInACycle) {

@@ -38,7 +38,7 @@ class OffsetPlanner {
 /// Largest distance from 0.56·sin(6.67·t) mm that the planner's output keeps: the offset that a
 /// circle of 10 mm at F4000 needs with a position loop of 20 1/s.
 double worst_mm(double acceleration) {
-  OffsetCourse course({acceleration});
+  OffsetCourse course({.acceleration = {acceleration}});
   OffsetPlanner planner(40.0, 400.0);
   double worst = 0.0;
   for (std::uint64_t tick = 1; tick < 5000; ++tick) {
@@ -61,7 +61,7 @@ TEST(OffsetCourse, LeadsByWhatThePlannerLags) {
 }
 
 TEST(OffsetCourse, PassesOnWhatRests) {
-  OffsetCourse course({400.0});
+  OffsetCourse course({.acceleration = {400.0}, .in_force = {0.03}});
   Pins pins;
   for (std::uint64_t tick = 1; tick < 200; ++tick) {
     pins = {};
@@ -76,7 +76,7 @@ TEST(OffsetCourse, PassesOnWhatRests) {
 
 // A corner asks for a jump; the planner needs 2·√(2 mm/400 mm/s²) = 141 ms for 2 mm.
 TEST(OffsetCourse, DoesNotOvershootWhereMoreIsAskedThanTheAxisCanDo) {
-  OffsetCourse course({400.0});
+  OffsetCourse course({.acceleration = {400.0}});
   OffsetPlanner planner(40.0, 400.0);
   double at = 0.0;
   double most = 0.0;
@@ -98,7 +98,7 @@ TEST(OffsetCourse, DoesNotOvershootWhereMoreIsAskedThanTheAxisCanDo) {
 
 // The offset that a circle's beginning asks for: it grows as fast as the axis can and then stays.
 TEST(OffsetCourse, OvershootsLittleWhereATargetStopsAtOnce) {
-  OffsetCourse course({400.0});
+  OffsetCourse course({.acceleration = {400.0}});
   OffsetPlanner planner(40.0, 400.0);
   double most = 0.0;
   for (std::uint64_t tick = 1; tick < 400; ++tick) {
@@ -114,7 +114,7 @@ TEST(OffsetCourse, OvershootsLittleWhereATargetStopsAtOnce) {
 // Off and on bakes an offset into the position (LinuxCNC 2.9): it must be 0 when the machine comes
 // on again, and grow from there.
 TEST(OffsetCourse, GrowsFromNothingAfterTheMachineWasOff) {
-  OffsetCourse course;
+  OffsetCourse course({.in_force = {0.0, -0.03}});
   const auto given = [&](std::uint64_t tick, bool enabled) {
     Pins pins;
     pins.offset[1] = -0.03;
@@ -134,6 +134,34 @@ TEST(OffsetCourse, GrowsFromNothingAfterTheMachineWasOff) {
     before = now;
   }
   EXPECT_EQ(before, -0.03);
+}
+
+// A layer that was killed left 50 µm; the next one's supervisor begins at 0. In the cut, a jump
+// would leave a step in the part.
+TEST(OffsetCourse, GoesOnFromTheOffsetOfAnEarlierLayer) {
+  OffsetCourse course({.acceleration = {400.0}, .in_force = {0.05}, .slew = 0.05});
+  double before = 0.05;
+  for (std::uint64_t tick = 1; tick <= 1010; ++tick) {
+    Pins pins;
+    course.apply(pins, true, tick, kPeriod_s);
+    const double now = pins.offset[0] + pins.path_offset[0];
+    EXPECT_LE(std::abs(now - before), 0.06 * kPeriod_s) << tick;
+    EXPECT_NEAR(pins.offset[0], std::max(0.0, 0.05 - 5e-5 * static_cast<double>(tick)), 1e-9);
+    before = now;
+  }
+  EXPECT_NEAR(before, 0.0, 1e-6);
+}
+
+// After a stall that the watchdog ended the supervisor begins at 0, too.
+TEST(OffsetCourse, DoesNotFollowAJump) {
+  OffsetCourse course({.in_force = {0.05}, .slew = 0.05});
+  Pins pins;
+  pins.offset[0] = 0.05;
+  course.apply(pins, true, 1, kPeriod_s);
+  EXPECT_EQ(pins.offset[0], 0.05);
+  pins = {};
+  course.apply(pins, true, 301, kPeriod_s);
+  EXPECT_NEAR(pins.offset[0], 0.049, 1e-9) << "a gap counts as 20 cycles at most";
 }
 
 }  // namespace

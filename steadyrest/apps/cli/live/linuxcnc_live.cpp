@@ -9,9 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <steadyrest/adapters/linuxcnc/control_peer.hpp>
 #include <steadyrest/adapters/linuxcnc/hal_process.hpp>
 #include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
@@ -84,9 +81,7 @@ Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
 
 Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine) {
   auto beside = std::make_shared<Beside>();
-  // One name for each process: that of a killed one is taken until LinuxCNC restarts.
   adapter::HalProcess::Config process;
-  process.name = fmt::format("steadyrest-{}", ::getpid());
   process.axes = machine.axes.size();
   process.servo_period_s = machine.control.servo_period_s;
   auto hal = adapter::HalProcess::make(process);
@@ -97,6 +92,7 @@ Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine)
   config.units.axes = machine.axes.size();
   config.units.linear_unit_mm = (*hal)->linear_unit_mm();
   config.units.servo_period_s = machine.control.servo_period_s;
+  config.offset_slew_mm_s = machine.envelope.offset_slew_mm_s;
   for (std::size_t i = 0; i < std::min(machine.axes.size(), config.units.rotary.size()); ++i) {
     config.units.rotary[i] = machine.axes[i].rotary;
   }

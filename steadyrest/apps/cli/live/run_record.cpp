@@ -12,6 +12,20 @@
 
 namespace steadyrest::apps::cli::live {
 
+namespace {
+
+/// A layer that was killed may have begun its record in this very second.
+std::string free_name(const std::filesystem::path& folder, const std::string& utc) {
+  auto file = folder / record::run_name(utc);
+  std::error_code fault;
+  for (int again = 2; std::filesystem::exists(file, fault); ++again) {
+    file = folder / record::run_name(utc, again);
+  }
+  return file.string();
+}
+
+}  // namespace
+
 RunRecord::RunRecord(std::unique_ptr<record::RecordWriter> writer, kernel::port::Port& machine,
                      std::string file)
     : writer_(std::move(writer)), port_(machine, *writer_), file_(std::move(file)) {}
@@ -37,7 +51,7 @@ Result<std::unique_ptr<RunRecord>> RunRecord::start(const Of& of, const LivePort
   // What goes wrong here shows when the file is made.
   std::error_code fault;
   std::filesystem::create_directories(of.folder, fault);
-  std::string file = (std::filesystem::path(of.folder) / record::run_name(info.start_utc)).string();
+  std::string file = free_name(of.folder, info.start_utc);
   auto writer = record::RecordWriter::make({.file = file, .info = std::move(info)});
   if (!writer) {
     return std::unexpected(writer.error());

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// `steadyrest run` killed at random moments on a LinuxCNC that cuts circles of 10 mm at F4000, and
+// started again at once. Time is the servo thread's own count; no other clock judges anything.
+// STEADYREST_KILLS: how often (6); STEADYREST_SEED: other moments.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/record/record_reader.hpp>
+#include <steadyrest/record/run_folder.hpp>
+#include <steadyrest/trial/replay/replay.hpp>
+
+namespace steadyrest {
+namespace {
+
+using kernel::file::testing::OwnFolder;
+using kernel::file::testing::text_of_file;
+
+constexpr int kCannotRun = 77;
+constexpr double kFeed_mm_s = 4000.0 / 60.0;
+constexpr double kLongestReturn = 100.0;  ///< of the ratio, in servo cycles of 1 ms
+/// Of the speed: 20 until the watchdog sees it, 83 from 0 at the 800 mm/s² that LinuxCNC gives
+/// here.
+constexpr double kLongestSpeedReturn = 108.0;
+constexpr double kRamp = 0.015;             ///< a servo cycle: layer.hal's 15 1/s
+constexpr double kAcceleration_mm_s = 2.0;  ///< a servo cycle: 2000 mm/s²
+/// A servo cycle. The envelope's 0.05 mm/s are 0.05 µm; a stall is made up with 1 µm at once, which
+/// LinuxCNC eases to 0.6 µm a cycle. A jump of the 50 µm would show as 2.5 µm.
+constexpr double kOffsetStep_mm = 1e-3;
+constexpr double kMostLost = 2000.0;  ///< cycles: the record commits every second
+constexpr double kOffsetBefore_mm = 0.05;
+
+unsigned long number_from(const char* name, unsigned long otherwise) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
+}
+
+/// A servo cycle (lag_log.hal).
+struct Row {
+  double tick = 0.0;
+  double speed_mm_s = 0.0;
+  double ratio = 0.0;
+  double beat = 0.0;
+  double alive = 0.0;
+  double z_mm = 0.0;
+};
+
+std::vector<Row> servo_log(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<Row> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    double number = 0.0;
+    Row row;
+    if (words >> number >> row.tick >> row.speed_mm_s >> row.ratio >> row.beat >> row.alive >>
+        row.z_mm) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+struct Kill {
+  double tick = 0.0;    ///< by this servo cycle the process had ended
+  bool waited = false;  ///< the next layer came when the feed was the panel's
+};
+
+std::vector<Kill> kills_of(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<Kill> kills;
+  for (Kill kill; in >> kill.tick >> kill.waited;) {
+    kills.push_back(kill);
+  }
+  return kills;
+}
+
+using At = std::vector<Row>::const_iterator;
+
+At at_tick(const std::vector<Row>& log, double tick) {
+  return std::ranges::lower_bound(log, tick, {}, &Row::tick);
+}
+
+/// What the servo thread saw of one layer.
+struct Life {
+  double first_beat = 0.0;
+  double last_beat = 0.0;
+  double back = 0.0;        ///< cycles from the last beat until the ratio was 1
+  double speed_back = 0.0;  ///< and until the feed was the panel's
+  double next = 0.0;        ///< and until the next layer's first beat
+  bool seen = false;        ///< the log has each of these cycles
+};
+
+/// Of the layer that beat in (from, killed]. What it wrote last shows one cycle later.
+Life life(const std::vector<Row>& log, double from, double killed) {
+  Life out;
+  const At before = at_tick(log, from + 1.0);
+  if (before == log.end()) {
+    return out;
+  }
+  const At begin = before + 1;
+  At last = begin;
+  for (At i = begin; i != log.end() && i->tick <= killed + 1.0; ++i) {
+    if (i->beat != (i - 1)->beat) {
+      out.first_beat = out.first_beat == 0.0 ? i->tick : out.first_beat;
+      last = i;
+    }
+  }
+  if (out.first_beat == 0.0) {
+    return out;
+  }
+  out.last_beat = last->tick;
+  const auto cycles_until = [&](auto reached) {
+    const At found = std::find_if(last, log.end(), reached);
+    return found == log.end() ? 1e9 : found->tick - last->tick;
+  };
+  out.back = cycles_until([](const Row& row) { return row.ratio == 1.0; });
+  out.speed_back =
+      cycles_until([](const Row& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
+  out.next = cycles_until([&](const Row& row) { return row.beat != last->beat; });
+  const At end = at_tick(log, out.last_beat + kLongestSpeedReturn);
+  out.seen = end != log.end() && end->tick - out.last_beat == static_cast<double>(end - last);
+  return out;
+}
+
+double largest_step(const std::vector<Row>& log, At from, double Row::* of, double sign) {
+  double most = 0.0;
+  for (At i = from + 1; i < log.end(); ++i) {
+    const double step = (*i).*of - (*(i - 1)).*of;
+    most = std::max(most, (sign == 0.0 ? std::abs(step) : sign * step) / (i->tick - (i - 1)->tick));
+  }
+  return most;
+}
+
+/// The last cycle that a record has; none of an empty one.
+std::optional<double> last_cycle(const std::string& file) {
+  auto reader = record::RecordReader::open(file);
+  if (!reader) {
+    ADD_FAILURE() << kernel::outcome::text(reader.error());
+    return std::nullopt;
+  }
+  std::optional<double> last;
+  record::Sample sample;
+  for (;;) {
+    const auto more = reader->next(sample);
+    if (!more) {
+      ADD_FAILURE() << kernel::outcome::text(more.error());
+    }
+    if (!more || !*more) {
+      return last;
+    }
+    last = static_cast<double>(sample.frame.cycle);
+  }
+}
+
+/// Cycles that the record of a killed layer lacks at its end.
+double expect_whole(const std::string& file, const Life& life,
+                    const kernel::machine::Machine& machine) {
+  const auto replayed = trial::replay::replay(file, machine);
+  if (!replayed) {
+    ADD_FAILURE() << kernel::outcome::text(replayed.error());
+    return 0.0;
+  }
+  EXPECT_FALSE(replayed->first_difference.has_value()) << file;
+  return life.last_beat - last_cycle(file).value_or(life.first_beat - 1.0);
+}
+
+int run_on_linuxcnc(const OwnFolder& folder, unsigned long kills) {
+  const std::string command =
+      "DRIVE=kills.py DRIVE_ARGS='" + std::to_string(kills) + " " +
+      std::to_string(number_from("STEADYREST_SEED", 1)) +
+      "' PROBE='" STEADYREST_PROGRAM "' MACHINE='" + folder.at("machine.toml") +
+      "' HAL='lag.hal layer.hal layer_offsets.hal lag_log.hal' bash " STEADYREST_SOURCE_DIR
+      "/tests/linuxcnc/measure.sh '" +
+      folder.at("circles.ngc") + "' '" + folder.at("log") + "'";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// The mill of the examples, on a running LinuxCNC; enough circles for all kills.
+void write_inputs(const OwnFolder& folder, unsigned long kills) {
+  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
+  const std::string sim = "port = \"sim\"";
+  text.replace(text.find(sim), sim.size(), "port = \"linuxcnc\"");
+  std::ofstream(folder.at("machine.toml")) << text;
+  std::ofstream(folder.at("circles.ngc"))
+      << "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P"
+      << 200 + 10 * kills << '\n';
+}
+
+void expect_no_jump(const std::vector<Row>& log) {
+  // From here on the circle is cut and a layer is there.
+  const At first = std::ranges::find(log, 1.0, &Row::alive);
+  ASSERT_NE(first, log.end());
+  EXPECT_NEAR(first->z_mm, kOffsetBefore_mm, 1e-4);
+  EXPECT_NEAR(log.back().z_mm, 0.0, 1e-4);
+  const double up = largest_step(log, first, &Row::ratio, 1.0);
+  const double speed = largest_step(log, first, &Row::speed_mm_s, 0.0);
+  const double offset = largest_step(log, first, &Row::z_mm, 0.0);
+  EXPECT_LE(up, kRamp + 1e-9);
+  EXPECT_LE(speed, kAcceleration_mm_s + 1e-6);
+  EXPECT_LE(offset, kOffsetStep_mm);
+  std::printf("largest step a cycle: ratio up %.4f, speed %.3f mm/s, offset %.3f um\n", up, speed,
+              1e3 * offset);
+}
+
+struct Figures {
+  std::vector<double> back;
+  std::vector<double> speed_back;
+  std::vector<double> lost;
+};
+
+Figures expect_each_let_go(const std::vector<Row>& log, const std::vector<Kill>& killed,
+                           const OwnFolder& folder) {
+  Figures out;
+  const auto machine = passport::read(folder.at("machine.toml"));
+  const auto files = record::run_files(folder.path());
+  std::vector<std::string> runs;
+  for (const auto& file : files.value()) {
+    if (file.rotates) {
+      runs.push_back(file.file);
+    }
+  }
+  EXPECT_EQ(runs.size(), killed.size() + 1) << "a record for each layer";
+  for (std::size_t i = 0; i < std::min(killed.size(), runs.size()); ++i) {
+    const Life of = life(log, i == 0 ? log.front().tick : killed[i - 1].tick, killed[i].tick);
+    EXPECT_GT(of.last_beat, 0.0) << i;
+    const std::string where = "kill " + std::to_string(i);
+    EXPECT_TRUE(!killed[i].waited || of.next > of.back) << where;
+    if (of.seen && of.next > std::min(of.back, kLongestReturn)) {
+      EXPECT_LE(of.back, kLongestReturn) << where;
+      out.back.push_back(of.back);
+    }
+    if (of.seen && of.next > std::min(of.speed_back, kLongestSpeedReturn)) {
+      EXPECT_LE(of.speed_back, kLongestSpeedReturn) << where;
+      out.speed_back.push_back(of.speed_back);
+    }
+    out.lost.push_back(expect_whole(runs[i], of, machine.value()));
+    EXPECT_LE(out.lost.back(), kMostLost) << runs[i];
+  }
+  expect_whole(runs.back(), {}, machine.value());
+  return out;
+}
+
+void show(const char* what, std::vector<double> values) {
+  std::ranges::sort(values);
+  if (!values.empty()) {
+    std::printf("%s: median %.0f, at most %.0f cycles (%zu)\n", what, values[values.size() / 2],
+                values.back(), values.size());
+  }
+}
+
+TEST(Kills, EachLeavesTheFeedToThePanelAndTheNextLayerTakesOver) {
+  const OwnFolder folder;
+  const unsigned long kills = number_from("STEADYREST_KILLS", 6);
+  write_inputs(folder, kills);
+  const int status = run_on_linuxcnc(folder, kills);
+  if (status == kCannotRun) {
+    GTEST_SKIP() << "LinuxCNC cannot run here";
+  }
+  ASSERT_EQ(status, 0);
+  const auto log = servo_log(folder.at("log"));
+  const auto killed = kills_of(folder.at("kills"));
+  ASSERT_EQ(killed.size(), kills);
+  ASSERT_GT(log.size(), 1000U);
+  expect_no_jump(log);
+  const Figures figures = expect_each_let_go(log, killed, folder);
+  EXPECT_FALSE(figures.back.empty());
+  show("ratio back at 1", figures.back);
+  show("feed back at the panel's", figures.speed_back);
+  show("not in the record", figures.lost);
+  std::printf(
+      "%lu of %lu were followed by the next layer before that\nservo cycles that the sampler lost: "
+      "%.0f\n",
+      kills - figures.back.size(), kills,
+      log.back().tick - log.front().tick + 1.0 - static_cast<double>(log.size()));
+}
+
+}  // namespace
+}  // namespace steadyrest
