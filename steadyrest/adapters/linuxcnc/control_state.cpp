@@ -45,6 +45,7 @@ ControlState state_of(const Json& json) {
   json.at("inch").get_to(state.inch);
   json.at("incremental").get_to(state.incremental);
   json.at("path_mode").get_to(state.path_mode);
+  json.at("path_tolerance_mm").get_to(state.path_tolerance_mm);
   json.at("machine_inch").get_to(state.machine_inch);
   json.at("variables").get_to(state.variables);
   json.at("folders").get_to(state.folders);

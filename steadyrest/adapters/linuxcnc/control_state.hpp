@@ -37,9 +37,10 @@ struct ControlState {
   bool block_delete = false;
   bool inch = false;  ///< G20
   bool incremental = false;
-  std::string path_mode;      ///< exact_path, exact_stop or continuous
-  bool machine_inch = false;  ///< unit of the variable file's lengths
-  std::string variables;      ///< file of the numbered parameters; empty: none
+  std::string path_mode;           ///< exact_path, exact_stop or continuous
+  double path_tolerance_mm = 0.0;  ///< P of G64
+  bool machine_inch = false;       ///< unit of the variable file's lengths
+  std::string variables;           ///< file of the numbered parameters; empty: none
   std::vector<std::string> folders;
 };
 

@@ -10,6 +10,7 @@ import sys
 import time
 
 try:
+    import hal
     import linuxcnc
 except ImportError as fault:
     print(json.dumps({"error": "LinuxCNC's Python module is missing: %s" % fault}), flush=True)
@@ -61,14 +62,31 @@ def files(ini):
     return absolute(variables) if variables else "", [absolute(f) for f in folders if f]
 
 
-def state(status, lengths, ini_files):
+def tolerance_mm(status, lengths):
+    """P of the G64 in force. LinuxCNC shows 0.001 inch before the first G64, but rounds without a limit then."""
+    tolerance, merging = status.settings[3] * lengths.mm, status.settings[4]
+    return 0.0 if merging == 0.0 and abs(tolerance - 0.0254) < 1e-6 else tolerance
+
+
+def without_offsets(position, lengths):
+    """The machine's position without the external offsets that it contains."""
+    found = list(position)
+    for i, letter in enumerate("xyzabcuvw"):
+        try:
+            found[i] -= hal.get_value("axis.%s.eoffset" % letter) * (lengths.mm if i in LINEAR else 1.0)
+        except RuntimeError:
+            pass  # no such axis
+    return found
+
+
+def state(status, lengths, ini_files, home):
     codes = set(status.gcodes[1:])
     stopped = status.task_mode != linuxcnc.MODE_AUTO or status.interp_state == linuxcnc.INTERP_IDLE
     # What the program itself sets shows here too while it runs; the layer takes what held at its start.
     return {
-        "program": os.path.abspath(status.file) if status.file else "",
+        "program": os.path.normpath(os.path.join(home, status.file)) if status.file else "",
         "stopped": stopped,
-        "position": lengths.of_axes(status.position) if stopped else None,
+        "position": without_offsets(lengths.of_axes(status.position), lengths) if stopped else None,
         "work_offset": status.g5x_index,
         "work_offset_mm": lengths.of_axes(status.g5x_offset),
         "rotation_deg": status.rotation_xy,
@@ -80,6 +98,7 @@ def state(status, lengths, ini_files):
         "inch": 200 in codes,
         "incremental": 910 in codes,
         "path_mode": next((PATH_MODES[c] for c in codes if c in PATH_MODES), "continuous"),
+        "path_tolerance_mm": tolerance_mm(status, lengths),
         "machine_inch": lengths.mm != 1.0,
         "variables": ini_files[0],
         "folders": ini_files[1],
@@ -91,10 +110,11 @@ def watch():
     status.poll()
     lengths = Lengths(status)
     ini_files = files(status.ini_filename)
+    home = os.path.dirname(os.path.abspath(status.ini_filename))
     told, told_s, before = None, 0.0, None
     while True:
         status.poll()
-        now = state(status, lengths, ini_files)
+        now = state(status, lengths, ini_files, home)
         # A position that moves is not told before it rests.
         moves, before = before is not None and now["position"] != before, now["position"]
         if moves and told is not None:

@@ -78,6 +78,15 @@ Result<void> HalProcess::Hal::attach(std::size_t axes) {
           "start LinuxCNC with layer.hal as a HALFILE, for as many axes as the machine file has");
     }
     ++attached;
+    if (const int pins_there = hal_stream_element_count(&stream[c]);
+        std::cmp_not_equal(pins_there, types.size())) {
+      return unavailable(
+          fmt::format(
+              "sampler channel {} has {} pins, not {}: layer.hal is for another number of axes", c,
+              pins_there, types.size()),
+          fmt::format("make the machine file have as many axes as LinuxCNC has joints; it has {}",
+                      axes));
+    }
     columns[c] = types.size();
     for (std::size_t i = 0; i < types.size(); ++i) {
       type[c][i] = hal_stream_element_type(&stream[c], static_cast<int>(i));

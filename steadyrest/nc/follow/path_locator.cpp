@@ -272,28 +272,33 @@ void PathLocator::scan(const Axes& point, std::uint32_t line) noexcept {
     return;
   }
   if (line != scan_line_ || trails_ == 0) {
-    const bool goes_on = line == scan_line_ && scanned_ < route_->of_line(line).size();
+    const bool goes_on = line == scan_line_ && scanned_ < to_scan(line);
     scanned_ = goes_on ? scanned_ : 0;
     scan_line_ = line;
   }
   const auto segments = route_->of_line(line);
-  const std::size_t end = std::min(segments.size(), scanned_ + kLinesPerCycle);
+  const auto after = route_->after_line(line);
+  const std::size_t end = std::min(segments.size() + after.size(), scanned_ + kLinesPerCycle);
   for (; scanned_ < end; ++scanned_) {
-    const std::size_t at = segments[scanned_];
+    const bool of_line = scanned_ < segments.size();
+    const std::size_t at = of_line ? segments[scanned_] : after[scanned_ - segments.size()];
     const std::size_t first = at - std::min(at, kLineAhead);
-    const std::size_t last = std::min(route_->path().size() - 1, at + kLineBehind);
+    const std::size_t last = std::min(route_->path().size() - 1, at + (of_line ? kLineBehind : 0));
     for (std::size_t i = first; i <= last; ++i) {
       look_at(i, point);
     }
   }
 }
 
+std::size_t PathLocator::to_scan(std::uint32_t line) const noexcept {
+  return route_->of_line(line).size() + route_->after_line(line).size();
+}
+
 bool PathLocator::decided() const noexcept {
   if (trails_ == 0 || trail_[0].position_mm - trail_[0].born_mm < kConfirm_mm) {
     return false;
   }
-  return from_start_ ||
-         (trails_ == 1 && !overflow_ && scanned_ >= route_->of_line(scan_line_).size());
+  return from_start_ || (trails_ == 1 && !overflow_ && scanned_ >= to_scan(scan_line_));
 }
 
 bool PathLocator::line_fits(std::uint32_t line) const noexcept {
@@ -307,7 +312,8 @@ bool PathLocator::line_fits(std::uint32_t line) const noexcept {
     low = std::min(low, path[i].line);
     high = std::max(high, path[i].line);
   }
-  return low <= line && line <= high;
+  // The last line of a merged block lies before the line that follows it.
+  return route_->line_before(low) <= line && line <= high;
 }
 
 /// A place that the control has left for long, or whose lines are others than the control's, is not

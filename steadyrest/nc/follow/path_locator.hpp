@@ -63,6 +63,7 @@ class PathLocator {
   [[nodiscard]] bool advance(Trail& trail, const Axes& point, double travel_mm) const noexcept;
   void advance_all(const Axes& point, double travel_mm) noexcept;
   void scan(const Axes& point, std::uint32_t line) noexcept;
+  [[nodiscard]] std::size_t to_scan(std::uint32_t line) const noexcept;
   void look_at(std::size_t index, const Axes& point) noexcept;
   void keep(std::size_t index, double position_mm, double away_mm) noexcept;
   [[nodiscard]] bool decided() const noexcept;

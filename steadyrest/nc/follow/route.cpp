@@ -24,4 +24,19 @@ std::span<const std::uint32_t> Route::of_line(std::uint32_t line) const noexcept
   return {begin, end};
 }
 
+std::span<const std::uint32_t> Route::after_line(std::uint32_t line) const noexcept {
+  const auto line_of = [this](std::uint32_t i) { return path_[i].line; };
+  const auto begin = std::ranges::upper_bound(by_line_, line, {}, line_of);
+  if (begin == by_line_.end()) {
+    return {};
+  }
+  return {begin, std::ranges::upper_bound(by_line_, line_of(*begin), {}, line_of)};
+}
+
+std::uint32_t Route::line_before(std::uint32_t line) const noexcept {
+  const auto line_of = [this](std::uint32_t i) { return path_[i].line; };
+  const auto at = std::ranges::lower_bound(by_line_, line, {}, line_of);
+  return at == by_line_.begin() ? line : line_of(*(at - 1));
+}
+
 }  // namespace steadyrest::nc::follow

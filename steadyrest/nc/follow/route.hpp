@@ -19,6 +19,11 @@ class Route {
   /// The segments of a program line, in the order of the path; of a line without one, those of the
   /// nearest line before it: a control merges short blocks.
   [[nodiscard]] std::span<const std::uint32_t> of_line(std::uint32_t line) const noexcept;
+  /// The segments of the next line that has any. A merged block ends just before one of these, in
+  /// whichever pass of a loop it was merged.
+  [[nodiscard]] std::span<const std::uint32_t> after_line(std::uint32_t line) const noexcept;
+  /// The nearest line below that has a segment; `line` itself where none has.
+  [[nodiscard]] std::uint32_t line_before(std::uint32_t line) const noexcept;
 
  private:
   std::vector<kernel::signal::PathSegment> path_;

@@ -118,16 +118,23 @@ TEST(ProgramWarnings, OfInchesAreTheSame) {
 // F60000 on axes of 12 m/min: 99.5 % of it changes nothing.
 TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
   const Scratch scratch;
-  const auto cut = [&](int feed_mm_min) {
+  std::string text = text_of_file(kMill);
+  const std::string clips = "clips_programmed_feed = true";
+  text.replace(text.find(clips), clips.size(), "clips_programmed_feed = false");
+  const std::string unclipped = scratch.file("unclipped.toml", text);
+  const auto cut = [&](int feed_mm_min, const std::string& machine) {
     const std::string program = scratch.file(
         "fast.ngc",
         fmt::format("G21 G90 G17\nS1000 M3\nG0 X0 Y0\nG1 X200 F{}\nX10\nM2\n", feed_mm_min));
-    return warned(answer_of("cut " + program + " --machine " + kMill));
+    return warned(answer_of("cut " + program + " --machine " + machine));
   };
-  EXPECT_THAT(cut(60000), ElementsAre(HasSubstr("4: the next step of the feed override, 99.5 %, "
-                                                "changes nothing for 100 % of the cut"),
-                                      HasSubstr("4: the feed of 60000 mm/min")));
-  EXPECT_THAT(cut(6000), IsEmpty());
+  EXPECT_THAT(cut(60000, unclipped),
+              ElementsAre(HasSubstr("4: the next step of the feed override, 99.5 %, "
+                                    "changes nothing for 100 % of the cut"),
+                          HasSubstr("4: the feed of 60000 mm/min")));
+  // LinuxCNC's override multiplies what the axes permit of F.
+  EXPECT_THAT(cut(60000, kMill), ElementsAre(HasSubstr("4: the feed of 60000 mm/min")));
+  EXPECT_THAT(cut(6000, unclipped), IsEmpty());
 }
 
 // The examples must not warn about themselves.

@@ -74,6 +74,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start.inch = state.inch;
   start.incremental = state.incremental;
   start.path_mode = path_mode(state.path_mode);
+  start.path_tolerance_mm = state.path_tolerance_mm;
   return loaded;
 }
 
