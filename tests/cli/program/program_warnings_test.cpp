@@ -118,7 +118,7 @@ TEST(ProgramWarnings, OfInchesAreTheSame) {
 // F60000 on axes of 12 m/min: 99.5 % of it changes nothing.
 TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
   const Scratch scratch;
-  std::string text = text_of_file(kMill);
+  std::string text = text_of_file(project_file("examples/machines/linuxcnc-mill.toml"));
   const std::string clips = "clips_programmed_feed = true";
   text.replace(text.find(clips), clips.size(), "clips_programmed_feed = false");
   const std::string unclipped = scratch.file("unclipped.toml", text);
