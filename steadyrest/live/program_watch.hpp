@@ -26,7 +26,7 @@ struct LoadedProgram {
   friend bool operator==(const LoadedProgram&, const LoadedProgram&) = default;
 };
 
-/// Keeps a FollowedPort's path that of the loaded program, in a thread of its own: reads and plans
+/// Keeps a FollowedPort's path that of the loaded program, in its own thread: reads and plans
 /// it when another one is loaded, when its text changes and when the control's offsets do. A
 /// program whose text changes while it runs has no path until it has ended.
 class ProgramWatch {

@@ -24,7 +24,7 @@ struct ReloadStatus {
   std::string words;         ///< why it was refused
 };
 
-/// Reads the machine file again when asked, in a thread of its own, and offers the new layer to the
+/// Reads the machine file again when asked, in its own thread, and offers the new layer to the
 /// loop. A refused file changes nothing.
 class Reloader {
  public:

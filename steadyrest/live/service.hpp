@@ -64,7 +64,7 @@ class LifeSign {
   bool stopping_ = false;
 };
 
-/// Looks several times in each watchdog interval, in a thread of its own, while it lives.
+/// Looks several times in each watchdog interval, in its own thread, while it lives.
 class LifeSignThread {
  public:
   LifeSignThread(const Loop& loop, const ServiceManager& manager);

@@ -28,9 +28,8 @@ ControlState state_of(const Json& json) {
   ControlState state;
   json.at("program").get_to(state.program);
   json.at("stopped").get_to(state.stopped);
-  state.position_known = !json.at("position").is_null();
-  if (state.position_known) {
-    json.at("position").get_to(state.position);
+  if (const Json& position = json.at("position"); !position.is_null()) {
+    position.get_to(state.position);
   }
   json.at("work_offset").get_to(state.work_offset);
   json.at("work_offset_mm").get_to(state.work_offset_mm);

@@ -26,8 +26,7 @@ struct ControlState {
   std::string program;     ///< absolute path; empty: none
   bool stopped = true;     ///< no program runs
   ControlAxes position{};  ///< of the machine, while it is stopped
-  bool position_known = false;
-  int work_offset = 1;  ///< 1: G54 … 9: G59.3
+  int work_offset = 1;     ///< 1: G54 … 9: G59.3
   ControlAxes work_offset_mm{};
   double rotation_deg = 0.0;
   ControlAxes g92_mm{};

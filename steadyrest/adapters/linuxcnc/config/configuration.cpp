@@ -160,7 +160,7 @@ Result<void> check_sections(const IniFile& ini, const ConfiguredAxis& axis) {
   return {};
 }
 
-/// The present axes in the order of a machine file, with stand-ins for X, Y and Z.
+/// The axes in the order of a machine file, with placeholders for a missing X, Y or Z.
 Result<std::vector<ConfiguredAxis>> axes_of(const IniFile& ini) {
   const auto joints = joints_of(ini);
   const auto letters = joints ? letters_of_joints(ini) : std::unexpected(joints.error());

@@ -10,11 +10,11 @@
 
 namespace steadyrest::adapters::linuxcnc::config {
 
-/// One axis of the machine, or the stand-in for a missing X, Y or Z.
+/// One axis of the machine, or a placeholder for a missing X, Y or Z.
 struct ConfiguredAxis {
   char letter = 'X';
   bool rotary = false;
-  std::vector<std::size_t> joints;  ///< those that move it, rising; none: a stand-in
+  std::vector<std::size_t> joints;  ///< those that move it, ascending; none: a placeholder
 
   [[nodiscard]] bool present() const noexcept { return !joints.empty(); }
 };

@@ -13,7 +13,7 @@ namespace steadyrest::adapters::linuxcnc::config {
 /// One axis in the layer's HAL file.
 struct LayerAxis {
   char letter = 'X';
-  std::optional<std::size_t> joint;  ///< none: a stand-in, its columns stay 0
+  std::optional<std::size_t> joint;  ///< none: the machine has no such axis, its columns stay 0
   bool rotary = false;
 };
 

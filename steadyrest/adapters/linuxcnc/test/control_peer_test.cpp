@@ -21,7 +21,6 @@ TEST(ControlState, ReadsALineOfTheScript) {
   const auto state = control_state(kLine);
   ASSERT_TRUE(state.has_value()) << state.error().what;
   EXPECT_EQ(state->program, "/nc/part.ngc");
-  EXPECT_TRUE(state->position_known);
   EXPECT_EQ(state->position[8], 9.0);
   EXPECT_EQ(state->work_offset, 2);
   EXPECT_EQ(state->work_offset_mm[1], 20.0);

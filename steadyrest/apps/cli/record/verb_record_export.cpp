@@ -105,7 +105,7 @@ Outcome csv(record::RecordReader& reader, const Options& options, bool json, Pro
 }
 
 #if STEADYREST_HAS_HDF5
-/// The library wants a file of its own; its bytes then go the way of every output.
+/// The library writes only to a file; its bytes are then written as every output is.
 Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& progress) {
   auto out = kernel::file::OutputFile::open(options.output);
   if (!out) {
