@@ -10,7 +10,7 @@
 // mistake of the layer's code cannot hide in the same code here.
 namespace steadyrest::bench::hostile {
 
-OverrideWatch::OverrideWatch(const Rules& rules) : rules_(rules) {
+OverrideWatch::OverrideWatch(Rules rules) : rules_(std::move(rules)) {
   const auto& table = rules_.table;
   for (std::size_t i = 0; i < table.ratio.size(); ++i) {
     const auto position = static_cast<std::uint32_t>(i) + 1U;

@@ -40,7 +40,7 @@ class OverrideWatch {
     bool masks = false;
   };
 
-  explicit OverrideWatch(const Rules& rules);
+  explicit OverrideWatch(Rules rules);
 
   /// The operator turned the panel, and the layer saw it.
   void panel(double ratio) noexcept { panel_ = ratio; }

@@ -45,8 +45,8 @@ ServiceManager ServiceManager::from_environment() {
                         1e-6 * static_cast<double>(watchdog_us));
 }
 
-ServiceManager::ServiceManager(const std::string& address, double watchdog_s)
-    : address_(address), watchdog_s_(watchdog_s) {
+ServiceManager::ServiceManager(std::string address, double watchdog_s)
+    : address_(std::move(address)), watchdog_s_(watchdog_s) {
   const bool fits = address_.size() > 1 && address_.size() < sizeof(sockaddr_un::sun_path) &&
                     (address_.front() == '/' || address_.front() == '@');
   if (fits) {

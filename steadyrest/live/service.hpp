@@ -22,7 +22,7 @@ class ServiceManager {
   [[nodiscard]] static ServiceManager from_environment();
 
   /// `address`: a path, or `@` and an abstract name; empty: nobody.
-  explicit ServiceManager(const std::string& address, double watchdog_s = 0.0);
+  explicit ServiceManager(std::string address, double watchdog_s = 0.0);
   ServiceManager(ServiceManager&& other) noexcept;
   ServiceManager& operator=(ServiceManager&&) = delete;
   ServiceManager(const ServiceManager&) = delete;
@@ -44,8 +44,8 @@ class ServiceManager {
 /// Tells the service manager that the loop runs: READY=1 after its first cycle, WATCHDOG=1 only if
 /// it has cycled since the last look, STOPPING=1 once it has been told to stop.
 ///
-/// The cycle makes no system call for this. Nor may a thread of its own vouch for a loop that
-/// hangs: this one passes on what the loop's count of cycles says.
+/// The cycle makes no system call for this. Nor may another thread vouch for a loop that hangs:
+/// this one only passes on what the loop's count of cycles says.
 class LifeSign {
  public:
   /// Both outlive it.

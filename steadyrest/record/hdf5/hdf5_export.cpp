@@ -67,7 +67,8 @@ bool put_attribute(hid_t at, const char* name, const std::string& text) {
   const Hdf5Handle attribute(H5Acreate2(at, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose);
   const char* const value = text.c_str();
-  return attribute.good() && H5Awrite(attribute.id(), type.id(), &value) >= 0;
+  return attribute.good() &&
+         H5Awrite(attribute.id(), type.id(), static_cast<const void*>(&value)) >= 0;
 }
 
 template <class Value>
@@ -84,7 +85,8 @@ bool put_text(hid_t at, const char* name, const std::string& text) {
   const Hdf5Handle set(
       H5Dcreate2(at, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   const char* const value = text.c_str();
-  return set.good() && H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
+  return set.good() && H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                static_cast<const void*>(&value)) >= 0;
 }
 
 /// Values of a known number.

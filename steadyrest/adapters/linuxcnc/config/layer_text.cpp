@@ -12,6 +12,11 @@
 namespace steadyrest::adapters::linuxcnc::config {
 namespace {
 
+/// Linear, and with a joint: LinuxCNC offsets it.
+bool moves(const LayerAxis& axis) {
+  return axis.joint && !axis.rotary;
+}
+
 constexpr std::size_t kAxesPerChannel = 4;
 constexpr std::size_t kAxisColumns = 4;
 constexpr const char* kStateTypes = "fssfffffbfffffbbbbb";
@@ -257,6 +262,59 @@ void samples(Text& text, const LayerHal& layer) {
   }
 }
 
+void load_offsets(Text& text, const LayerHal& layer) {
+  const auto counts = needed(layer).back();
+  if (!layer.loaded.contains(counts.component)) {
+    std::string names;
+    for (const std::string& name : counts.names) {
+      names += (names.empty() ? "" : ",") + name;
+    }
+    text.line(fmt::format("loadrt {} names={}\n", counts.component, names));
+  }
+  int position = 8;
+  for (const LayerAxis& axis : layer.axes) {
+    for (const char* stem : {"path", "path-ramp", "offset", "counts"}) {
+      if (moves(axis)) {
+        text.addf(of_axis(stem, axis), position++);
+      }
+    }
+  }
+  text.line(
+      fmt::format("\n# The sum goes out in counts of {:g} of the machine's unit. The path offset "
+                  "goes to 0 at {:g} 1/s of it when the\n"
+                  "# heartbeat stops; the offset against heat stays.",
+                  layer.offset_count, layer.path_ramp_s));
+}
+
+void offset(Text& text, const LayerHal& layer, std::size_t i) {
+  const LayerAxis& axis = layer.axes[i];
+  const char l = lower(axis.letter);
+  const std::string gain = fmt::format("{:.10g}", 1.0 / layer.offset_count);
+  text.line();
+  text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_s));
+  text.setp(of_axis("offset", axis) + ".gain0", gain);
+  text.setp(of_axis("offset", axis) + ".gain1", gain);
+  text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));
+  text.setp(fmt::format("axis.{}.eoffset-enable", l), "1");
+  const char upper = axis.letter;
+  text.line(
+      fmt::format("newsig layer-offset-share-{0} float\nnewsig layer-axis-acceleration-{0} float\n"
+                  "sets layer-offset-share-{0} [AXIS_{1}]OFFSET_AV_RATIO\n"
+                  "sets layer-axis-acceleration-{0} [AXIS_{1}]MAX_ACCELERATION",
+                  i, upper));
+  text.reads(fmt::format("layer-path-offset-{}", i), {of_axis("path", axis) + ".in1"});
+  text.reads("layer-alive", {of_axis("path", axis) + ".sel", of_axis("path-ramp", axis) + ".load"});
+  text.net(fmt::format("layer-path-{}-chosen", l), of_axis("path", axis) + ".out",
+           {of_axis("path-ramp", axis) + ".in"});
+  text.net(fmt::format("layer-path-{}-in-force", l), of_axis("path-ramp", axis) + ".out",
+           {of_axis("offset", axis) + ".in1"});
+  text.reads(fmt::format("layer-offset-{}", i), {of_axis("offset", axis) + ".in0"});
+  text.net(fmt::format("layer-offset-{}-counts-float", l), of_axis("offset", axis) + ".out",
+           {of_axis("counts", axis) + ".in"});
+  text.net(fmt::format("layer-offset-{}-counts", l), of_axis("counts", axis) + ".out",
+           {fmt::format("axis.{}.eoffset-counts", l)});
+}
+
 }  // namespace
 
 std::string drive_signal(const std::string& output) {
@@ -273,7 +331,7 @@ std::vector<Needed> needed(const LayerHal& layer) {
     drives.names.push_back(drive_name(output));
   }
   for (const LayerAxis& axis : layer.axes) {
-    if (layer.offset_components && axis.joint && !axis.rotary) {
+    if (layer.offset_components && moves(axis)) {
       sums.names.push_back(of_axis("offset", axis));
       choices.names.push_back(of_axis("path", axis));
       ramps.names.push_back(of_axis("path-ramp", axis));
@@ -296,7 +354,7 @@ std::vector<Needed> needed(const LayerHal& layer) {
 std::vector<std::string> driven_pins(const LayerHal& layer, bool offsets) {
   std::vector<std::string> out{"motion.adaptive-feed"};
   for (const LayerAxis& axis : layer.axes) {
-    if (offsets && axis.joint && !axis.rotary) {
+    if (offsets && moves(axis)) {
       for (const char* pin : {"counts", "enable", "scale", "clear"}) {
         out.push_back(fmt::format("axis.{}.eoffset-{}", lower(axis.letter), pin));
       }
@@ -316,63 +374,17 @@ std::string layer_text(const LayerHal& layer) {
 
 std::string offsets_text(const LayerHal& layer) {
   Text text(layer);
-  const auto counts = needed(layer).back();
-  if (!layer.loaded.contains(counts.component)) {
-    std::string names;
-    for (const std::string& name : counts.names) {
-      names += (names.empty() ? "" : ",") + name;
-    }
-    text.line(fmt::format("loadrt {} names={}\n", counts.component, names));
-  }
-  int position = 8;
-  for (const LayerAxis& axis : layer.axes) {
-    for (const char* stem : {"path", "path-ramp", "offset", "counts"}) {
-      if (axis.joint && !axis.rotary) {
-        text.addf(of_axis(stem, axis), position++);
-      }
-    }
-  }
-  text.line(
-      fmt::format("\n# The sum goes out in counts of {:g} of the machine's unit. The path offset "
-                  "goes to 0 at {:g} 1/s of it when the\n"
-                  "# heartbeat stops; the offset against heat stays.",
-                  layer.offset_count, layer.path_ramp_s));
+  load_offsets(text, layer);
   for (std::size_t i = 0; i < layer.axes.size(); ++i) {
-    const LayerAxis& axis = layer.axes[i];
-    if (!axis.joint || axis.rotary) {
+    if (moves(layer.axes[i])) {
+      offset(text, layer, i);
+    } else {
       // The layer's process connects its pins for every axis.
       text.line(fmt::format(
           "\nnewsig layer-offset-{0} float\nnewsig layer-path-offset-{0} float\n"
           "newsig layer-offset-share-{0} float\nnewsig layer-axis-acceleration-{0} float",
           i));
-      continue;
     }
-    const char l = lower(axis.letter);
-    const std::string gain = fmt::format("{:.10g}", 1.0 / layer.offset_count);
-    text.line();
-    text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_s));
-    text.setp(of_axis("offset", axis) + ".gain0", gain);
-    text.setp(of_axis("offset", axis) + ".gain1", gain);
-    text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));
-    text.setp(fmt::format("axis.{}.eoffset-enable", l), "1");
-    const char upper = axis.letter;
-    text.line(fmt::format(
-        "newsig layer-offset-share-{0} float\nnewsig layer-axis-acceleration-{0} float\n"
-        "sets layer-offset-share-{0} [AXIS_{1}]OFFSET_AV_RATIO\n"
-        "sets layer-axis-acceleration-{0} [AXIS_{1}]MAX_ACCELERATION",
-        i, upper));
-    text.reads(fmt::format("layer-path-offset-{}", i), {of_axis("path", axis) + ".in1"});
-    text.reads("layer-alive",
-               {of_axis("path", axis) + ".sel", of_axis("path-ramp", axis) + ".load"});
-    text.net(fmt::format("layer-path-{}-chosen", l), of_axis("path", axis) + ".out",
-             {of_axis("path-ramp", axis) + ".in"});
-    text.net(fmt::format("layer-path-{}-in-force", l), of_axis("path-ramp", axis) + ".out",
-             {of_axis("offset", axis) + ".in1"});
-    text.reads(fmt::format("layer-offset-{}", i), {of_axis("offset", axis) + ".in0"});
-    text.net(fmt::format("layer-offset-{}-counts-float", l), of_axis("offset", axis) + ".out",
-             {of_axis("counts", axis) + ".in"});
-    text.net(fmt::format("layer-offset-{}-counts", l), of_axis("counts", axis) + ".out",
-             {fmt::format("axis.{}.eoffset-counts", l)});
   }
   return text.take();
 }

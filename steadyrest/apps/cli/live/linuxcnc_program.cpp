@@ -25,6 +25,7 @@ PathMode path_mode(const std::string& word) {
 
 std::vector<nc::interpret::Tool> tools_of(const ControlState& state) {
   std::vector<nc::interpret::Tool> tools;
+  tools.reserve(state.tools.size());
   for (const ControlState::Tool& tool : state.tools) {
     tools.push_back({.number = tool.number,
                      .offset = tool.offset,

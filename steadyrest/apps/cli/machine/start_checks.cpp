@@ -45,6 +45,7 @@ std::vector<Finding> real_time_findings(const Machine& machine,
                                         const steadyrest::live::RealTime& granted) {
   const bool real = machine.port != kernel::machine::PortKind::sim;
   std::vector<Finding> all;
+  all.reserve(granted.refused.size());
   for (const steadyrest::live::RealTime::Refused& refused : granted.refused) {
     all.push_back(
         {real ? Severity::warning : Severity::note, "real_time", refused.what, refused.to_do});
