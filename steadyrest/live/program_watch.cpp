@@ -3,6 +3,7 @@
 #include <memory>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/program_watch.hpp>
@@ -14,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kWait_s = 0.2;
-/// A start from elsewhere alone changes the first block; a long program is not read again for that.
+/// A start from elsewhere changes the first blocks of most programs; a long one is not read again
+/// for that.
 constexpr double kLongPlan_s = 1.0;
 
 }  // namespace
@@ -80,6 +82,14 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
     stamp_.reset();
     return;
   }
+  if (!loaded.text_is_file) {
+    planned_.file = loaded.file;
+    stamp_.reset();
+    withdraw(loaded.file, loaded.file +
+                              " has changed since the control opened it, and what it runs is not "
+                              "known; open another program, then this one again");
+    return;
+  }
   const Stamp stamp = stamp_of(loaded.file);
   const bool same_file = stamp_ && loaded.file == planned_.file;
   if (same_file && !loaded.stopped) {
@@ -91,7 +101,7 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
     return;
   }
   LoadedProgram as_planned = planned_;
-  if (plan_s_ > kLongPlan_s) {
+  if (plan_s_ > kLongPlan_s && !relative_) {
     as_planned.start.start = loaded.start.start;
   }
   as_planned.stopped = loaded.stopped;
@@ -109,13 +119,20 @@ void ProgramWatch::plan(const LoadedProgram& loaded, const Stamp& stamp) {
   stamp_ = stamp;
   withdrawn_ = false;
   const auto begin = std::chrono::steady_clock::now();
-  auto path = nc::plan::plan_file(loaded.file, loaded.start, machine_);
+  auto path = nc::plan::plan_file_from_start(loaded.file, loaded.start, machine_);
   plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!path) {
     withdraw(loaded.file, kernel::outcome::text(path.error()));
     return;
   }
-  auto route = std::make_shared<const nc::follow::Route>(std::move(path->segments));
+  std::vector<bool> from_start;
+  from_start.reserve(path->plans.size());
+  for (const nc::plan::SegmentPlan& plan : path->plans) {
+    from_start.push_back(plan.from_start);
+  }
+  relative_ = !from_start.empty() && from_start.back();
+  auto route =
+      std::make_shared<const nc::follow::Route>(std::move(path->segments), std::move(from_start));
   say({.file = loaded.file, .segments = route->path().size(), .words = {}});
   port_.offer(std::move(route));
 }

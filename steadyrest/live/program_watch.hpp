@@ -22,6 +22,7 @@ struct LoadedProgram {
   std::string file;             ///< empty: none
   nc::interpret::Config start;  ///< what the interpreter must know; taken while no program runs
   bool stopped = true;          ///< no program runs
+  bool text_is_file = true;     ///< the control has the text that the file holds now
 
   friend bool operator==(const LoadedProgram&, const LoadedProgram&) = default;
 };
@@ -70,6 +71,7 @@ class ProgramWatch {
   LoadedProgram planned_;
   std::optional<Stamp> stamp_;  ///< of the text that was planned, or refused
   double plan_s_ = 0.0;         ///< that took so long
+  bool relative_ = false;       ///< its end follows from where it starts
   bool withdrawn_ = false;      ///< its text has changed
   mutable std::mutex mutex_;
   Status status_;

@@ -26,7 +26,9 @@ ControlState::Tool tool_of(const Json& json) {
 
 ControlState state_of(const Json& json) {
   ControlState state;
+  json.at("ini").get_to(state.ini);
   json.at("program").get_to(state.program);
+  json.at("text_is_file").get_to(state.text_is_file);
   json.at("stopped").get_to(state.stopped);
   if (const Json& position = json.at("position"); !position.is_null()) {
     position.get_to(state.position);

@@ -23,10 +23,12 @@ struct ControlState {
     double back_deg = 0.0;
     int orientation = 0;
   };
-  std::string program;     ///< absolute path; empty: none
-  bool stopped = true;     ///< no program runs
-  ControlAxes position{};  ///< of the machine, while it is stopped
-  int work_offset = 1;     ///< 1: G54 … 9: G59.3
+  std::string ini;           ///< that LinuxCNC was started with
+  std::string program;       ///< absolute path; empty: none
+  bool text_is_file = true;  ///< what it has opened of it is what the file holds now
+  bool stopped = true;       ///< no program runs
+  ControlAxes position{};    ///< of the machine, while it is stopped
+  int work_offset = 1;       ///< 1: G54 … 9: G59.3
   ControlAxes work_offset_mm{};
   double rotation_deg = 0.0;
   ControlAxes g92_mm{};

@@ -4,6 +4,7 @@
 
 Lengths in mm, angles in degrees. A process of its own: it imports LinuxCNC's modules (GPL-2.0+), which the layer never links.
 """
+import glob
 import json
 import os
 import sys
@@ -79,12 +80,51 @@ def without_offsets(position, lengths):
     return found
 
 
-def state(status, lengths, ini_files, home):
+class OpenedText:
+    """Whether a program file is still the one that LinuxCNC has open: it runs that first, and opens the file anew for later runs."""
+
+    def __init__(self, task):
+        self.task, self.opened, self.ran = task, None, False
+
+    def held(self, program):
+        """Of the file that LinuxCNC's task holds open by this name; None: none, or it is not ours to see."""
+        for process in glob.glob("/proc/[0-9]*"):
+            try:
+                with open(process + "/comm") as name:
+                    if name.read().strip() != self.task[:15]:
+                        continue
+                for entry in glob.glob(process + "/fd/*"):
+                    if os.readlink(entry) in (program, program + " (deleted)"):
+                        return os.stat(entry)
+            except OSError:
+                pass  # it has ended, or is another user's
+        return None
+
+    def is_file(self, program, stopped):
+        held = self.held(program)
+        if held is None:
+            return True
+        opened = (program, held.st_dev, held.st_ino)
+        self.ran = (self.ran and opened == self.opened) or not stopped
+        self.opened = opened
+        if self.ran and stopped:
+            return True
+        try:
+            now = os.stat(program)
+        except OSError:
+            return False
+        return (now.st_dev, now.st_ino) == opened[1:]
+
+
+def state(status, lengths, ini_files, home, text):
     codes = set(status.gcodes[1:])
     stopped = status.task_mode != linuxcnc.MODE_AUTO or status.interp_state == linuxcnc.INTERP_IDLE
     # What the program itself sets shows here too while it runs; the layer takes what held at its start.
+    program = os.path.normpath(os.path.join(home, status.file)) if status.file else ""
     return {
-        "program": os.path.normpath(os.path.join(home, status.file)) if status.file else "",
+        "ini": os.path.abspath(status.ini_filename),
+        "program": program,
+        "text_is_file": text.is_file(program, stopped) if program else True,
         "stopped": stopped,
         "position": without_offsets(lengths.of_axes(status.position), lengths) if stopped else None,
         "work_offset": status.g5x_index,
@@ -111,10 +151,11 @@ def watch():
     lengths = Lengths(status)
     ini_files = files(status.ini_filename)
     home = os.path.dirname(os.path.abspath(status.ini_filename))
+    text = OpenedText(linuxcnc.ini(status.ini_filename).find("TASK", "TASK") or "milltask")
     told, told_s, before = None, 0.0, None
     while True:
         status.poll()
-        now = state(status, lengths, ini_files, home)
+        now = state(status, lengths, ini_files, home, text)
         # A position that moves is not told before it rests.
         moves, before = before is not None and now["position"] != before, now["position"]
         if moves and told is not None:

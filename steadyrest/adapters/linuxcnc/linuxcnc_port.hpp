@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,12 +39,13 @@ class LinuxCncPort final : public kernel::port::Port {
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
+  // From any thread.
   /// Servo cycles that the sampler lost because its queue was full.
   [[nodiscard]] std::uint64_t missed() const noexcept { return queue_.missed(); }
   /// Servo cycles that were read too late to be handed out.
-  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
+  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_.load(); }
   /// How often the watchdog had to be armed after the first time.
-  [[nodiscard]] std::uint64_t rearmed() const noexcept { return rearmed_; }
+  [[nodiscard]] std::uint64_t rearmed() const noexcept { return rearmed_.load(); }
   /// The layer's pins are in force: armed and found alive.
   [[nodiscard]] bool in_force() const noexcept { return sample_[Column::layer_alive] != 0.0; }
 
@@ -71,8 +73,8 @@ class LinuxCncPort final : public kernel::port::Port {
   OffsetCourse course_;
   bool offsets_connected_;
   Pins pins_;  ///< as asked for; the HAL gets the course's offsets
-  std::uint64_t skipped_ = 0;
-  std::uint64_t rearmed_ = 0;
+  std::atomic<std::uint64_t> skipped_{0};
+  std::atomic<std::uint64_t> rearmed_{0};
   std::uint32_t beats_ = 0;  ///< since the watchdog was armed or released
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,7 +30,7 @@ class SampleQueue {
   Got next(HalSide& hal, Sample& sample) noexcept;
 
   /// Servo cycles between the first and the last sample that never came.
-  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_.load(); }
 
  private:
   static constexpr std::size_t kMostRows = 65536;
@@ -42,7 +43,7 @@ class SampleQueue {
   std::array<Row, kMaxChannels> row_{};
   std::array<bool, kMaxChannels> held_{};
   double last_tick_ = -1.0;
-  std::uint64_t missed_ = 0;
+  std::atomic<std::uint64_t> missed_{0};
 };
 
 }  // namespace steadyrest::adapters::linuxcnc

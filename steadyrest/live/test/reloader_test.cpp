@@ -83,7 +83,7 @@ TEST_F(OnDesk, TheNextReloadIsJudgedByTheFileThatRunsNow) {
 TEST_F(OnDesk, ARefusedFileChangesNothing) {
   auto with = config();
   with.make = [](const Machine&) -> Result<std::unique_ptr<Successor>> {
-    return refuse("m.toml", 3, "a is not known", "leave it out");
+    return refuse("m.toml", 3U, "a is not known", "leave it out");
   };
   Reloader reloader(loop, with);
   reloader.ask();

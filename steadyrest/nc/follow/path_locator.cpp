@@ -31,6 +31,9 @@ constexpr double kTravelShare = 1.5;   ///< the speed may rise within the cycle
 constexpr double kRoundedShare = 4.0;  ///< a rounded corner is shorter than its legs
 constexpr double kConfirm_mm = 0.1;    ///< on the way since it was found
 constexpr double kWrongLine_mm = 5.0;
+/// What follows from the start is found only so near to it: a run from a line on begins where the
+/// axes stand, too, but not with the first blocks.
+constexpr double kBegin_mm = 5.0;
 constexpr double kOffPath_mm = 20.0;    ///< no rounded corner is longer
 constexpr double kPreference = 0.01;    ///< of the expected place among equally near ones
 constexpr double kRotaryWeight = 10.0;  ///< mm for a radian
@@ -78,6 +81,15 @@ bool is_finite(const kernel::signal::Frame& frame) noexcept {
   return finite;
 }
 
+/// The commanded point without the offsets in force, of a finite frame.
+kernel::signal::AxisValues point_of(const kernel::signal::Frame& frame) noexcept {
+  kernel::signal::AxisValues point{};
+  for (std::size_t i = 0; i < std::min<std::size_t>(frame.axis_count, point.size()); ++i) {
+    point[i] = frame.axis[i].command_mm - frame.axis[i].offset_mm;
+  }
+  return point;
+}
+
 /// The nearest place of a segment between two distances from its start.
 Nearest nearest(const PathSegment& segment, const kernel::signal::AxisValues& point, double low_mm,
                 double high_mm, double expected_mm) noexcept {
@@ -99,6 +111,7 @@ void PathLocator::follow(const Route* route) noexcept {
   route_ = route;
   stop();
   from_start_ = false;
+  start_fits_ = false;
 }
 
 PathLocator::Output PathLocator::output(Place place) const noexcept {
@@ -111,7 +124,31 @@ PathLocator::Output PathLocator::output(Place place) const noexcept {
   return {.place = place};
 }
 
+PathLocator::Output PathLocator::not_found() const noexcept {
+  return output(passed_over_ && trails_ == 0 ? Place::start_unseen : Place::searching);
+}
+
+/// A control shows that its program runs some cycles after the axes have begun to move: what counts
+/// is where they stood before.
+void PathLocator::stand(const kernel::signal::Frame& frame) noexcept {
+  const Axes point = is_finite(frame) ? point_of(frame) : stopped_;
+  if (point == stopped_) {
+    rest_ = point;
+    rested_ = true;
+  }
+  stopped_ = point;
+}
+
+bool PathLocator::began_at_start(const Axes& point) const noexcept {
+  const PathSegment& first = route_->path().front();
+  const double moved_mm = std::hypot(point[0] - rest_[0], point[1] - rest_[1], point[2] - rest_[2]);
+  return rested_ && moved_mm <= kBegin_mm &&
+         nearest(first, rest_, 0.0, 0.0, 0.0).away_mm <= config_.near_mm;
+}
+
 void PathLocator::begin_search() noexcept {
+  start_fits_ = start_fits_ && !found_;
+  passed_over_ = false;
   trails_ = 0;
   found_ = false;
   overflow_ = false;
@@ -124,6 +161,7 @@ void PathLocator::begin_search() noexcept {
 void PathLocator::stop() noexcept {
   begin_search();
   from_start_ = true;
+  start_fits_ = false;
   last_line_ = 0;
   begun_ = false;
 }
@@ -133,19 +171,18 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
     return output(Place::no_route);
   }
   if (frame.program == kernel::signal::ProgramState::stopped) {
+    stand(frame);
     stop();
     return output(Place::no_program);
   }
   if (!is_finite(frame)) {
     return output(Place::searching);
   }
-  Axes point{};
-  for (std::size_t i = 0; i < std::min<std::size_t>(frame.axis_count, point.size()); ++i) {
-    point[i] = frame.axis[i].command_mm - frame.axis[i].offset_mm;
-  }
+  const Axes point = point_of(frame);
   const double dt_s = begun_ ? std::clamp(frame.time_s - time_s_, 0.0, kLongestGap_s) : 0.0;
   const double travel_mm = std::max(frame.path_speed_mm_s, speed_mm_s_) * dt_s;
   const bool moved = !begun_ || point != point_;
+  start_fits_ = start_fits_ || (!begun_ && from_start_ && began_at_start(point));
   time_s_ = frame.time_s;
   speed_mm_s_ = std::max(0.0, frame.path_speed_mm_s);
   point_ = point;
@@ -164,7 +201,7 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
     found_ = decided();
   }
   if (!found_) {
-    return output(Place::searching);
+    return not_found();
   }
   trails_ = 1;
   from_start_ = false;
@@ -234,7 +271,12 @@ void PathLocator::look_at(std::size_t index, const Axes& point) noexcept {
     const double low = turn_mm * static_cast<double>(i);
     const double high = std::min(segment.length_mm, low + turn_mm);
     const Nearest here = nearest(segment, point, low, high, 0.5 * (low + high));
-    if (here.away_mm <= config_.near_mm) {
+    if (here.away_mm > config_.near_mm) {
+      continue;
+    }
+    if (route_->from_start(index) && !(start_fits_ && here.position_mm <= kBegin_mm)) {
+      passed_over_ = true;
+    } else {
       keep(index, here.position_mm, here.away_mm);
     }
   }
@@ -274,6 +316,7 @@ void PathLocator::scan(const Axes& point, std::uint32_t line) noexcept {
   if (line != scan_line_ || trails_ == 0) {
     const bool goes_on = line == scan_line_ && scanned_ < to_scan(line);
     scanned_ = goes_on ? scanned_ : 0;
+    passed_over_ = passed_over_ && goes_on;
     scan_line_ = line;
   }
   const auto segments = route_->of_line(line);

@@ -16,7 +16,8 @@ enum class Place : std::uint8_t {
   no_program,  ///< the control runs none
   searching,   ///< a program runs; its point is not found, or may be in several places
   off_path,    ///< found, but the control leaves the planned path here
-  on_path
+  on_path,
+  start_unseen  ///< searching where the path follows from a start that was not seen, or was another
 };
 
 /// Finds the commanded point of a running program on the program's path, by its line and its place,
@@ -57,6 +58,9 @@ class PathLocator {
   };
 
   [[nodiscard]] Output output(Place place) const noexcept;
+  [[nodiscard]] Output not_found() const noexcept;
+  void stand(const kernel::signal::Frame& frame) noexcept;
+  [[nodiscard]] bool began_at_start(const Axes& point) const noexcept;
   void begin_search() noexcept;
   void stop() noexcept;
   /// Moves a trail along; false where the point has left it.
@@ -74,9 +78,11 @@ class PathLocator {
   const Route* route_ = nullptr;
   std::array<Trail, kMostTrails> trail_{};  ///< in the order of the path
   std::size_t trails_ = 0;
-  bool found_ = false;       ///< trail_[0] is the place
-  bool from_start_ = false;  ///< the program has just begun: the first of several places is right
-  bool overflow_ = false;    ///< more places than trails
+  bool found_ = false;        ///< trail_[0] is the place
+  bool from_start_ = false;   ///< the program has just begun: the first of several places is right
+  bool start_fits_ = false;   ///< it began where the route begins, and was not lost since
+  bool passed_over_ = false;  ///< a place that follows from a start that does not fit
+  bool overflow_ = false;     ///< more places than trails
   std::uint32_t scan_line_ = 0;
   std::size_t scanned_ = 0;  ///< of the line's segments
   std::uint32_t last_line_ = 0;
@@ -86,6 +92,9 @@ class PathLocator {
   double speed_mm_s_ = 0.0;
   Axes point_{};
   bool begun_ = false;
+  Axes stopped_{};  ///< in the last frame without a program
+  Axes rest_{};     ///< where the axes last stood between two of these
+  bool rested_ = false;
 };
 
 }  // namespace steadyrest::nc::follow

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,9 +14,14 @@ namespace steadyrest::nc::follow {
 /// then only read.
 class Route {
  public:
-  explicit Route(std::vector<kernel::signal::PathSegment> path);
+  /// `from_start`: the segments whose place follows from where the axes stood at the program's
+  /// start; empty: none.
+  explicit Route(std::vector<kernel::signal::PathSegment> path, std::vector<bool> from_start = {});
 
   [[nodiscard]] kernel::signal::PathView path() const noexcept { return path_; }
+  [[nodiscard]] bool from_start(std::size_t index) const noexcept {
+    return index < from_start_.size() && from_start_[index];
+  }
   /// The segments of a program line, in the order of the path; of a line without one, those of the
   /// nearest line before it: a control merges short blocks.
   [[nodiscard]] std::span<const std::uint32_t> of_line(std::uint32_t line) const noexcept;
@@ -27,6 +33,7 @@ class Route {
 
  private:
   std::vector<kernel::signal::PathSegment> path_;
+  std::vector<bool> from_start_;
   std::vector<std::uint32_t> by_line_;  ///< segments, sorted by line
 };
 

@@ -49,6 +49,9 @@ std::string remedy_of(const read::Refused& refused) {
       Remedy{"line_too_long", "give the text of an NC program, one block a line"},
       Remedy{"control_character", "copy the program from its source once more"},
       Remedy{"read_failed", "copy the program from its source once more"},
+      Remedy{"parameter_of_the_control", "give it a value in the program before it is read"},
+      Remedy{"parameter_of_the_machine",
+             "write the value into the program; what the control computes cannot be planned ahead"},
       Remedy{"no_program_end", "check that the file is whole"},
   };
   const auto* const found = std::ranges::find(kRemedies, refused.reason, &Remedy::reason);

@@ -209,7 +209,7 @@ class Writer {
           fmt::format("joint {}{}", joints,
                       axis.joints.size() > 1 ? "; the layer reads the first" : ""));
     assumed("servo_gain_1_s", 20.0,
-            "speed / joint.N.f-error of a long move at constant speed (halscope)");
+            "`steadyrest machine from-log` finds it from a record of a test program");
     const bool rotary = axis.rotary;
     given(rotary ? "max_speed_deg_s" : "max_feed_mm_min",
           limits->speed_s.value * (rotary ? 1.0 : 60.0), limits->speed_s.from);

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string_view>
-#include <thread>
 #include <utility>
 
-#include <steadyrest/adapters/linuxcnc/control_peer.hpp>
 #include <steadyrest/adapters/linuxcnc/hal_process.hpp>
 #include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
+#include <steadyrest/apps/cli/live/linuxcnc_control.hpp>
 #include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
 #include <steadyrest/live/followed_port.hpp>
 
@@ -22,7 +19,6 @@ namespace {
 
 namespace adapter = adapters::linuxcnc;
 using steadyrest::live::FollowedPort;
-using steadyrest::live::LoadedProgram;
 using steadyrest::live::ProgramWatch;
 
 /// Outlives the port that the loop has.
@@ -31,52 +27,32 @@ struct Beside {
   std::unique_ptr<adapter::LinuxCncPort> port;
 };
 
-/// The control's state; a process that has ended is started again.
-class ControlSource {
- public:
-  explicit ControlSource(kernel::machine::Machine machine) : machine_(std::move(machine)) {}
-
-  Result<std::optional<LoadedProgram>> operator()(double wait_s) {
-    if (!peer_) {
-      auto started = adapter::ControlPeer::start({});
-      if (!started) {
-        return failed(std::move(started.error()), wait_s);
-      }
-      peer_ = std::move(*started);
-    }
-    auto state = peer_->next(wait_s);
-    if (!state) {
-      peer_.reset();
-      return failed(std::move(state.error()), wait_s);
-    }
-    if (!*state) {
-      return std::optional<LoadedProgram>();
-    }
-    auto loaded = loaded_program(**state, machine_);
-    if (!loaded) {
-      return std::unexpected(std::move(loaded.error()));
-    }
-    return std::optional(std::move(*loaded));
-  }
-
- private:
-  static std::unexpected<Refusal> failed(Refusal refusal, double wait_s) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
-    return std::unexpected(std::move(refusal));
-  }
-
-  kernel::machine::Machine machine_;
-  std::shared_ptr<adapter::ControlPeer> peer_;
-};
-
 Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
-  constexpr std::array<std::string_view, 5> kPlaces = {"no_route", "no_program", "searching",
-                                                       "off_path", "on_path"};
+  struct Words {
+    std::string_view place;
+    std::string_view why;  ///< there is no place on the path; empty: not needed
+  };
+  constexpr std::array<Words, 6> kPlaces = {
+      {{"no_route", ""},
+       {"no_program", ""},
+       {"searching",
+        "the commanded point is not on the program's path here, or in several places of it"},
+       {"off_path", "the control rounds a corner otherwise than planned"},
+       {"on_path", ""},
+       {"start_unseen",
+        "the path follows from where the axes stood when the program began, and that was not seen; "
+        "begin it again from its first line"}}};
   const ProgramWatch::Status status = watch.status();
+  const Words& place = kPlaces[static_cast<std::size_t>(port.place())];
+  const std::string words = status.words.empty() ? std::string(place.why) : status.words;
   return {{"file", status.file},
           {"segments", status.segments},
-          {"place", kPlaces[static_cast<std::size_t>(port.place())]},
-          {"words", status.words.empty() ? Json(nullptr) : Json(status.words)}};
+          {"place", place.place},
+          {"words", words.empty() ? Json(nullptr) : Json(words)}};
+}
+
+Json stalls_json(const adapter::LinuxCncPort& port) {
+  return {{"lost", port.missed()}, {"passed_over", port.skipped()}, {"rearmed", port.rearmed()}};
 }
 
 Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine) {
@@ -113,16 +89,24 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
     return refused(bad_input("--program is for the simulated machine; LinuxCNC has its own",
                              "leave --program out"));
   }
+  ControlSource source(machine);
+  auto findings = compare_with_control(source, machine);
+  if (!findings) {
+    return std::unexpected(std::move(findings.error()));
+  }
   auto beside = connect(machine);
   if (!beside) {
     return refused(beside.error());
   }
   auto followed = std::make_unique<FollowedPort>(*(*beside)->port);
-  auto watch = std::make_shared<ProgramWatch>(*followed, machine, ControlSource(machine));
+  auto watch = std::make_shared<ProgramWatch>(*followed, machine, std::move(source));
   LivePort out;
   out.period_s = machine.control.servo_period_s;
   out.paces = true;
-  out.program = [&port = *followed, &told = *watch] { return program_json(told, port); };
+  out.findings = std::move(*findings);
+  out.shows = [&port = *(*beside)->port, &path = *followed, &told = *watch] {
+    return Json{{"program", program_json(told, path)}, {"stalls", stalls_json(port)}};
+  };
   out.beside = std::move(*beside);
   out.port = std::move(followed);
   out.watch = std::move(watch);

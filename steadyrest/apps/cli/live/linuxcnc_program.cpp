@@ -41,8 +41,10 @@ std::vector<nc::interpret::Tool> tools_of(const ControlState& state) {
 
 Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state,
                                                        const kernel::machine::Machine& machine) {
-  steadyrest::live::LoadedProgram loaded{
-      .file = state.program, .start = {}, .stopped = state.stopped};
+  steadyrest::live::LoadedProgram loaded{.file = state.program,
+                                         .start = {},
+                                         .stopped = state.stopped,
+                                         .text_is_file = state.text_is_file};
   auto config = program_config({}, machine);
   if (!config) {
     return std::unexpected(config.error());
@@ -66,6 +68,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start.tool_in_spindle = state.tool;
   start.start = state.position;
   start.start_known = true;
+  start.on_control = true;
   if (!state.tools.empty()) {
     start.tools = tools_of(state);
   }

@@ -4,11 +4,13 @@
 #include <expected>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/port/port.hpp>
+#include <steadyrest/passport/file/consistency.hpp>
 
 namespace steadyrest::apps::cli::live {
 
@@ -17,8 +19,9 @@ struct LivePort {
   std::shared_ptr<void> beside;  ///< what the port needs, as long as it lives
   std::unique_ptr<kernel::port::Port> port;
   std::shared_ptr<void> watch;  ///< a thread that uses the port: it ends before it
-  /// What is known of the program that the control runs; empty: the port shows its path itself.
-  std::function<Json()> program;
+  /// Keys for the status and the run's answer, from any thread; empty: none.
+  std::function<Json()> shows;
+  std::vector<passport::Finding> findings;  ///< of the control, none an error
   double period_s = 0.001;
   bool paces = false;              ///< read() waits for the control's next sample
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +66,11 @@ std::string text_of(const LoopFigures& figures, const Json& json) {
   for (const auto& [name, cycles] : json["reasons"].items()) {
     table.row({name, fmt::format("{} cycles", cycles.get<std::uint64_t>())});
   }
+  if (const Json stalls = json.value("stalls", Json()); stalls.is_object()) {
+    table.row({"servo cycles lost, passed over",
+               fmt::format("{}, {}", stalls.value("lost", 0), stalls.value("passed_over", 0))});
+    table.row({"watchdog armed again", fmt::format("{} times", stalls.value("rearmed", 0))});
+  }
   std::string text = table.text();
   if (figures.port_faults > 0) {
     text +=
@@ -123,6 +130,7 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
     port->port =
         std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
   }
+  std::ranges::move(port->findings, std::back_inserter(findings));
   auto layer = supervisor::Supervisor::make(*machine, port->port->capability());
   if (!layer) {
     return refused(layer.error());
@@ -182,8 +190,8 @@ Answer answer_of(const LoopFigures& figures, const Prepared& of,
   answer.json = steadyrest::live::figures_json(figures);
   answer.json["machine"] = of.machine.name;
   answer.json["port"] = passport::word(of.machine.port);
-  if (of.port.program) {
-    answer.json["program"] = of.port.program();
+  if (of.port.shows) {
+    answer.json.update(of.port.shows());
   }
   answer.json["memory_locked"] = real_time.memory_locked;
   answer.json["real_time_priority"] = real_time.priority;
@@ -230,7 +238,7 @@ Outcome run(const Options& options) {
   const auto socket = steadyrest::live::ControlSocket::open(
       options.socket, [&, port = passport::word(prepared->machine.port)](std::string_view line) {
         return steadyrest::live::answer(
-            {.loop = loop, .port = port, .reloader = &reloader, .program = prepared->port.program},
+            {.loop = loop, .port = port, .reloader = &reloader, .of_port = prepared->port.shows},
             line);
       });
   if (!socket) {

@@ -68,8 +68,13 @@ inline std::vector<Step> driven(
   PathLocator locator;
   locator.follow(&route);
   std::vector<Step> steps;
+  // The axes stand where the program begins, then it runs.
   Frame stopped;
   stopped.program = ProgramState::stopped;
+  for (std::size_t i = 0; i < 3 && !path.segments.empty(); ++i) {
+    stopped.axis[i].command_mm = path.segments.front().start_mm[i];
+  }
+  (void)locator.update(stopped);
   (void)locator.update(stopped);
   double ratio = 1.0;
   for (std::size_t i = 0; i < 2'000'000; ++i) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the place is not certain, none is told.
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/nc/follow/test/driven.hpp>
 
 namespace steadyrest::nc::follow {
@@ -132,6 +136,83 @@ TEST(PathLost, RestartFromALineIsFoundWhereItMeetsThePath) {
     }
   }
   EXPECT_GT(seen, 700U);
+}
+
+/// A route planned from (0, 0) as `text` says, with its marks.
+Route marked(const std::string& text) {
+  const kernel::file::testing::OwnFolder folder;
+  std::ofstream(folder.at("part.ngc")) << text;
+  interpret::Config config;
+  config.dialect = read::Dialect::linuxcnc;
+  config.axes = "XYZ";
+  const auto path = plan::plan_file_from_start(folder.at("part.ngc"), config, test::mill()).value();
+  std::vector<bool> from_start;
+  for (const plan::SegmentPlan& segment : path.plans) {
+    from_start.push_back(segment.from_start);
+  }
+  return Route(path.segments, from_start);
+}
+
+/// Where the same text brings the axes from another start.
+plan::PlannedPath begun_at(double x_mm, double y_mm, const std::string& text) {
+  interpret::Config config;
+  config.dialect = read::Dialect::linuxcnc;
+  config.axes = "XYZ";
+  config.start = {x_mm, y_mm};
+  return plan::plan_text(text, config, test::mill(), "part.ngc").value();
+}
+
+const std::string kRelative =
+    "G21 G91 G94 G17 G61\nG1 X40 F4000\nY20\nX-40\nY20\nX40\nY20\nX-40\nM2\n";
+
+TEST(PathLost, ARelativeProgramIsFollowedFromItsStart) {
+  const auto steps = driven(begun_at(0.0, 0.0, kRelative), marked(kRelative));
+  EXPECT_LE(told(steps).worst_mm, 1e-6);
+  EXPECT_GE(told(steps).cycles + 20, told(steps).moving);
+}
+
+// The control shows that the program runs when the axes have moved by some hundredths.
+TEST(PathLost, ARelativeProgramThatIsShownLateIsFollowedFromItsStart) {
+  std::size_t late = 0;
+  const auto steps =
+      driven(begun_at(0.0, 0.0, kRelative), marked(kRelative), [&](std::size_t i, Frame& frame) {
+        const bool shown = i > 15;
+        late += !shown && frame.axis[0].command_mm > 0.05 ? 1 : 0;
+        frame.program = shown ? frame.program : test::ProgramState::stopped;
+        return 1.0;
+      });
+  EXPECT_GT(late, 1U);
+  EXPECT_LE(told(steps).worst_mm, 1e-6);
+  EXPECT_GE(told(steps).cycles + 40, told(steps).moving);
+}
+
+// Its third leg runs along the first of the route: a place there would be wrong.
+TEST(PathLost, ARelativeProgramThatBeganElsewhereIsNot) {
+  const auto steps = driven(begun_at(0.0, -20.0, kRelative), marked(kRelative));
+  EXPECT_EQ(on_path(steps), 0U);
+  EXPECT_TRUE(std::ranges::any_of(
+      steps, [](const Step& step) { return step.seen.place == Place::start_unseen; }));
+}
+
+TEST(PathLost, ARelativeProgramIsNotJoined) {
+  EXPECT_EQ(on_path(joined(begun_at(0.0, 0.0, kRelative), marked(kRelative), 300)), 0U);
+}
+
+// X40 and Y20 begin where Y was at the start; X0 does not.
+TEST(PathLost, AnAbsoluteProgramIsFoundFromWhereItIsAbsolute) {
+  const std::string text = kHead + "G1 X40 F4000\nY20\nX0\nY0\nM2\n";
+  const auto steps = driven(begun_at(0.0, 7.0, text), marked(text));
+  std::size_t absolute = 0;
+  for (const Step& step : steps) {
+    absolute += step.truth.line >= 4 && step.truth.path_speed_mm_s > 0.0 ? 1U : 0U;
+    if (step.seen.place == Place::on_path) {
+      EXPECT_GE(step.truth.line, 4U);
+      const auto& at = step.truth.position;
+      const double expected = step.truth.line == 4 ? 60.0 + (40.0 - at[0]) : 100.0 + (20.0 - at[1]);
+      EXPECT_NEAR(step.seen.position_mm, expected, 0.02);
+    }
+  }
+  EXPECT_GT(on_path(steps) + 30, absolute);
 }
 
 TEST(PathLost, AnAbortEndsItAndTheNextRunIsFoundAgain) {

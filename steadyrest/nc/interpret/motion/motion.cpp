@@ -59,10 +59,8 @@ bool Motion::straight(const Step& step) {
 }
 
 // G38.2 to G38.5: only the machine knows where the move really ends. It is sent as programmed; the
-// probe is assumed to touch there, with the axes 0.254 mm (0.01 in after G20) short of it, as in
-// LinuxCNC's own interpreter without a machine.
+// probe is assumed to touch there, with the axes Config::probe_short_mm short of it.
 bool Motion::probe(const Step& step) {
-  constexpr double kBefore_mm = 0.254;
   if (state_.feed_mode == FeedMode::per_revolution) {
     return refusals_.g_word(step, step.moves_by, "probe_per_revolution",
                             "probing while feed per revolution (G95) is in force");
@@ -91,7 +89,7 @@ bool Motion::probe(const Step& step) {
   out_.move(MoveKind::probe, end);
   parameters_.record_probe(end);
   for (std::size_t i = 0; i < 3 && distance > 0.0; ++i) {
-    state_.position[i] -= kBefore_mm * (end[i] - start[i]) / distance;
+    state_.position[i] -= control_.config.probe_short_mm * (end[i] - start[i]) / distance;
   }
   return true;
 }

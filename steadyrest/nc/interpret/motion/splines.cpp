@@ -95,7 +95,9 @@ bool Splines::quadratic(const Step& step) {
 }
 
 bool Splines::control_point(const Step& step) {
-  if (!step.has('X') || !step.has('Y')) {
+  // The first block may give only the present position its weight.
+  const bool present = points_.empty() && !step.has('X') && !step.has('Y');
+  if (!present && (!step.has('X') || !step.has('Y'))) {
     return words(step, "a control point without X or Y");
   }
   if (!step.has('P') || !(step['P'] > 0.0)) {
@@ -124,8 +126,10 @@ bool Splines::control_point(const Step& step) {
   if (state_.incremental) {
     return refusals_.letter(step, 'X', "spline_words", "control points in G91 are not interpreted");
   }
-  end_ = end_point(step, control_);
-  points_.push_back({end_[0], end_[1], step['P']});
+  if (!present) {
+    end_ = end_point(step, control_);
+    points_.push_back({end_[0], end_[1], step['P']});
+  }
   return true;
 }
 

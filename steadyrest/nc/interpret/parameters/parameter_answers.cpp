@@ -118,7 +118,6 @@ constexpr auto kAnswers = std::to_array<std::pair<std::string_view, Answer>>({
     {"_selected_tool",
      {.value = [](const State& s) { return static_cast<double>(s.selected_tool); },
       .mode = kToolMode}},
-    {"_task", {.value = [](const State&) { return 0.0; }}},
     {"_remap_level", {.value = [](const State&) { return 0.0; }}},
 });
 

@@ -223,6 +223,10 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     value = static_cast<double>(calls_.size());
     return true;
   }
+  if (name == "_task") {
+    value = config_->on_control ? 1.0 : 0.0;
+    return true;
+  }
   const Answer* const answer = answer_of(name);
   if (answer == nullptr) {
     return false;
@@ -244,6 +248,9 @@ Lookup Parameters::number(int index, double& value) const {
   if (index >= kHome && of_state(index, value)) {
     ask(index);
     return Lookup::found;
+  }
+  if (config_->on_control && !set_[static_cast<std::size_t>(index)]) {
+    return Lookup::kept_by_control;
   }
   value = numbers_[static_cast<std::size_t>(index)];
   // The value may come from the control's past: noted, since a rewriter must not rely on it.
@@ -282,6 +289,9 @@ Lookup Parameters::name(std::string_view name, double& value) const {
   if (found != globals_.end()) {
     value = found->second;
     return Lookup::found;
+  }
+  if (config_->on_control) {
+    return Lookup::kept_by_control;
   }
   asked_.about("#<" + std::string{name} + ">");  // EXISTS
   return of_machine(name) ? Lookup::not_known_here : Lookup::no_such_name;

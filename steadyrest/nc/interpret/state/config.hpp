@@ -59,6 +59,12 @@ struct Config {
   /// The offsets, the active one, the reference points and the parameters above are the control's;
   /// false: they are only assumed.
   bool start_known = false;
+  /// linuxcnc: reads as the running control does. What it may keep from before the program (a
+  /// parameter that the program has not set) is refused then, not taken as 0.
+  bool on_control = false;
+  /// A probing move leaves the axes so far before its end: LinuxCNC's interpreter without a machine
+  /// does, by 0.01 in.
+  double probe_short_mm = 0.254;
   /// Without a table every tool exists with length 0: positions are then the tip of a tool without
   /// length. With a table, a tool that is not in it is refused.
   std::optional<std::vector<Tool>> tools;

@@ -63,6 +63,7 @@ struct Move {
   bool override_locked = false;      ///< thread, tap, M49: the feed override has no effect
   double dwell_s = 0.0;
   bool speed_modulation = false;  ///< the spindle's speed is to be modulated (M38)
+  bool from_start = false;        ///< its place follows from where the axes stood at the start
 };
 
 /// Machine coordinates of a point of the move: turned about Z by `rotation_deg`, then shifted.

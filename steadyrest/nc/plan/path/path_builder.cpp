@@ -95,6 +95,7 @@ bool PathStream::merge(const Piece& next) {
                      next.segment.geometry == Geometry::line && next.mode == line.mode &&
                      next.plan.feed_mm_s == line.plan.feed_mm_s &&
                      next.plan.per_revolution == line.plan.per_revolution &&
+                     next.plan.from_start == line.plan.from_start &&
                      next.segment.speed_modulation == line.segment.speed_modulation;
   if (!alike || line.mode != PathMode::continuous || others_move(line.segment) ||
       others_move(next.segment) || merged_.size() >= kMostMerged) {
@@ -182,6 +183,7 @@ void PathStream::set_corner(const CornerArc& corner, const Piece& held, const Pi
   Piece& arc = corner_;
   arc.plan = like.plan;
   arc.plan.rapid = held.plan.rapid && next.plan.rapid;
+  arc.plan.from_start = held.plan.from_start || next.plan.from_start;
   arc.segment = {.geometry = Geometry::arc,
                  .motion = arc.plan.rapid ? Motion::rapid : Motion::feed,
                  .speed_modulation = like.segment.speed_modulation,

@@ -256,6 +256,7 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
   s.motion = motion_of(move);
   s.line = move.line;
   s.speed_modulation = move.speed_modulation;
+  out.plan.from_start = move.from_start;
   if (move.kind == MoveKind::arc) {
     set_arc(s, move);
   } else {

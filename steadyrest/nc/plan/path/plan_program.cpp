@@ -3,6 +3,7 @@
 
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
+#include <steadyrest/nc/plan/path/start_marks.hpp>
 
 namespace steadyrest::nc::plan {
 
@@ -31,6 +32,19 @@ Result<PlannedPath> plan_file(const std::string& file, const interpret::Config& 
                               const Machine& machine) {
   return plan_moves(machine, file,
                     [&](Sink& sink) { return interpret::run_file(file, config, sink); });
+}
+
+Result<PlannedPath> plan_file_from_start(const std::string& file, const interpret::Config& config,
+                                         const Machine& machine) {
+  // Refused or not: what they did not reach counts as made otherwise.
+  MovedAxes moved;
+  MoveMarks elsewhere;
+  (void)interpret::run_file(file, config, moved);
+  (void)interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
+  return plan_moves(machine, file, [&](Sink& sink) {
+    StartMarks marks(elsewhere, sink);
+    return interpret::run_file(file, config, marks);
+  });
 }
 
 Result<PlannedPath> plan_text(std::string_view text, const interpret::Config& config,

@@ -23,6 +23,13 @@ namespace steadyrest::nc::plan {
     const std::string& file, const interpret::Config& config,
     const kernel::machine::Machine& machine);
 
+/// The same, with those segments marked (SegmentPlan::from_start) whose place follows from
+/// `config.start`: a run from elsewhere makes them otherwise. A relative program has them to its
+/// end.
+[[nodiscard]] kernel::outcome::Result<PlannedPath> plan_file_from_start(
+    const std::string& file, const interpret::Config& config,
+    const kernel::machine::Machine& machine);
+
 /// The same for a text in memory; `file` is its name in a refusal.
 [[nodiscard]] kernel::outcome::Result<PlannedPath> plan_text(
     std::string_view text, const interpret::Config& config, const kernel::machine::Machine& machine,

@@ -25,6 +25,7 @@ struct SegmentPlan {
   bool rapid = false;           ///< the rapid override applies
   bool locked = false;          ///< no override applies
   bool per_revolution = false;  ///< feed follows the actual spindle speed
+  bool from_start = false;      ///< marked by plan_file_from_start()
 };
 
 enum class PathEventKind : std::uint8_t {

@@ -227,8 +227,10 @@ bool Expression::looked_up(Lookup lookup) {
     case Lookup::not_while_compensating:
       return fail("position_in_cutter_comp",
                   "the current position while cutter radius compensation is on");
-    // These two belong to other dialects.
-    case Lookup::assigned_in_block:
+    case Lookup::kept_by_control:
+      return fail("parameter_of_the_control",
+                  "a parameter that the control may have from before the program");
+    case Lookup::assigned_in_block:  // of other dialects
     case Lookup::not_known_here:
       break;
   }

@@ -120,22 +120,26 @@ bool Expression::exists(double& out) {
   }
   ++at_;
   double ignored = 0.0;
+  Lookup lookup = Lookup::found;
   if (peek() == '<') {
     Name name;
     if (!parameter_name(name)) {
       return false;
     }
     // values_ notes the lookup all the same: the answer depends on what the control holds.
-    out = values_.name(name.view(), ignored) == Lookup::found ? 1.0 : 0.0;
+    lookup = values_.name(name.view(), ignored);
   } else {
     int index = 0;
     if (!parameter_number(index)) {
       return false;
     }
-    // A position exists while cutter radius compensation is on, but cannot be read.
-    const Lookup lookup = values_.number(index, ignored);
-    out = lookup == Lookup::found || lookup == Lookup::not_while_compensating ? 1.0 : 0.0;
+    lookup = values_.number(index, ignored);
   }
+  if (lookup == Lookup::kept_by_control) {
+    return looked_up(lookup);
+  }
+  // A position exists while cutter radius compensation is on, but cannot be read.
+  out = lookup == Lookup::found || lookup == Lookup::not_while_compensating ? 1.0 : 0.0;
   if (peek() != ']') {
     return fail("bad_function", kText);
   }

@@ -47,6 +47,7 @@ LookupText macro_lookup_text(Lookup lookup) noexcept {
     case Lookup::read_only:
       return {.reason = "read_only_parameter", .text = "a read-only variable"};
     case Lookup::not_known_here:
+    case Lookup::kept_by_control:
       return {.reason = "system_variable",
               .text = "a system variable whose value only the running control knows"};
     case Lookup::found:

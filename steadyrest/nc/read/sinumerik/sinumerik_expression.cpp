@@ -72,6 +72,7 @@ LookupText sinumerik_lookup_text(Lookup lookup) noexcept {
               .text = "a value set and used in one block; write two blocks"};
     case Lookup::read_only:
     case Lookup::not_known_here:
+    case Lookup::kept_by_control:
     case Lookup::found:
     case Lookup::no_such_number:
       break;

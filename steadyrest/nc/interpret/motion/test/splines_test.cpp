@@ -86,6 +86,15 @@ TEST(Splines, NurbsCollectsItsPointsUntilG53) {
   EXPECT_EQ(kept.end[0], 9.0);
 }
 
+// rs274 (LinuxCNC 2.9) prints NURBS_FEED(4, ...) for it.
+TEST(Splines, NurbsMayBeginWithTheWeightOfThePresentPosition) {
+  const auto kept = splines_of("G0 X5 Y6\nG5.2 P2 L3\nX0 Y1 P1\nX1 Y2 P2\nX3 Y1 P0.5\nG5.3");
+  ASSERT_EQ(kept.splines.size(), 1U);
+  EXPECT_EQ(kept.orders[0], 3);
+  EXPECT_EQ(kept.splines[0], (Points{{5, 6}, {0, 1}, {1, 2}, {3, 1}}));
+  EXPECT_THAT(kept.weights[0], ElementsAre(2, 1, 2, 0.5));
+}
+
 TEST(Splines, AreInMillimetresInInchPrograms) {
   const auto kept = splines_of("G20 G0 X0 Y0\nG5.1 X2 Y0 I1 J1");
   EXPECT_EQ(kept.splines[0], (Points{{0, 0}, {25.4, 25.4}, {50.8, 0}}));
@@ -93,15 +102,16 @@ TEST(Splines, AreInMillimetresInInchPrograms) {
 
 TEST(Splines, AreRefusedByName) {
   const std::pair<const char*, const char*> cases[] = {
-      {"G5 I0 P0 Q-3 X1", "spline_words"},   // I without J
-      {"G5 I0 J3 X1", "spline_words"},       // no P and Q
-      {"G5 P0 Q-3 X1", "spline_words"},      // the first needs I and J
-      {"G5.1 X2 I2", "spline_words"},        // no J
-      {"G5.2 P1 L9 X1 Y1", "spline_words"},  // order 2 … 8
-      {"G5.2 P1 L1 X1 Y1", "spline_words"},  //
-      {"G5.2 L3 X1 Y1", "spline_words"},     // no weight
-      {"G5.2 P0 L3 X1 Y1", "spline_words"},  // of nothing
-      {"G5.2 P1 L3 X1", "spline_words"},     // X and Y, both
+      {"G5 I0 P0 Q-3 X1", "spline_words"},      // I without J
+      {"G5 I0 J3 X1", "spline_words"},          // no P and Q
+      {"G5 P0 Q-3 X1", "spline_words"},         // the first needs I and J
+      {"G5.1 X2 I2", "spline_words"},           // no J
+      {"G5.2 P1 L9 X1 Y1", "spline_words"},     // order 2 … 8
+      {"G5.2 P1 L1 X1 Y1", "spline_words"},     //
+      {"G5.2 L3 X1 Y1", "spline_words"},        // no weight
+      {"G5.2 P0 L3 X1 Y1", "spline_words"},     // of nothing
+      {"G5.2 P1 L3 X1", "spline_words"},        // X and Y, both
+      {"G5.2 P1 L3 X1 Y1\nP1", "unused_word"},  // later ones too
       {"G5.2 P1 L3 X1 Y1\nP1 L3 X2 Y2", "spline_words"},
       {"G5.2 P1 L3 X1 Y1\nG5.3", "spline_words"},  // fewer points than the order
       {"G5.3", "spline_words"},

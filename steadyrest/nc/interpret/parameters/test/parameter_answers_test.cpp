@@ -83,11 +83,11 @@ TEST(ParameterAnswers, WithoutAModeAreTheSameInEveryState) {
   other.selected_tool = other.tool_in_spindle = 5;
   other.cutter_side = -1;
   for (const char* name :
-       {"_vmajor",     "_vminor",           "_speed_override", "_adaptive_feed", "_feed_hold",
-        "_task",       "_remap_level",      "_plane",          "_ccomp",         "_metric",
-        "_absolute",   "_coord_system",     "_mist",           "_flood",         "_feed",
-        "_rpm",        "_current_tool",     "_selected_tool",  "_feed_override", "_retract_old_z",
-        "_spindle_on", "_spindle_css_mode", "_tool_offset",    "_motion_mode"}) {
+       {"_vmajor",           "_vminor",        "_speed_override", "_adaptive_feed", "_feed_hold",
+        "_remap_level",      "_plane",         "_ccomp",          "_metric",        "_absolute",
+        "_coord_system",     "_mist",          "_flood",          "_feed",          "_rpm",
+        "_current_tool",     "_selected_tool", "_feed_override",  "_retract_old_z", "_spindle_on",
+        "_spindle_css_mode", "_tool_offset",   "_motion_mode"}) {
     const Answer* const answer = answer_of(name);
     ASSERT_NE(answer, nullptr) << name;
     EXPECT_EQ(answer->mode != 0, answer->value(State{}) != answer->value(other)) << name;

@@ -53,6 +53,25 @@ TEST_F(KeptParameters, ANumberThatWasNeverSetIsZeroAndAsksTheControl) {
   EXPECT_EQ(asked(), "#5063");
 }
 
+// Its memory may hold anything from before: by hand, or from another program.
+TEST_F(KeptParameters, OnTheControlWhatWasNotSetIsNotTakenAsZero) {
+  config_.on_control = true;
+  double value = 0.0;
+  EXPECT_EQ(parameters_.number(31, value), Lookup::kept_by_control);
+  EXPECT_EQ(parameters_.number(5061, value), Lookup::kept_by_control);
+  EXPECT_EQ(parameters_.name("_width", value), Lookup::kept_by_control);
+  EXPECT_EQ(parameters_.name("width", value), Lookup::no_such_name);  // local: gone with its call
+  parameters_.keep(std::vector<std::pair<int, double>>{{31, 4.0}});
+  EXPECT_EQ(number(31), 4.0);
+  parameters_.set_name("_width", 5.0);
+  parameters_.commit();
+  EXPECT_EQ(named("_width"), 5.0);
+  // The interpreter of the running control says so of itself; rs274 alone does not.
+  EXPECT_EQ(named("_task"), 1.0);
+  config_.on_control = false;
+  EXPECT_EQ(named("_task"), 0.0);
+}
+
 TEST_F(KeptParameters, AreListedWhereTheyAreSet) {
   parameters_.set_number(100, 3.0);
   parameters_.set_number(7, 2.0);

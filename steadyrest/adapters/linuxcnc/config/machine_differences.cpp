@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/core.h>
+
+#include <steadyrest/adapters/linuxcnc/config/limits.hpp>
+#include <steadyrest/adapters/linuxcnc/config/machine_differences.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::adapters::linuxcnc::config {
+namespace {
+
+using kernel::machine::Axis;
+using kernel::machine::Machine;
+
+constexpr double kSame = 1e-3;  ///< of a limit: rounding in a file
+
+/// `X, Y, rotary A`
+template <class Axes, class Describe>
+std::string list(const Axes& axes, Describe describe) {
+  std::string out;
+  for (const auto& axis : axes) {
+    const auto [name, rotary, present] = describe(axis);
+    if (present) {
+      out += (out.empty() ? "" : ", ") + std::string(rotary ? "rotary " : "") + name;
+    }
+  }
+  return out.empty() ? "none" : out;
+}
+
+struct AxisWords {
+  std::string name;
+  bool rotary = false;
+  bool present = true;
+};
+
+class Comparison {
+ public:
+  Comparison(const IniFile& ini, const Configuration& configuration, const Machine& machine)
+      : ini_(ini), configuration_(configuration), machine_(machine) {}
+
+  std::vector<Difference> run() {
+    axes();
+    periods();
+    if (out_.empty()) {
+      limits();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void fatal(std::string what, std::string to_do) {
+    out_.push_back({.fatal = true, .what = std::move(what), .to_do = std::move(to_do)});
+  }
+
+  void axes() {
+    const std::string ours = list(machine_.axes, [](const Axis& axis) {
+      return AxisWords{.name = axis.name, .rotary = axis.rotary, .present = axis.present};
+    });
+    const std::string theirs = list(configuration_.axes, [](const ConfiguredAxis& axis) {
+      return AxisWords{
+          .name = std::string(1, axis.letter), .rotary = axis.rotary, .present = axis.present()};
+    });
+    if (ours != theirs) {
+      fatal(fmt::format("the machine file has the axes {}, LinuxCNC has {} ({})", ours, theirs,
+                        ini_.path()),
+            "name the machine file of this configuration");
+    }
+  }
+
+  void periods() {
+    const double ours_ms = 1e3 * machine_.control.servo_period_s;
+    const double theirs_ms = configuration_.servo_period_ms;
+    if (std::abs(ours_ms - theirs_ms) > kSame * theirs_ms) {
+      fatal(fmt::format("servo_period_ms is {:g}, LinuxCNC's servo period {:g} ms ({})", ours_ms,
+                        theirs_ms, ini_.path()),
+            fmt::format("set servo_period_ms = {:g}", theirs_ms));
+    }
+  }
+
+  void limits() {
+    std::size_t i = 0;
+    for (const ConfiguredAxis& theirs : configuration_.axes) {
+      if (!theirs.present()) {
+        continue;
+      }
+      while (!machine_.axes[i].present) {
+        ++i;
+      }
+      if (const auto limits = limits_of(ini_, configuration_, theirs); limits) {
+        limits_of_axis(machine_.axes[i], *limits);
+      } else {
+        out_.push_back({.what = kernel::outcome::text(limits.error()),
+                        .to_do = "the axis's limits were not compared"});
+      }
+      ++i;
+    }
+  }
+
+  void limits_of_axis(const Axis& ours, const AxisLimits& theirs) {
+    const double unit = ours.rotary ? kernel::units::rad_from_deg(1.0) : 1.0;
+    const char* const name = ours.rotary ? "°" : "mm";
+    beyond(ours, "speed", ours.max_speed_au_s / unit, theirs.speed_s, fmt::format("{}/s", name));
+    beyond(ours, "acceleration", ours.max_acceleration_au_s2 / unit, theirs.acceleration_s2,
+           fmt::format("{}/s²", name));
+    if (theirs.min) {
+      end(ours, "lower", ours.min_au / unit, *theirs.min, -1.0, name);
+    }
+    if (theirs.max) {
+      end(ours, "upper", ours.max_au / unit, *theirs.max, 1.0, name);
+    }
+  }
+
+  void beyond(const Axis& axis, const char* what, double ours, const Figure& theirs,
+              const std::string& unit) {
+    if (ours > theirs.value * (1.0 + kSame)) {
+      differs(axis, what, ours, theirs, unit);
+    }
+  }
+
+  void end(const Axis& axis, const char* which, double ours, const Figure& theirs, double sign,
+           const char* unit) {
+    if (sign * (ours - theirs.value) > kSame) {
+      differs(axis, fmt::format("{} end of travel", which), ours, theirs, unit);
+    }
+  }
+
+  void differs(const Axis& axis, const std::string& what, double ours, const Figure& theirs,
+               const std::string& unit) {
+    out_.push_back({.what = fmt::format("axis {}: {} {:g} {} in the machine file is beyond the "
+                                        "control's {:g} ({})",
+                                        axis.name, what, ours, unit, theirs.value, theirs.from),
+                    .to_do = "forecasts are of another machine; take the control's figure"});
+  }
+
+  const IniFile& ini_;
+  const Configuration& configuration_;
+  const Machine& machine_;
+  std::vector<Difference> out_;
+};
+
+}  // namespace
+
+std::vector<Difference> differences(const IniFile& ini, const Configuration& configuration,
+                                    const Machine& machine) {
+  return Comparison(ini, configuration, machine).run();
+}
+
+}  // namespace steadyrest::adapters::linuxcnc::config

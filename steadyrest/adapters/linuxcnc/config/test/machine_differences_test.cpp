@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/adapters/linuxcnc/config/machine_differences.hpp>
+
+namespace steadyrest::adapters::linuxcnc::config {
+namespace {
+
+using kernel::machine::Axis;
+using kernel::machine::Machine;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kIni =
+    "[EMCMOT]\nSERVO_PERIOD = 1000000\n[KINS]\nJOINTS = 3\nKINEMATICS = trivkins coordinates=XZA\n"
+    "[TRAJ]\nCOORDINATES = X Z A\nLINEAR_UNITS = inch\nANGULAR_UNITS = degree\n"
+    "[AXIS_X]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\nMIN_LIMIT = -1\nMAX_LIMIT = 10\n"
+    "[JOINT_0]\nTYPE = LINEAR\n"
+    "[AXIS_Z]\nMAX_VELOCITY = 1\nMAX_ACCELERATION = 10\nMIN_LIMIT = -4\nMAX_LIMIT = 0\n"
+    "[JOINT_1]\nTYPE = LINEAR\n"
+    "[AXIS_A]\nMAX_VELOCITY = 90\nMAX_ACCELERATION = 900\n[JOINT_2]\nTYPE = ANGULAR\n";
+
+Axis axis(const std::string& name, double speed_au_s, double acceleration_au_s2, double min_au,
+          double max_au) {
+  Axis out;
+  out.name = name;
+  out.max_speed_au_s = speed_au_s;
+  out.max_acceleration_au_s2 = acceleration_au_s2;
+  out.min_au = min_au;
+  out.max_au = max_au;
+  return out;
+}
+
+/// The machine of kIni, in mm and rad; Y is a placeholder.
+Machine machine() {
+  Machine out;
+  out.control.servo_period_s = 0.001;
+  out.axes = {axis("X", 50.8, 508.0, -25.4, 254.0), axis("Y", 1.0, 1.0, 0.0, 0.0),
+              axis("Z", 25.4, 254.0, -101.6, 0.0), axis("A", 1.5, 15.0, -1e6, 1e6)};
+  out.axes[1].present = false;
+  out.axes[3].rotary = true;
+  return out;
+}
+
+std::vector<Difference> found(const Machine& machine) {
+  const auto ini = IniFile::parse(kIni, "mill.ini").value();
+  return differences(ini, configuration_of(ini).value(), machine);
+}
+
+TEST(MachineDifferences, NoneForTheMachineOfTheConfiguration) {
+  EXPECT_THAT(found(machine()), IsEmpty());
+}
+
+TEST(MachineDifferences, OtherAxesAnotherOrderOrKindAreFatal) {
+  std::vector<Machine> others(3, machine());
+  others[0].axes.pop_back();
+  std::swap(others[1].axes[0], others[1].axes[2]);
+  others[2].axes[3].rotary = false;
+  const std::vector<std::string> ours = {"the axes X, Z, LinuxCNC has X, Z, rotary A",
+                                         "the axes Z, X, rotary A, LinuxCNC",
+                                         "the axes X, Z, A, LinuxCNC"};
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const auto all = found(others[i]);
+    ASSERT_EQ(all.size(), 1U) << ours[i];
+    EXPECT_TRUE(all[0].fatal);
+    EXPECT_THAT(all[0].what, AllOf(HasSubstr(ours[i]), HasSubstr("mill.ini")));
+  }
+}
+
+TEST(MachineDifferences, AnotherServoPeriodIsFatal) {
+  Machine other = machine();
+  other.control.servo_period_s = 0.002;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(all[0].fatal);
+  EXPECT_EQ(all[0].to_do, "set servo_period_ms = 1");
+}
+
+TEST(MachineDifferences, LimitsBeyondTheControlsAreNamed) {
+  Machine other = machine();
+  other.axes[0].max_speed_au_s = 60.0;
+  other.axes[2].max_acceleration_au_s2 = 300.0;
+  other.axes[2].max_au = 5.0;
+  other.axes[3].max_speed_au_s = 3.0;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 4U);
+  for (const Difference& one : all) {
+    EXPECT_FALSE(one.fatal);
+  }
+  EXPECT_THAT(all[0].what, AllOf(HasSubstr("axis X: speed 60 mm/s"), HasSubstr("50.8"),
+                                 HasSubstr("[AXIS_X] MAX_VELOCITY = 2")));
+  EXPECT_THAT(all[1].what, HasSubstr("axis Z: acceleration 300"));
+  EXPECT_THAT(all[2].what, HasSubstr("axis Z: upper end of travel 5 mm"));
+  EXPECT_THAT(all[3].what, AllOf(HasSubstr("axis A: speed 171.887 °/s"), HasSubstr("90")));
+}
+
+// A machine file may hold back what the control permits.
+TEST(MachineDifferences, TighterLimitsAreNone) {
+  Machine other = machine();
+  other.axes[0].max_speed_au_s = 20.0;
+  other.axes[0].min_au = 0.0;
+  other.axes[0].max_au = 100.0;
+  EXPECT_THAT(found(other), IsEmpty());
+}
+
+}  // namespace
+}  // namespace steadyrest::adapters::linuxcnc::config

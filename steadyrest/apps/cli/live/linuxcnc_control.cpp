@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include <steadyrest/adapters/linuxcnc/config/machine_differences.hpp>
+#include <steadyrest/apps/cli/live/linuxcnc_control.hpp>
+#include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
+
+namespace steadyrest::apps::cli::live {
+namespace {
+
+namespace adapter = adapters::linuxcnc;
+namespace config = adapter::config;
+using steadyrest::live::LoadedProgram;
+
+constexpr double kFirstState_s = 5.0;
+constexpr double kPoll_s = 0.1;
+
+}  // namespace
+
+Result<void> ControlSource::start() {
+  if (!peer_) {
+    auto started = adapter::ControlPeer::start({});
+    if (!started) {
+      return std::unexpected(std::move(started.error()));
+    }
+    peer_ = std::move(*started);
+  }
+  return {};
+}
+
+Result<adapter::ControlState> ControlSource::first(double timeout_s) {
+  if (auto started = start(); !started) {
+    return std::unexpected(std::move(started.error()));
+  }
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  Result<std::optional<adapter::ControlState>> state = std::optional<adapter::ControlState>();
+  while (state && !*state && std::chrono::steady_clock::now() < until) {
+    state = peer_->next(kPoll_s);
+  }
+  if (!state) {
+    peer_.reset();
+    return std::unexpected(std::move(state.error()));
+  }
+  if (!*state) {
+    return std::unexpected(Refusal{.kind = kernel::outcome::Kind::unavailable,
+                                   .file = {},
+                                   .what = "LinuxCNC does not show its status",
+                                   .to_do = "see whether it runs, as this user"});
+  }
+  return std::move(**state);
+}
+
+Result<std::optional<LoadedProgram>> ControlSource::operator()(double wait_s) {
+  const auto failed = [wait_s](Refusal refusal) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+    return std::unexpected(std::move(refusal));
+  };
+  if (auto started = start(); !started) {
+    return failed(std::move(started.error()));
+  }
+  auto state = peer_->next(wait_s);
+  if (!state) {
+    peer_.reset();
+    return failed(std::move(state.error()));
+  }
+  if (!*state) {
+    return std::optional<LoadedProgram>();
+  }
+  auto loaded = loaded_program(**state, machine_);
+  if (!loaded) {
+    return std::unexpected(std::move(loaded.error()));
+  }
+  return std::optional(std::move(*loaded));
+}
+
+std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
+    ControlSource& source, const kernel::machine::Machine& machine) {
+  constexpr std::string_view kCheck = "control";
+  std::vector<passport::Finding> findings;
+  const auto not_compared = [&](const Refusal& refusal) {
+    findings.push_back({passport::Severity::warning, kCheck,
+                        "the machine file was not compared with LinuxCNC: " + refusal.what,
+                        refusal.to_do});
+    return findings;
+  };
+  const auto state = source.first(kFirstState_s);
+  if (!state) {
+    return not_compared(state.error());
+  }
+  const auto ini = config::IniFile::read(state->ini);
+  if (!ini) {
+    return not_compared(ini.error());
+  }
+  const auto configuration = config::configuration_of(*ini);
+  if (!configuration) {
+    return not_compared(configuration.error());
+  }
+  Refusals fatal;
+  for (config::Difference& found : config::differences(*ini, *configuration, machine)) {
+    if (found.fatal) {
+      fatal.push_back(bad_input(std::move(found.what), std::move(found.to_do)));
+    } else {
+      findings.push_back(
+          {passport::Severity::warning, kCheck, std::move(found.what), std::move(found.to_do)});
+    }
+  }
+  if (!fatal.empty()) {
+    return std::unexpected(std::move(fatal));
+  }
+  return findings;
+}
+
+}  // namespace steadyrest::apps::cli::live

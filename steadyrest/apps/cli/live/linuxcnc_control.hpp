@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <expected>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <steadyrest/adapters/linuxcnc/control_peer.hpp>
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/passport/file/consistency.hpp>
+
+namespace steadyrest::apps::cli::live {
+
+/// LinuxCNC's state, read by a process that is started again when it has ended. Copies share it.
+class ControlSource {
+ public:
+  explicit ControlSource(kernel::machine::Machine machine) : machine_(std::move(machine)) {}
+
+  /// The first state. Refused: none within the time.
+  Result<adapters::linuxcnc::ControlState> first(double timeout_s);
+  /// The newest; nothing where none came within the time.
+  Result<std::optional<steadyrest::live::LoadedProgram>> operator()(double wait_s);
+
+ private:
+  Result<void> start();
+
+  kernel::machine::Machine machine_;
+  std::shared_ptr<adapters::linuxcnc::ControlPeer> peer_;
+};
+
+/// What of the machine file is not so on the control. Refused: a machine file of another machine.
+/// A configuration that cannot be read is a finding, no reason not to start.
+[[nodiscard]] std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
+    ControlSource& source, const kernel::machine::Machine& machine);
+
+}  // namespace steadyrest::apps::cli::live
