@@ -228,11 +228,10 @@ bool Parameters::of_state(std::string_view name, double& value) const {
     return true;
   }
   const Answer* const answer = answer_of(name);
-  if (answer == nullptr) {
-    return false;
+  if (answer != nullptr) {
+    value = answer->value(*state_);
   }
-  value = answer->value(*state_);
-  return true;
+  return answer != nullptr;
 }
 
 // Numbers that a program has not set read as 0 in LinuxCNC; they count as read from the control,
@@ -345,8 +344,7 @@ void Parameters::commit() {
     assign(index, value);
   }
   for (const auto& [name, value] : pending_names_) {
-    Names& names = name.front() == '_' ? globals_ : local_names();
-    names[name] = value;
+    (name.front() == '_' ? globals_ : local_names())[name] = value;
   }
   drop();
 }

@@ -387,10 +387,6 @@ void PathStream::on_event(const interpret::Event& e) {
   }
 }
 
-void PathStream::finish() {
-  rest();
-}
-
 Result<PlannedPath> PathBuilder::take() {
   stream_.finish();
   if (stream_.refusal()) {

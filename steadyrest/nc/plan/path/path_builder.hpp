@@ -49,7 +49,7 @@ class PathStream final : public interpret::Sink {
   void on_move(const interpret::Move& move) override;
   void on_event(const interpret::Event& event) override;
   /// Hands over the pieces still held back; call once after the last move.
-  void finish();
+  void finish() { rest(); }
   /// Set when a move cannot be planned; later moves are ignored.
   [[nodiscard]] const std::optional<kernel::outcome::Refusal>& refusal() const noexcept {
     return refusal_;
