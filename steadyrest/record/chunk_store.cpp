@@ -38,7 +38,8 @@ std::int64_t bits(const kernel::port::Capability& capability) {
   return (capability.feed_override ? 1 : 0) | (capability.spindle_override ? 2 : 0) |
          (capability.axis_offset ? 4 : 0) | (capability.path_offset ? 8 : 0) |
          (capability.latched_word ? 16 : 0) |
-         (std::llround(capability.path_offset_delay_s / kMicrosecond_s) << kDelayShift);
+         (std::llround(capability.path_offset_delay_s / kMicrosecond_s) << kDelayShift) |
+         (std::llround(capability.path_offset_acceleration_mm_s2) << kAccelerationShift);
 }
 
 }  // namespace

@@ -25,12 +25,15 @@ using kernel::signal::PathSegment;
 /// The writer never puts more into a chunk or a part.
 constexpr std::int64_t kMost = 1 << 20;
 
+constexpr std::int64_t kDelayMask = (1 << (kAccelerationShift - kDelayShift)) - 1;
+
 kernel::port::Capability capability_of(std::int64_t bits) {
   return {.feed_override = (bits & 1) != 0,
           .spindle_override = (bits & 2) != 0,
           .axis_offset = (bits & 4) != 0,
           .path_offset = (bits & 8) != 0,
-          .path_offset_delay_s = 1e-6 * static_cast<double>(bits >> kDelayShift),
+          .path_offset_delay_s = 1e-6 * static_cast<double>((bits >> kDelayShift) & kDelayMask),
+          .path_offset_acceleration_mm_s2 = static_cast<double>(bits >> kAccelerationShift),
           .latched_word = (bits & 16) != 0};
 }
 

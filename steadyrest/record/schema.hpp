@@ -12,6 +12,7 @@ inline constexpr std::int64_t kFormat = 2;
 
 /// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others.
 inline constexpr int kDelayShift = 16;
+inline constexpr int kAccelerationShift = 32;
 
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(

@@ -56,6 +56,7 @@ Result<std::optional<contour::online::FeedGovernor>> contour_room(
     const machine::Machine& machine, bool feed_override, const kernel::port::Capability& port) {
   auto config = contour::online::FeedGovernor::Config::of(machine);
   config.path_offset_delay_s = port.path_offset_delay_s;
+  config.path_offset_acceleration_mm_s2 = port.path_offset_acceleration_mm_s2;
   if (!port.path_offset) {
     config.envelope.max_path_offset_mm = 0.0;
   }

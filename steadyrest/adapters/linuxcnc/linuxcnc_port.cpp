@@ -70,12 +70,24 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
   return std::unique_ptr<LinuxCncPort>(new LinuxCncPort(config, hal));
 }
 
+/// Of X, Y and Z those that are known.
+double LinuxCncPort::slowest_mm_s2(const Units& units,
+                                   const kernel::signal::AxisValues& units_s2) noexcept {
+  double slowest = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(units.axes, 3); ++i) {
+    const double own = units.linear_unit_mm * units_s2[i];
+    slowest = own > 0.0 && (slowest <= 0.0 || own < slowest) ? own : slowest;
+  }
+  return slowest;
+}
+
 kernel::port::Capability LinuxCncPort::capability() const noexcept {
   return {.feed_override = true,
           .spindle_override = config_.spindle_connected,
           .axis_offset = offsets_connected_,
           .path_offset = offsets_connected_,
           .path_offset_delay_s = kOffsetCycles * config_.units.servo_period_s,
+          .path_offset_acceleration_mm_s2 = slowest_offset_mm_s2_,
           .latched_word = true};
 }
 

@@ -58,7 +58,10 @@ class LinuxCncPort final : public kernel::port::Port {
         course_({.acceleration = hal.offset_acceleration(),
                  .in_force = hal.offset_in_force(),
                  .slew = config.offset_slew_mm_s / config.units.linear_unit_mm}),
+        slowest_offset_mm_s2_(slowest_mm_s2(config.units, hal.offset_acceleration())),
         offsets_connected_(hal.offsets_connected()) {}
+  [[nodiscard]] static double slowest_mm_s2(const Units& units,
+                                            const kernel::signal::AxisValues& units_s2) noexcept;
   void arm() noexcept;
   [[nodiscard]] bool path_offset_gone() const noexcept;
   void remember_offsets() noexcept;
@@ -71,6 +74,7 @@ class LinuxCncPort final : public kernel::port::Port {
   std::array<kernel::signal::AxisValues, 2> offsets_{};
   kernel::signal::AxisValues heat_offset_;  ///< that the HAL has
   OffsetCourse course_;
+  double slowest_offset_mm_s2_;
   bool offsets_connected_;
   Pins pins_;  ///< as asked for; the HAL gets the course's offsets
   std::atomic<std::uint64_t> skipped_{0};

@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kReturn_s = 1.0;  ///< of the control's units
 constexpr double kUsedShare = 0.9;
-constexpr double kOvershoot = 0.05;
-constexpr double kForgets_s = 0.5;
 constexpr double kSlack = 1.0 + 1e-9;      ///< for rounding
 constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 
@@ -20,7 +18,7 @@ OffsetCourse::OffsetCourse(const Config& config) noexcept
     : acceleration_(config.acceleration), slew_(config.slew) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double now = config.in_force[a];
-    axis_[a] = {.asked = now, .at = now, .speed = 0.0, .given = now};
+    axis_[a] = {.sum = {.asked = now, .at = now}, .given = now};
   }
 }
 
@@ -53,25 +51,9 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
 }
 
 double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcept {
-  Axis& now = axis_[axis];
-  const double most = kUsedShare * acceleration_[axis];
-  const double step = most * dt_s;
-  const double away = asked - now.at;
-  const double asked_speed = (asked - now.asked) / dt_s;
-  // The speed that closes the gap in this cycle, but never more than it can brake from.
-  const double closing =
-      std::copysign(std::min(std::abs(away - asked_speed * dt_s) / dt_s,
-                             std::sqrt(2.0 * most * std::abs(away) + step * step) - step),
-                    away);
-  // A target that moves fast may stop at once: the speed stays within what overshoots by a share of
-  // the offset's size.
-  now.size = std::max(std::abs(asked), now.size * (1.0 - std::min(1.0, dt_s / kForgets_s)));
-  const double brakable = std::sqrt(2.0 * most * (std::abs(away) + kOvershoot * now.size));
-  const double wish = std::clamp(asked_speed + closing, -brakable, brakable);
-  now.asked = asked;
-  now.speed += std::clamp(wish - now.speed, -step, step);
-  now.at += now.speed * dt_s;
-  return now.at + 0.5 * now.speed * std::abs(now.speed) / acceleration_[axis];
+  kernel::override::LimitedFollower& sum = axis_[axis].sum;
+  sum.follow(asked, kUsedShare * acceleration_[axis], dt_s);
+  return sum.at + 0.5 * sum.speed * std::abs(sum.speed) / acceleration_[axis];
 }
 
 }  // namespace steadyrest::adapters::linuxcnc

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <steadyrest/adapters/linuxcnc/sample.hpp>
+#include <steadyrest/kernel/override/limited_follower.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 
@@ -38,11 +39,8 @@ class OffsetCourse {
 
  private:
   struct Axis {
-    double asked = 0.0;  ///< the last sum of both offsets
-    double at = 0.0;     ///< p
-    double speed = 0.0;  ///< w
-    double size = 0.0;   ///< of the offset in the last half second
-    double given = 0.0;  ///< of the offset against heat
+    kernel::override::LimitedFollower sum;  ///< of both offsets: p and w
+    double given = 0.0;                     ///< of the offset against heat
   };
 
   /// T for this axis.

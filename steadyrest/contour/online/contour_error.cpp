@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/contour/online/contour_error.hpp>
-#include <steadyrest/contour/online/window_search.hpp>
+#include <steadyrest/contour/online/search/window_search.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/segment.hpp>

@@ -79,6 +79,7 @@ void FeedGovernor::restore(const State& state) noexcept {
   precompensator_.set_model(model_);
   precompensator_.restore(state.precompensator);
   forecast_.set_tool_point(precompensator_.point(), precompensator_.max_offset_mm());
+  forecast_.set_offset_acceleration(precompensator_.acceleration_mm_s2());
   history_ = state.history;
   history_at_ = state.history_at % kHistory;
 }
@@ -106,6 +107,7 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   forecast_.set_model(model_);
   precompensator_.set_model(model_);
   forecast_.set_tool_point(precompensator_.point(), precompensator_.max_offset_mm());
+  forecast_.set_offset_acceleration(precompensator_.acceleration_mm_s2());
   if (is_other) {
     reserve_.forget();
   }

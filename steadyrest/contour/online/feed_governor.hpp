@@ -13,8 +13,8 @@
 #include <steadyrest/contour/online/forecast.hpp>
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/nominal_error.hpp>
-#include <steadyrest/contour/online/objective_search.hpp>
 #include <steadyrest/contour/online/precompensator.hpp>
+#include <steadyrest/contour/online/search/objective_search.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/machine/contour.hpp>
@@ -101,6 +101,7 @@ class FeedGovernor {
     std::size_t exhaustive_steps = 32;   ///< tables up to this size are searched in full
     double forecast_step_s = 0.0;        ///< 0 = 0.12/k of the stiffest axis, at most 4 ms
     double path_offset_delay_s = 0.0;    ///< of the port
+    double path_offset_acceleration_mm_s2 = 0.0;  ///< likewise; 0: no limit
     double (*objective)(const Candidate&) noexcept = combined_objective;
 
     /// These sections of a passport, the rest with the defaults above.
@@ -131,6 +132,7 @@ class FeedGovernor {
     double next_objective_s = 0.0;
     double in_force_ratio = 1.0;  ///< what the envelope has let through
     bool offsets_act = false;     ///< what is asked for goes to the machine, or is shown
+    bool offsets_follow = true;   ///< slow ones follow what cancels the error, else 0
     double fallen_s = -1e9;       ///< time of the last fall
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
@@ -208,6 +210,7 @@ class FeedGovernor {
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
   void fill_pending(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
+  void choose_offsets(Outset& outset) noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
   struct Search;
   Choice largest_admissible(const Outset& outset, std::size_t top, Output& output) noexcept;

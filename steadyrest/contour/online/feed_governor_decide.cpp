@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/contour/online/feed_governor.hpp>
-#include <steadyrest/contour/online/step_search.hpp>
+#include <steadyrest/contour/online/search/step_search.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
 // Which step to take: the search over the table.
@@ -27,7 +27,9 @@ constexpr double kTraceRoom = 1.02;    // over the fall's own error: twenty time
 constexpr double kTraceRoomMm = 2e-4;  // … is off by, and twice (0.1 % + 0.1 µm, forecast.hpp)
 constexpr double kUnsettled = 0.75;    // of the settling time: e⁻³ of the last step's error is left
 constexpr double kTieMm = 1e-4;        // errors closer than this are equal: a forecast's 0.1 µm
-constexpr double kTie = 1e-9;          // other objectives: their rounding
+constexpr double kOffsetSight_s = 0.25;
+constexpr double kFollowAgain = 0.9;  // of the other error², so that it does not go to and fro
+constexpr double kTie = 1e-9;         // other objectives: their rounding
 
 /// Adds a forecast to the decision's count; returns its steps.
 std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) noexcept {
@@ -269,6 +271,23 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
                                                     : Reason::contour_within_limit;
 }
 
+/// Slow offsets follow what cancels the error only where that leaves less of it than going to 0
+/// does, over what a decision sees with the present step. Both are forecast from where the offsets
+/// are.
+void FeedGovernor::choose_offsets(Outset& outset) noexcept {
+  if (precompensator_.acceleration_mm_s2() <= 0.0 || !outset.tool) {
+    return;
+  }
+  const auto error = [&](bool follows) {
+    outset.follows = follows;
+    return forecast_.mean_square_mm2(ahead_, outset, state_.in_force_ratio, kOffsetSight_s);
+  };
+  const double followed = error(true);
+  const double none = error(false);
+  state_.offsets_follow = followed <= (state_.offsets_follow ? 1.0 : kFollowAgain) * none;
+  outset.follows = state_.offsets_follow;
+}
+
 // A decision starts from what the envelope let pass, preceded by what is still under way. Without a
 // path the command's present circle takes its place, and no rise is derived from a speed that the
 // override does not govern.
@@ -282,7 +301,8 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
     }
   }
   fill_pending(frame);
-  const Outset from = outset(frame);
+  Outset from = outset(frame);
+  choose_offsets(from);
   const std::size_t wish = wanted_candidate(from, output);
   const bool no_effect = state_.idle_effect_s > 0.1;
   Choice choice = largest_admissible(from, reachable_candidate(wish), output);

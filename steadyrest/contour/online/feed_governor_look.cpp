@@ -88,7 +88,8 @@ void FeedGovernor::cancel(const Frame& frame, double dt, Output& output) noexcep
                                                .path = ahead_,
                                                .step_s = is_regular ? dt : 0.0,
                                                .active = state_.offsets_act,
-                                               .permitted = output.path_known && !locked});
+                                               .permitted = output.path_known && !locked,
+                                               .follows = state_.offsets_follow});
 }
 
 bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
@@ -133,6 +134,8 @@ Outset FeedGovernor::outset(const Frame& frame) const noexcept {
     outset.foot_cell = state_.foot_cell;
     if (state_.offsets_act) {
       outset.tool = precompensator_.in_full();
+      outset.offset = precompensator_.state().offset;
+      outset.follows = state_.offsets_follow;
     }
   } else {
     outset.command_cell = guess_.find(0.0, guess_.begin());

@@ -185,9 +185,11 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
   if (!servo) {
     return std::unexpected(servo.error());
   }
-  auto precompensator = Precompensator::make({.axes = config.axes,
-                                              .max_offset_mm = config.envelope.max_path_offset_mm,
-                                              .delay_s = config.path_offset_delay_s});
+  auto precompensator =
+      Precompensator::make({.axes = config.axes,
+                            .max_offset_mm = config.envelope.max_path_offset_mm,
+                            .delay_s = config.path_offset_delay_s,
+                            .acceleration_mm_s2 = config.path_offset_acceleration_mm_s2});
   if (!precompensator) {
     return std::unexpected(precompensator.error());
   }

@@ -10,6 +10,7 @@
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/contour/online/tool_point.hpp>
+#include <steadyrest/kernel/override/limited_follower.hpp>
 
 namespace steadyrest::contour::online {
 
@@ -39,6 +40,10 @@ struct Outset {
   std::size_t foot_cell = 0;
   /// Where the tool point is, while offsets cancel the contour error; empty: they do not.
   std::optional<ToolPoint::State> tool;
+  /// Where the port moves the offsets slowly: where they are, and whether they follow the tool
+  /// point or go to 0.
+  std::array<kernel::override::LimitedFollower, 3> offset{};
+  bool follows = true;
 };
 
 /// Simulates the control's speed and the servos along the cells ahead, for one candidate.
@@ -49,7 +54,8 @@ struct Outset {
 /// parabola of the foot's cell; the foot moves forward only, over corners by comparison with the
 /// first cell behind the corner, as ContourError would find it. Where offsets cancel the error
 /// (Outset::tool) the servos follow the tool point's command, held to the largest offset: what
-/// remains is what the offsets cannot do.
+/// remains is what the offsets cannot do, nor a port that moves them slowly
+/// (set_offset_acceleration).
 ///
 /// Accuracy against the closed forms of constant curvature: 0.1 % of ε and 0.1 µm (test). Not
 /// modelled: jerk beyond its mean delay, friction, drive saturation; the governor measures the
@@ -91,6 +97,10 @@ class Forecast {
   void set_model(std::span<const AxisModel, 3> model) noexcept;
   /// How the offsets would be chosen, and how large one may be.
   void set_tool_point(const ToolPoint& tool_point, double most_mm) noexcept;
+  /// The port moves an offset with this at most; 0: no limit.
+  void set_offset_acceleration(double acceleration_mm_s2) noexcept {
+    offset_acceleration_mm_s2_ = acceleration_mm_s2;
+  }
   /// The table follows the motor within this play, either way.
   void set_half_backlash(const std::array<double, 3>& half_mm) noexcept {
     half_backlash_mm_ = half_mm;
@@ -107,6 +117,11 @@ class Forecast {
                            double limit_mm, bool stop_early, const Trace* trace,
                            Trace* record) const noexcept;
 
+  /// Mean square of the contour error in the cut, with the ratio held for so long. The foot is the
+  /// nearest place around the tool point (Outset::tool), which run() need not have.
+  [[nodiscard]] double mean_square_mm2(const LookAhead& path, const Outset& outset, double ratio,
+                                       double time_s) const noexcept;
+
   [[nodiscard]] double floor_ratio(double ratio) const noexcept;
   [[nodiscard]] const AxisStep& axis_step(std::size_t i) const noexcept { return step_[i]; }
 
@@ -120,6 +135,7 @@ class Forecast {
   std::array<AxisStep, 3> step_{};
   ToolPoint tool_point_;
   double most_offset_mm_ = 0.0;
+  double offset_acceleration_mm_s2_ = 0.0;
   std::array<double, 3> half_backlash_mm_{};
   std::array<double, kMaxTable> table_{};
   std::size_t table_count_ = 0;

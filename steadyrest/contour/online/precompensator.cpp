@@ -43,6 +43,11 @@ kernel::outcome::Result<Precompensator> Precompensator::make(const Config& confi
         "path offsets act " + std::to_string(config.delay_s) + " s late; allowed: 0 … 0.02 s",
         "correct the delay that the port states");
   }
+  if (!(config.acceleration_mm_s2 >= 0.0)) {
+    return refuse("path offsets accelerate with " + std::to_string(config.acceleration_mm_s2) +
+                      " mm/s²; allowed: 0 (no limit) or more",
+                  "correct the acceleration that the port states");
+  }
   if (!(config.fade_in_s > 0.0)) {
     return refuse("fade_in_s is " + std::to_string(config.fade_in_s) + "; allowed: above 0",
                   "correct fade_in_s");
@@ -64,6 +69,19 @@ std::optional<ToolPoint::State> Precompensator::in_full() const noexcept {
 }
 
 OffsetRequest Precompensator::update(const Input& input) noexcept {
+  const auto offset = state_.offset;
+  const OffsetRequest request = ask(input);
+  state_.offset = offset;  // it goes on moving, whatever becomes of the request
+  if (config_.acceleration_mm_s2 > 0.0 && input.step_s > 0.0) {
+    for (std::size_t i = 0; i < state_.offset.size(); ++i) {
+      state_.offset[i].follow(input.active ? request.offset_mm[i] : 0.0, config_.acceleration_mm_s2,
+                              input.step_s);
+    }
+  }
+  return request;
+}
+
+OffsetRequest Precompensator::ask(const Input& input) noexcept {
   OffsetRequest request{.room = Room::contour};
   const kernel::signal::Frame& frame = input.frame;
   if (!enabled() || !input.permitted || !covers(input.path, frame.path_position_mm)) {
@@ -104,9 +122,11 @@ OffsetRequest Precompensator::update(const Input& input) noexcept {
   const Cell& cell = input.path.cell(input.path.find(next_mm, next.cell));
   const Point command = on_cell(cell, next_mm - cell.position_mm);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, config_.axes.size()); ++i) {
-    request.offset_mm[i] = state_.share * (next.command_mm[i] - command[i]);
+    request.offset_mm[i] = input.follows ? state_.share * (next.command_mm[i] - command[i]) : 0.0;
   }
-  request.reason = state_.share < 1.0 ? Reason::contour_cancel_begins : Reason::contour_cancelled;
+  request.reason = !input.follows       ? Reason::contour_offset_too_slow
+                   : state_.share < 1.0 ? Reason::contour_cancel_begins
+                                        : Reason::contour_cancelled;
   return request;
 }
 

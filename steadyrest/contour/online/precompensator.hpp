@@ -11,6 +11,7 @@
 #include <steadyrest/contour/online/tool_point.hpp>
 #include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/override/limited_follower.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 
@@ -24,6 +25,10 @@ namespace steadyrest::contour::online {
 ///   o = w·(c′ − c)   at that place,
 /// with w = 0 … 1 growing over `fade_in_s` where it comes into force on a moving machine.
 ///
+/// Slow offsets. A port may move an offset with the acceleration A at most (LimitedFollower): J mm
+/// take 2·√(J/A). Where the error has gone by then the offset only does harm, as at a sharp corner;
+/// the governor finds out by forecasting both, and says whether the offset is to follow o or 0.
+///
 /// Withdraws (no wish; the envelope then ramps the offset out): no path, threads and taps, frames
 /// that are unfit or not one cycle apart.
 /// Not in it: friction, stiction and whatever else ServoModel leaves out. The feed governor
@@ -34,7 +39,8 @@ class Precompensator {
     std::vector<kernel::machine::Axis> axes;  ///< X, Y, Z first
     double max_offset_mm = 0.0;               ///< 0: it never asks
     double fade_in_s = 0.2;
-    double delay_s = 0.0;  ///< of an offset beyond one cycle; 0 … 0.02
+    double delay_s = 0.0;             ///< of an offset beyond one cycle; 0 … 0.02
+    double acceleration_mm_s2 = 0.0;  ///< A ≥ 0; 0: no limit
   };
 
   struct Input {
@@ -43,6 +49,7 @@ class Precompensator {
     double step_s = 0.0;     ///< since the last frame
     bool active = false;     ///< offsets that are asked for come into force
     bool permitted = false;  ///< the path is known, the frame is fit, no thread is cut
+    bool follows = true;     ///< the offset follows o, else 0
   };
 
   struct State {
@@ -50,7 +57,8 @@ class Precompensator {
     double share = 0.0;        ///< w
     double position_mm = 0.0;  ///< s_c of the last frame
     double speed_mm_s = 0.0;
-    ToolPoint::State tool;  ///< at the last frame
+    ToolPoint::State tool;                                      ///< at the last frame
+    std::array<kernel::override::LimitedFollower, 3> offset{};  ///< where the port moves slow ones
   };
 
   static kernel::outcome::Result<Precompensator> make(const Config& config);
@@ -67,12 +75,16 @@ class Precompensator {
   [[nodiscard]] double position_mm() const noexcept { return state_.tool.position_mm; }
   [[nodiscard]] bool started() const noexcept { return state_.started; }
 
+  /// A; 0: no limit.
+  [[nodiscard]] double acceleration_mm_s2() const noexcept { return config_.acceleration_mm_s2; }
+
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
   void restore(const State& state) noexcept { state_ = state; }
 
  private:
   explicit Precompensator(const Config& config) noexcept;
+  kernel::signal::OffsetRequest ask(const Input& input) noexcept;
 
   Config config_;
   ToolPoint point_;

@@ -50,6 +50,8 @@ constexpr std::array kEntries = {
           "Axis offsets keep the tool on the path at full feed."},
     Entry{Reason::contour_cancel_begins, "contour_cancel_begins",
           "The axis offsets against the contour error are ramping in."},
+    Entry{Reason::contour_offset_too_slow, "contour_offset_too_slow",
+          "The control moves its offsets too slowly to help on this part of the path."},
     Entry{Reason::chatter_modulating, "chatter_modulating",
           "Spindle speed modulated to keep chatter from growing."},
     Entry{Reason::chatter_feed_follows, "chatter_feed_follows",

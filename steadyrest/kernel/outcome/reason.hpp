@@ -37,6 +37,7 @@ enum class Reason : std::uint16_t {
   contour_path_unknown = 306,  ///< no path window: only the error that already happened is known
   contour_cancelled = 320,     ///< offsets keep the tool on the path at full feed
   contour_cancel_begins = 321,    ///< the offsets grow from 0 to their full size
+  contour_offset_too_slow = 322,  ///< the control moves them too slowly to help here: they go to 0
   chatter_modulating = 400,       ///< the spindle's speed swings by its law
   chatter_feed_follows = 401,     ///< feed reduced: the feed per tooth would pass its band
   chatter_feed_raised = 402,      ///< feed raised: the feed per tooth would fall below its band

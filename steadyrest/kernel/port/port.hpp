@@ -14,6 +14,7 @@ struct Capability {
   bool axis_offset = false;
   bool path_offset = false;          ///< takes a second offset that may change in every cycle
   double path_offset_delay_s = 0.0;  ///< until such an offset is in the command, beyond one cycle
+  double path_offset_acceleration_mm_s2 = 0.0;  ///< that such an offset moves with; 0: no limit
   bool latched_word = true;  ///< an override word of several bits takes effect as a whole; else it
                              ///< must walk step by step
 };

@@ -5,35 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/adapters/linuxcnc/offset_course.hpp>
+#include <steadyrest/adapters/linuxcnc/testing/offset_planner.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
+using testing::OffsetPlanner;
+
 constexpr double kPeriod_s = 0.001;
-
-/// LinuxCNC 2.9's planner of external offsets (simple_tp), written from its documented law.
-class OffsetPlanner {
- public:
-  OffsetPlanner(double speed, double acceleration) : speed_(speed), acceleration_(acceleration) {}
-  double update(double target) {
-    const double dv = acceleration_ * kPeriod_s;
-    const double error = target - at_;
-    double wish = 0.0;
-    if (std::abs(error) > dv * kPeriod_s * 0.001) {
-      wish = std::copysign(std::sqrt(2.0 * acceleration_ * std::abs(error) + dv * dv) - dv, error);
-    }
-    wish = std::clamp(wish, -speed_, speed_);
-    now_ += std::clamp(wish - now_, -dv, dv);
-    at_ += now_ * kPeriod_s;
-    return at_;
-  }
-
- private:
-  double speed_;
-  double acceleration_;
-  double now_ = 0.0;
-  double at_ = 0.0;
-};
 
 /// Largest distance from 0.56·sin(6.67·t) mm that the planner's output keeps: the offset that a
 /// circle of 10 mm at F4000 needs with a position loop of 20 1/s.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <expected>
+#include <utility>
 
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
@@ -36,11 +37,16 @@ Result<PlannedPath> plan_file(const std::string& file, const interpret::Config& 
 
 Result<PlannedPath> plan_file_from_start(const std::string& file, const interpret::Config& config,
                                          const Machine& machine) {
-  // Refused or not: what they did not reach counts as made otherwise.
   MovedAxes moved;
   MoveMarks elsewhere;
-  (void)interpret::run_file(file, config, moved);
-  (void)interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
+  auto report = interpret::run_file(file, config, moved);
+  if (report) {
+    // What it refuses it does not reach: that counts as made otherwise.
+    report = interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
+  }
+  if (!report) {
+    return std::unexpected(std::move(report.error()));
+  }
   return plan_moves(machine, file, [&](Sink& sink) {
     StartMarks marks(elsewhere, sink);
     return interpret::run_file(file, config, marks);

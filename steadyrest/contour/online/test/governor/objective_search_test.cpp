@@ -7,7 +7,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <steadyrest/contour/online/objective_search.hpp>
+#include <steadyrest/contour/online/search/objective_search.hpp>
 
 namespace steadyrest::contour::online {
 namespace {

@@ -6,7 +6,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <steadyrest/contour/online/step_search.hpp>
+#include <steadyrest/contour/online/search/step_search.hpp>
 
 namespace steadyrest::contour::online {
 namespace {

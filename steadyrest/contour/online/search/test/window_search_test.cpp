@@ -7,7 +7,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <steadyrest/contour/online/window_search.hpp>
+#include <steadyrest/contour/online/search/window_search.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/test/segments.hpp>
 

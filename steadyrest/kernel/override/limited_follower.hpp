@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace steadyrest::kernel::override {
+
+/// A place that follows another with the acceleration `a` at most.
+///
+/// It takes over the other's speed and closes the gap with what it can brake from. The other may
+/// stop at once: the place then overshoots by a twentieth of S at most, S being the largest place
+/// asked for in the last half second. Where the other needs no more than `a` and no speed above
+/// √(0.1·a·S), the two are the same.
+struct LimitedFollower {
+  double asked = 0.0;  ///< where the other was last
+  double at = 0.0;
+  double speed = 0.0;
+  double size = 0.0;  ///< of what was asked for lately
+
+  /// The other is at `next` now, `step_s` > 0 after the last call; `acceleration` > 0.
+  void follow(double next, double acceleration, double step_s) noexcept;
+};
+
+}  // namespace steadyrest::kernel::override

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/override/limited_follower.hpp>
+
+namespace steadyrest::kernel::override {
+namespace {
+
+constexpr double kStep_s = 0.001;
+constexpr double kMost = 400.0;
+
+// A·ω² of the sine is below the limit, and A·ω below √(2·400·0.05·A), from which it can brake
+// within a twentieth of A.
+TEST(LimitedFollower, IsWhereTheOtherIsWithinTheLimit) {
+  LimitedFollower follower;
+  double worst = 0.0;
+  for (int i = 1; i < 5000; ++i) {
+    const double next = 0.5 * std::sin(8.0 * kStep_s * i);
+    follower.follow(next, kMost, kStep_s);
+    worst = i > 400 ? std::max(worst, std::abs(follower.at - next)) : 0.0;
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
+// The shortest way from rest to rest over J: 2·√(J/a).
+TEST(LimitedFollower, TakesAJumpInTheShortestTimeAndHardlyOvershoots) {
+  for (const double jump : {0.01, 0.5, -2.0}) {
+    LimitedFollower follower;
+    double before = 0.0;
+    double most = 0.0;
+    double farthest = 0.0;
+    int arrived = 0;
+    for (int i = 1; i < 1000; ++i) {
+      const double speed = follower.speed;
+      follower.follow(jump, kMost, kStep_s);
+      most = std::max(most, std::abs(follower.speed - speed) / kStep_s);
+      farthest = std::max(farthest, follower.at / jump);
+      arrived = std::abs(follower.at - jump) > 0.05 * std::abs(jump) ? i : arrived;
+      before = follower.at;
+    }
+    EXPECT_LE(most, kMost * (1.0 + 1e-9));
+    EXPECT_LE(farthest, 1.06) << jump;
+    EXPECT_NEAR(before, jump, 1e-6);
+    const double shortest_s = 2.0 * std::sqrt(std::abs(jump) / kMost);
+    EXPECT_LT(arrived * kStep_s, 1.1 * shortest_s + 0.003) << jump;
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::kernel::override
