@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <tests/linuxcnc/servo_log.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -26,6 +27,8 @@ namespace {
 
 using kernel::file::testing::OwnFolder;
 using kernel::file::testing::text_of_file;
+using linuxcnc_test::servo_log;
+using linuxcnc_test::ServoRow;
 
 constexpr int kCannotRun = 77;
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
@@ -47,30 +50,6 @@ unsigned long number_from(const char* name, unsigned long otherwise) {
 }
 
 /// A servo cycle (lag_log.hal).
-struct Row {
-  double tick = 0.0;
-  double speed_mm_s = 0.0;
-  double ratio = 0.0;
-  double beat = 0.0;
-  double alive = 0.0;
-  double z_mm = 0.0;
-};
-
-std::vector<Row> servo_log(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<Row> rows;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    double number = 0.0;
-    Row row;
-    if (words >> number >> row.tick >> row.speed_mm_s >> row.ratio >> row.beat >> row.alive >>
-        row.z_mm) {
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
-
 struct Kill {
   double tick = 0.0;    ///< by this servo cycle the process had ended
   bool waited = false;  ///< the next layer came when the feed was the panel's
@@ -85,10 +64,10 @@ std::vector<Kill> kills_of(const std::string& file) {
   return kills;
 }
 
-using At = std::vector<Row>::const_iterator;
+using At = std::vector<ServoRow>::const_iterator;
 
-At at_tick(const std::vector<Row>& log, double tick) {
-  return std::ranges::lower_bound(log, tick, {}, &Row::tick);
+At at_tick(const std::vector<ServoRow>& log, double tick) {
+  return std::ranges::lower_bound(log, tick, {}, &ServoRow::tick);
 }
 
 /// What the servo thread saw of one layer.
@@ -102,7 +81,7 @@ struct Life {
 };
 
 /// Of the layer that beat in (from, killed]. What it wrote last shows one cycle later.
-Life life(const std::vector<Row>& log, double from, double killed) {
+Life life(const std::vector<ServoRow>& log, double from, double killed) {
   Life out;
   const At before = at_tick(log, from + 1.0);
   if (before == log.end()) {
@@ -124,16 +103,16 @@ Life life(const std::vector<Row>& log, double from, double killed) {
     const At found = std::find_if(last, log.end(), reached);
     return found == log.end() ? 1e9 : found->tick - last->tick;
   };
-  out.back = cycles_until([](const Row& row) { return row.ratio == 1.0; });
-  out.speed_back =
-      cycles_until([](const Row& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
-  out.next = cycles_until([&](const Row& row) { return row.beat != last->beat; });
+  out.back = cycles_until([](const ServoRow& row) { return row.ratio == 1.0; });
+  out.speed_back = cycles_until(
+      [](const ServoRow& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
+  out.next = cycles_until([&](const ServoRow& row) { return row.beat != last->beat; });
   const At end = at_tick(log, out.last_beat + kLongestSpeedReturn);
   out.seen = end != log.end() && end->tick - out.last_beat == static_cast<double>(end - last);
   return out;
 }
 
-double largest_step(const std::vector<Row>& log, At from, double Row::* of, double sign) {
+double largest_step(const std::vector<ServoRow>& log, At from, double ServoRow::* of, double sign) {
   double most = 0.0;
   for (At i = from + 1; i < log.end(); ++i) {
     const double step = (*i).*of - (*(i - 1)).*of;
@@ -198,15 +177,15 @@ void write_inputs(const OwnFolder& folder, unsigned long kills) {
       << 200 + 10 * kills << '\n';
 }
 
-void expect_no_jump(const std::vector<Row>& log) {
+void expect_no_jump(const std::vector<ServoRow>& log) {
   // From here on the circle is cut and a layer is there.
-  const At first = std::ranges::find(log, 1.0, &Row::alive);
+  const At first = std::ranges::find(log, 1.0, &ServoRow::alive);
   ASSERT_NE(first, log.end());
   EXPECT_NEAR(first->z_mm, kOffsetBefore_mm, 1e-4);
   EXPECT_NEAR(log.back().z_mm, 0.0, 1e-4);
-  const double up = largest_step(log, first, &Row::ratio, 1.0);
-  const double speed = largest_step(log, first, &Row::speed_mm_s, 0.0);
-  const double offset = largest_step(log, first, &Row::z_mm, 0.0);
+  const double up = largest_step(log, first, &ServoRow::ratio, 1.0);
+  const double speed = largest_step(log, first, &ServoRow::speed_mm_s, 0.0);
+  const double offset = largest_step(log, first, &ServoRow::z_mm, 0.0);
   EXPECT_LE(up, kRamp + 1e-9);
   EXPECT_LE(speed, kAcceleration_mm_s + 1e-6);
   EXPECT_LE(offset, kOffsetStep_mm);
@@ -220,7 +199,7 @@ struct Figures {
   std::vector<double> lost;
 };
 
-Figures expect_each_let_go(const std::vector<Row>& log, const std::vector<Kill>& killed,
+Figures expect_each_let_go(const std::vector<ServoRow>& log, const std::vector<Kill>& killed,
                            const OwnFolder& folder) {
   Figures out;
   const auto machine = passport::read(folder.at("machine.toml"));

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
+#include <tests/linuxcnc/servo_log.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -23,6 +24,8 @@ namespace {
 
 using kernel::file::testing::OwnFolder;
 using kernel::file::testing::text_of_file;
+using linuxcnc_test::servo_log;
+using linuxcnc_test::ServoRow;
 using nlohmann::json;
 
 constexpr int kCannotRun = 77;
@@ -46,42 +49,21 @@ int run_on_linuxcnc(const OwnFolder& folder) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Columns of the servo thread's log (lag_log.hal).
-struct Row {
-  double tick = 0.0;
-  double speed_mm_s = 0.0;
-  double layer_ratio = 0.0;
-};
-std::vector<Row> servo_log(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<Row> rows;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    double number = 0.0;
-    Row row;
-    if (words >> number >> row.tick >> row.speed_mm_s >> row.layer_ratio) {
-      rows.push_back(row);
-    }
-  }
-  return rows;
-}
-
-void expect_slowed_and_handed_back(const std::vector<Row>& log) {
+void expect_slowed_and_handed_back(const std::vector<ServoRow>& log) {
   ASSERT_GT(log.size(), 6000U);
   double lowest = 1.0;
   std::size_t slowed = 0;
   for (std::size_t i = 1; i < log.size(); ++i) {
-    lowest = std::min(lowest, log[i].layer_ratio);
-    slowed += log[i].layer_ratio < 0.3 ? 1 : 0;
+    lowest = std::min(lowest, log[i].ratio);
+    slowed += log[i].ratio < 0.3 ? 1 : 0;
     // layer.hal's ramp: 15 1/s.
-    EXPECT_LE(log[i].layer_ratio - log[i - 1].layer_ratio,
-              0.015 * (log[i].tick - log[i - 1].tick) + 1e-9)
+    EXPECT_LE(log[i].ratio - log[i - 1].ratio, 0.015 * (log[i].tick - log[i - 1].tick) + 1e-9)
         << "at tick " << log[i].tick;
   }
   EXPECT_LT(lowest, 0.15);
   EXPECT_GT(slowed, 2000U);
-  EXPECT_DOUBLE_EQ(log.back().layer_ratio, 1.0);
-  EXPECT_TRUE(std::ranges::any_of(log.end() - 1000, log.end(), [](const Row& row) {
+  EXPECT_DOUBLE_EQ(log.back().ratio, 1.0);
+  EXPECT_TRUE(std::ranges::any_of(log.end() - 1000, log.end(), [](const ServoRow& row) {
     return std::abs(row.speed_mm_s - kFeed_mm_s) < 0.01;
   })) << "the feed is back";
 }

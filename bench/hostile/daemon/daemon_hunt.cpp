@@ -12,6 +12,7 @@
 #include <bench/hostile/override_watch.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tests/rig/even_pace.hpp>
 #include <tests/rig/everything_on.hpp>
 
 #include <steadyrest/live/loop.hpp>
@@ -28,20 +29,6 @@ using machine::Mode;
 constexpr double kLateSteps = 0.5;  ///< a stamp may be late by this much of a cycle
 
 /// Time passes with the cycles alone.
-class HuntPace final : public live::Pace {
- public:
-  explicit HuntPace(double period_s) : period_s_(period_s) {}
-  Wake wait() noexcept override {
-    now_s_ += period_s_;
-    return {};
-  }
-  [[nodiscard]] double now_s() const noexcept override { return now_s_; }
-
- private:
-  double period_s_;
-  double now_s_ = 0.0;
-};
-
 /// Another machine of the same kind: other wires, rights, rates and rooms.
 Machine varied(Machine m, Dice& dice) {
   for (auto* table : {&m.feed_override, &m.spindle_override}) {
@@ -113,7 +100,7 @@ class DaemonScene {
   kernel::port::Capability can_;
   std::optional<WildPort> port_;
   std::optional<supervisor::Supervisor> layer_;
-  std::optional<HuntPace> pace_;
+  std::optional<rig::EvenPace> pace_;
   std::optional<live::Loop> loop_;
   std::optional<OverrideWatch> feed_;
   std::optional<OverrideWatch> spindle_;

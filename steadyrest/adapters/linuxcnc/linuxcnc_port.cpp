@@ -70,7 +70,7 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
   return std::unique_ptr<LinuxCncPort>(new LinuxCncPort(config, hal));
 }
 
-/// Of X, Y and Z those that are known.
+/// Of X, Y and Z those that are known; in whole mm/s², as a record keeps it.
 double LinuxCncPort::slowest_mm_s2(const Units& units,
                                    const kernel::signal::AxisValues& units_s2) noexcept {
   double slowest = 0.0;
@@ -78,7 +78,7 @@ double LinuxCncPort::slowest_mm_s2(const Units& units,
     const double own = units.linear_unit_mm * units_s2[i];
     slowest = own > 0.0 && (slowest <= 0.0 || own < slowest) ? own : slowest;
   }
-  return slowest;
+  return slowest > 0.0 ? std::max(1.0, std::floor(slowest)) : 0.0;
 }
 
 kernel::port::Capability LinuxCncPort::capability() const noexcept {

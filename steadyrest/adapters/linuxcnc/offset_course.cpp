@@ -51,7 +51,7 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
 }
 
 double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcept {
-  kernel::override::LimitedFollower& sum = axis_[axis].sum;
+  kernel::offset::LimitedFollower& sum = axis_[axis].sum;
   sum.follow(asked, kUsedShare * acceleration_[axis], dt_s);
   return sum.at + 0.5 * sum.speed * std::abs(sum.speed) / acceleration_[axis];
 }

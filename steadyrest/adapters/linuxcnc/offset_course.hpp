@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <steadyrest/adapters/linuxcnc/sample.hpp>
-#include <steadyrest/kernel/override/limited_follower.hpp>
+#include <steadyrest/kernel/offset/limited_follower.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 
@@ -39,8 +39,8 @@ class OffsetCourse {
 
  private:
   struct Axis {
-    kernel::override::LimitedFollower sum;  ///< of both offsets: p and w
-    double given = 0.0;                     ///< of the offset against heat
+    kernel::offset::LimitedFollower sum;  ///< of both offsets: p and w
+    double given = 0.0;                   ///< of the offset against heat
   };
 
   /// T for this axis.

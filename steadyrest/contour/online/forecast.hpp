@@ -10,7 +10,7 @@
 #include <steadyrest/contour/online/look_ahead.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/contour/online/tool_point.hpp>
-#include <steadyrest/kernel/override/limited_follower.hpp>
+#include <steadyrest/kernel/offset/limited_follower.hpp>
 
 namespace steadyrest::contour::online {
 
@@ -42,7 +42,7 @@ struct Outset {
   std::optional<ToolPoint::State> tool;
   /// Where the port moves the offsets slowly: where they are, and whether they follow the tool
   /// point or go to 0.
-  std::array<kernel::override::LimitedFollower, 3> offset{};
+  std::array<kernel::offset::LimitedFollower, 3> offset{};
   bool follows = true;
 };
 

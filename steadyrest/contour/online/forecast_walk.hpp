@@ -299,7 +299,7 @@ struct Forecast::Walk {
   kernel::signal::Point table{};
   FootTracker foot;
   std::optional<ToolPoint::State> tool;
-  std::array<kernel::override::LimitedFollower, 3> offset;
+  std::array<kernel::offset::LimitedFollower, 3> offset;
   double worst = 0.0;  ///< error squared
   std::size_t trace_at = 0;
   Result result;

@@ -10,8 +10,8 @@
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/contour/online/tool_point.hpp>
 #include <steadyrest/kernel/machine/axis.hpp>
+#include <steadyrest/kernel/offset/limited_follower.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/kernel/override/limited_follower.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 #include <steadyrest/kernel/signal/request.hpp>
 
@@ -57,8 +57,8 @@ class Precompensator {
     double share = 0.0;        ///< w
     double position_mm = 0.0;  ///< s_c of the last frame
     double speed_mm_s = 0.0;
-    ToolPoint::State tool;                                      ///< at the last frame
-    std::array<kernel::override::LimitedFollower, 3> offset{};  ///< where the port moves slow ones
+    ToolPoint::State tool;                                    ///< at the last frame
+    std::array<kernel::offset::LimitedFollower, 3> offset{};  ///< where the port moves slow ones
   };
 
   static kernel::outcome::Result<Precompensator> make(const Config& config);

@@ -265,7 +265,7 @@ class ProgramRun::Run {
             ? "the file ends before the program: end it with M2 or M30, or with % as it began"
             : "the file ends before the program: end it with M2 or M30";
     refuse_source("no_program_end", text);
-    report_.refused.back().line = static_cast<std::uint32_t>(report_.lines);
+    report_.refused.back().line = line_;
   }
 
   // Other faults in the program: text and vocabulary only, since the state after a refused block is

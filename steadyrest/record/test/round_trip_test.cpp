@@ -21,7 +21,7 @@ TEST(Columns, NameEveryField) {
       kernel::signal::Command{};
   [[maybe_unused]] const auto& [s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12, s13, s14, s15,
                                 s16, s17, s18, s19] = PathSegment{};
-  [[maybe_unused]] const auto& [k1, k2, k3, k4, k5, k6] = kernel::port::Capability{};
+  [[maybe_unused]] const auto& [k1, k2, k3, k4, k5, k6, k7] = kernel::port::Capability{};
   std::size_t columns = 0;
   Sample sample;
   sample_columns(sample, [&columns](const ColumnName&, auto&) { ++columns; });
@@ -104,7 +104,10 @@ TEST(RoundTrip, TheRunAndItsEventsComeBack) {
                         .program = "part.mpf",
                         .program_text = "G1 X1 ; Ø\n",
                         .cycle_s = 0.002,
-                        .capability = {.feed_override = true, .path_offset = true}};
+                        .capability = {.feed_override = true,
+                                       .path_offset = true,
+                                       .path_offset_delay_s = 0.003,
+                                       .path_offset_acceleration_mm_s2 = 1234567.0}};
   {
     const auto writer = RecordWriter::make({.file = folder.file("a.sqlite"), .info = info}).value();
     writer->event(EventKind::mode, "act");
@@ -120,6 +123,8 @@ TEST(RoundTrip, TheRunAndItsEventsComeBack) {
   EXPECT_TRUE(reader.run().capability.feed_override);
   EXPECT_FALSE(reader.run().capability.axis_offset);
   EXPECT_TRUE(reader.run().capability.path_offset);
+  EXPECT_EQ(reader.run().capability.path_offset_delay_s, 0.003);
+  EXPECT_EQ(reader.run().capability.path_offset_acceleration_mm_s2, 1234567.0);
   EXPECT_TRUE(reader.run().capability.latched_word);
   ASSERT_EQ(reader.events().size(), 2U);
   EXPECT_EQ(reader.events()[0].before, 0U);

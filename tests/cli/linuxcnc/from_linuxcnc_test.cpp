@@ -81,7 +81,7 @@ TEST(FromLinuxCnc, SaysWhatIsAssumed) {
   EXPECT_EQ(answer["from_ini"], 22);
   ASSERT_EQ(answer["assumed"].size(), 12U);
   EXPECT_THAT(answer["assumed"][1].get<std::string>(),
-              HasSubstr("axis X: servo_gain_1_s = 20 (speed / joint.N.f-error"));
+              HasSubstr("axis X: servo_gain_1_s = 20 (`steadyrest machine from-log`"));
   EXPECT_THAT(answer["written"][0]["file"].get<std::string>(), "machine.toml");
 }
 

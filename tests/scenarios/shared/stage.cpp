@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tests/rig/even_pace.hpp>
 #include <tests/rig/everything_on.hpp>
 #include <tests/scenarios/shared/stage.hpp>
 
@@ -17,20 +18,6 @@ namespace {
 using kernel::outcome::Result;
 using kernel::signal::Command;
 using kernel::signal::Frame;
-
-class StagePace final : public live::Pace {
- public:
-  explicit StagePace(double period_s) : period_s_(period_s) {}
-  Wake wait() noexcept override {
-    now_s_ += period_s_;
-    return {};
-  }
-  [[nodiscard]] double now_s() const noexcept override { return now_s_; }
-
- private:
-  double period_s_;
-  double now_s_ = 0.0;
-};
 
 std::unexpected<kernel::outcome::Refusal> failure() {
   return std::unexpected(kernel::outcome::Refusal{.kind = kernel::outcome::Kind::unavailable,
@@ -149,7 +136,7 @@ void Stage::run(std::size_t cycles) {
   Port port(*this);
   auto layer = supervisor::Supervisor::make(machine_, port.capability()).value();
   const double period_s = machine_.control.interpolator_period_s;
-  StagePace pace(period_s);
+  rig::EvenPace pace(period_s);
   live::Loop loop(port, layer, pace,
                   {.period_s = period_s,
                    .contour_limit_mm = machine_.contour.limit_mm,

@@ -32,9 +32,10 @@ class FakeHal final : public HalSide {
     return offset_before;
   }
   [[nodiscard]] kernel::signal::AxisValues offset_acceleration() const noexcept override {
-    return {};
+    return acceleration;
   }
 
+  kernel::signal::AxisValues acceleration{};  ///< of offsets; 0: not known
   /// A row of each channel of a machine with up to four axes.
   void push(const Sample& sample) {
     push_state(sample);

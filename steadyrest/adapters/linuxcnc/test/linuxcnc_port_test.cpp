@@ -155,6 +155,21 @@ TEST(LinuxCncPort, WritesNoOffsetThatNobodyConnected) {
   EXPECT_EQ(hal.written.back().path_offset[2], 0.0);
 }
 
+// In the control's unit, an inch here; A is rotary.
+TEST(LinuxCncPort, StatesTheSlowestAccelerationOfItsLinearOffsets) {
+  FakeHal hal;
+  auto config = kMillPort;
+  config.units.linear_unit_mm = 25.4;
+  const auto stated = [&] {
+    return LinuxCncPort::make(config, hal).value()->capability().path_offset_acceleration_mm_s2;
+  };
+  EXPECT_EQ(stated(), 0.0) << "not known";
+  hal.acceleration = {20.0, 15.77, 0.0, 1.0};
+  EXPECT_EQ(stated(), 400.0) << "15.77 in/s², in whole mm/s²";
+  hal.acceleration = {0.01};
+  EXPECT_EQ(stated(), 1.0) << "slow, not unlimited";
+}
+
 // 0.3 mm against the contour error go out at 5 mm/s in the servo thread; 0.05 mm against heat stay.
 TEST(LinuxCncPort, LetsThePathOffsetOfAnEarlierLayerRampOutFirst) {
   FakeHal hal;

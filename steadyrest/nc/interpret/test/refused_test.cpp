@@ -129,6 +129,17 @@ TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
   }
 }
 
+TEST(RefusedPrograms, AMissingEndIsAtTheFilesLastLineHoweverOftenLoopsRan) {
+  const Config config;
+  Count sink;
+  const auto report =
+      run_text("G21 G90\no1 repeat [5]\nG1 X1 F100\nX0\no1 endrepeat\nG0 X5\n", config, sink);
+  ASSERT_TRUE(report.has_value());
+  ASSERT_EQ(report->refused.size(), 1U);
+  EXPECT_EQ(report->refused.front().reason, "no_program_end");
+  EXPECT_EQ(report->refused.front().line, 6U);
+}
+
 TEST(RefusedPrograms, RandomBytesNeverHangCrashOrMoveFar) {
   // No oracle but bounds: it ends, does not crash, and says something.
   std::mt19937 random(20240607);

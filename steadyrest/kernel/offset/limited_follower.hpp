@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace steadyrest::kernel::override {
+namespace steadyrest::kernel::offset {
 
 /// A place that follows another with the acceleration `a` at most.
 ///
@@ -19,4 +19,4 @@ struct LimitedFollower {
   void follow(double next, double acceleration, double step_s) noexcept;
 };
 
-}  // namespace steadyrest::kernel::override
+}  // namespace steadyrest::kernel::offset

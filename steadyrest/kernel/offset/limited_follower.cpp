@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <steadyrest/kernel/override/limited_follower.hpp>
+#include <steadyrest/kernel/offset/limited_follower.hpp>
 
-namespace steadyrest::kernel::override {
+namespace steadyrest::kernel::offset {
 namespace {
 
 constexpr double kOvershoot = 0.05;
@@ -30,4 +30,4 @@ void LimitedFollower::follow(double next, double acceleration, double step_s) no
   at += speed * step_s;
 }
 
-}  // namespace steadyrest::kernel::override
+}  // namespace steadyrest::kernel::offset
