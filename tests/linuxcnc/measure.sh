@@ -5,7 +5,7 @@
 # files; DRIVE_ARGS: what the driver gets after PROGRAM and LOG; whatever the driver leaves beside its log is copied to LOG's folder.
 # Limits by environment: VX VY VZ (mm/s), AX AY AZ (mm/s²), VPATH_MM_S, APATH, MAX_OVERRIDE; the defaults are those of
 # examples/machines/linuxcnc-mill.toml.
-# LinuxCNC runs headless in namespaces of its own, as an unprivileged user; needs root. Exit status 77: cannot run here.
+# LinuxCNC runs headless in its own namespaces, as an unprivileged user; needs root. Exit status 77: cannot run here.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 command -v linuxcnc >/dev/null && command -v halsampler >/dev/null || { echo "linuxcnc is not installed" >&2; exit 77; }

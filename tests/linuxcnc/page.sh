@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # page.sh PROGRAM PAGE: does what docs/linuxcnc.md says, as its reader would: its `bash` blocks and test remarks as one script, in order, with PROGRAM
-# as steadyrest. LinuxCNC runs without a screen (DISPLAY = hold), in namespaces of its own, as an unprivileged user; needs root.
+# as steadyrest. LinuxCNC runs without a screen (DISPLAY = hold), in its own namespaces, as an unprivileged user; needs root.
 # Exit status 0: every command did; 77: LinuxCNC cannot run here.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)

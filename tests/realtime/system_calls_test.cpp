@@ -54,7 +54,7 @@ bool allow_pace_alone() {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// Runs in a process of its own, which the filter may kill.
+/// Runs in a separate process, which the filter may kill.
 [[noreturn]] void run_filtered(const std::string& machine_name, const std::string& folder,
                                bool forbidden_call) {
   constexpr std::uint64_t kCycles = 2000;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints what LinuxCNC has loaded: one JSON object a line, at each change and every second; {"error": …} ends it.
 
-Lengths in mm, angles in degrees. A process of its own: it imports LinuxCNC's modules (GPL-2.0+), which the layer never links.
+Lengths in mm, angles in degrees. It runs as a separate process: it imports LinuxCNC's modules (GPL-2.0+), which the layer never links.
 """
 import glob
 import json

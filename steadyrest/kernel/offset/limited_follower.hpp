@@ -8,7 +8,7 @@ namespace steadyrest::kernel::offset {
 /// It takes over the other's speed and closes the gap with what it can brake from. The other may
 /// stop at once: the place then overshoots by a twentieth of S at most, S being the largest place
 /// asked for in the last half second. Where the other needs no more than `a` and no speed above
-/// √(0.1·a·S), the two are the same.
+/// √(0.1·a·S), the place is the other's, or that of one step before.
 struct LimitedFollower {
   double asked = 0.0;  ///< where the other was last
   double at = 0.0;

@@ -119,7 +119,7 @@ Result<std::string> edited(std::string_view text, const std::string& file,
     auto more = edits_of(text, *axis, one);
     if (!more) {
       return refuse(file, static_cast<std::size_t>(axis->source().begin.line),
-                    fmt::format("the servo gain of axis {} is not on a line of its own", one.axis),
+                    fmt::format("the servo gain of axis {} is not on its own line", one.axis),
                     "write [[axis]] as a section with one key in a line");
     }
     edits.insert(edits.end(), more->begin(), more->end());

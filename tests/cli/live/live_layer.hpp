@@ -17,7 +17,7 @@
 namespace steadyrest::test {
 
 /// A layer that runs on the simulated machine in the background, with the usual socket in a
-/// temporary folder, and a machine file of its own that a test may change.
+/// temporary folder, and its own machine file, which a test may change.
 class LiveLayer {
  public:
   explicit LiveLayer(const std::string& mode = "observe", std::vector<std::string> more = {})

@@ -104,7 +104,7 @@ TEST(Reload, IsInTheRecordAndDecidedAgain) {
   }));
 }
 
-/// A layer with a terminal of its own; returns its process.
+/// A layer with its own terminal; returns its process.
 pid_t on_terminal(int master, const std::string& socket) {
   const std::string machine = project_file("examples/machines/vmc-840d.toml");
   const std::string program = project_file("examples/programs/rib-pocket.mpf");

@@ -63,7 +63,7 @@ TEST(ServoEdit, RefusesWhatItCannotEdit) {
                       "max_feed_mm_min = 12000, max_acceleration_mm_s2 = 2000}]\n" +
                           kRest,
                       {{"X", 40.0, 0.0, "", ""}}),
-              HasSubstr("m.toml:1: the servo gain of axis X is not on a line of its own"));
+              HasSubstr("m.toml:1: the servo gain of axis X is not on its own line"));
   EXPECT_THAT(refusal("axis", both()), HasSubstr("m.toml:1"));
 }
 
