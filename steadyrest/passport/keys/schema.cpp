@@ -98,7 +98,7 @@ std::span<const Key<Control>> control_keys() noexcept {
                    "Continuous mode: share of the acceleration left next to an unrounded corner, "
                    "and before a stop."},
       Key<Control>{"clips_programmed_feed", &Control::clips_programmed_feed, 0, 0,
-                   "An F beyond the speeds of axes and control counts as what they permit before "
+                   "An F beyond the speeds of the axes counts as what they permit before "
                    "the override multiplies it, as on LinuxCNC. Otherwise an override acts on such "
                    "a block only once the product is below them."},
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,

@@ -66,7 +66,6 @@ const PlaneLimits& PathStream::plane_of(const Point& normal) noexcept {
 }
 
 void PathStream::emit(Piece& out) {
-  pieces_.clip_feed(out);
   out.segment.position_mm = position_mm_;
   out.plan.exit_speed_limit_mm_s = out.segment.exit_speed_limit_mm_s;
   position_mm_ += out.segment.length_mm;
@@ -79,6 +78,7 @@ void PathStream::release(double exit_speed_limit_mm_s) {
     return;
   }
   places_[held_].segment.exit_speed_limit_mm_s = exit_speed_limit_mm_s;
+  pieces_.clip_feed(places_[held_]);
   emit(places_[held_]);
   held_ = kNone;
 }
@@ -217,6 +217,7 @@ void PathStream::put_in_corner(const CornerArc& corner, double goal_mm_s, Piece&
   }
   shorten(next, corner.taken_after_mm);
   next.segment.start_mm = corner.end_mm;
+  pieces_.clip_corner_feed(arc, held, next);
   release(std::min(held.plan.speed_limit_mm_s, arc.plan.speed_limit_mm_s));
   arc.segment.exit_speed_limit_mm_s =
       std::min(arc.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);

@@ -192,21 +192,31 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
 
 void PieceMaker::clip_feed(Piece& out) const {
   if (machine_.control.clips_programmed_feed && !out.plan.rapid && !out.plan.per_revolution) {
-    out.plan.feed_mm_s = std::min(out.plan.feed_mm_s, reachable_mm_s(out.segment));
+    out.plan.feed_mm_s = clipped_feed(out);
     out.segment.feed_mm_s = out.plan.feed_mm_s;
   }
 }
 
-/// What the speeds of axes and control permit of F, whatever the curvature.
-double PieceMaker::reachable_mm_s(const PathSegment& segment) const {
-  double speed = machine_.control.max_feed_mm_s;
-  if (segment.geometry == Geometry::line) {
-    return std::min(speed, limits_.line(line_direction(segment)).speed_mm_s);
+void PieceMaker::clip_corner_feed(Piece& arc, const Piece& before, const Piece& after) const {
+  if (machine_.control.clips_programmed_feed && !arc.plan.rapid && !arc.plan.per_revolution) {
+    arc.plan.feed_mm_s = std::max(clipped_feed(before), clipped_feed(after));
+    arc.segment.feed_mm_s = arc.plan.feed_mm_s;
+  }
+}
+
+/// What the speeds of the axes permit of F, whatever the curvature.
+double PieceMaker::clipped_feed(const Piece& piece) const {
+  double feed = piece.plan.feed_mm_s;
+  if (!machine_.control.clips_programmed_feed || piece.plan.rapid || piece.plan.per_revolution) {
+    return feed;
+  }
+  if (piece.segment.geometry == Geometry::line) {
+    return std::min(feed, limits_.line(line_direction(piece.segment)).speed_mm_s);
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine_.axes.size()); ++i) {
-    speed = std::min(speed, machine_.axes[i].max_speed_au_s);
+    feed = std::min(feed, machine_.axes[i].max_speed_au_s);
   }
-  return speed;
+  return feed;
 }
 
 void PieceMaker::limit(Piece& out) const {

@@ -49,13 +49,15 @@ class PieceMaker {
   void limit(Piece& out) const;
   /// The same with given limits.
   void limit(Piece& out, const SpeedLimits& limits) const;
-  /// The control's law for an F that the axes cannot reach (Control::clips_programmed_feed). Of a
-  /// finished piece: pieces of one F merge.
+  /// The control's law for an F that the axes cannot reach (Control::clips_programmed_feed); its
+  /// own limit along the path does not count. Of a finished piece: pieces of one F merge.
   void clip_feed(Piece& out) const;
+  /// An arc between two pieces has the larger of their feeds (LinuxCNC 2.9, measured).
+  void clip_corner_feed(Piece& arc, const Piece& before, const Piece& after) const;
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 
  private:
-  [[nodiscard]] double reachable_mm_s(const kernel::signal::PathSegment& segment) const;
+  [[nodiscard]] double clipped_feed(const Piece& piece) const;
   [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Move& move,
                                                             const interpret::Axes& work) const;
   [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,

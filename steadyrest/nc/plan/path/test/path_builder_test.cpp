@@ -44,6 +44,32 @@ TEST(PathBuilder, ArcsOfEveryDirectionEndWhereProgrammed) {
   }
 }
 
+// LinuxCNC 2.9 with axes of 200 mm/s and 250 mm/s along the path, F far beyond both: its
+// requested-vel is 200 mm/s along X, 229.6 mm/s at 60.6° in a plane, 282.8 mm/s on a diagonal, and
+// on the arc between two lines the larger of theirs.
+TEST(PathBuilder, AnFBeyondTheAxesIsClippedAsLinuxCncClipsIt) {
+  auto machine = mill();
+  machine.control.clips_programmed_feed = true;
+  machine.control.max_feed_mm_s = 250.0;
+  for (auto& axis : machine.axes) {
+    axis.max_speed_au_s = 200.0;
+  }
+  Program p;
+  p.mode = interpret::PathMode::continuous;
+  p.tolerance_mm = 0.1;
+  p.line(50, 0, 5000);
+  p.line(100, 50, 5000);
+  p.line(100, 100, 150);
+  const auto path = plan_of(machine, p);
+  ASSERT_EQ(path.segments.size(), 5U);
+  const double expected[] = {200.0, 282.843, 282.843, 282.843, 150.0};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(path.plans[i].feed_mm_s, expected[i], 0.001) << i;
+    EXPECT_EQ(path.segments[i].feed_mm_s, path.plans[i].feed_mm_s) << i;
+    EXPECT_LE(path.plans[i].speed_limit_mm_s, 250.0) << i;
+  }
+}
+
 TEST(PathBuilder, ASpiralEndsAtItsOtherRadius) {
   Program p;
   p.at = {10, 0, 0};
