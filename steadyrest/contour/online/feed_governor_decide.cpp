@@ -280,7 +280,8 @@ void FeedGovernor::choose_offsets(Outset& outset) noexcept {
   }
   const auto error = [&](bool follows) {
     outset.follows = follows;
-    return forecast_.mean_square_mm2(ahead_, outset, state_.in_force_ratio, kOffsetSight_s);
+    const double ratio = std::min(state_.in_force_ratio, outset.panel_ratio);
+    return forecast_.mean_square_mm2(ahead_, outset, ratio, kOffsetSight_s);
   };
   const double followed = error(true);
   const double none = error(false);
