@@ -26,6 +26,7 @@ ControlState::Tool tool_of(const Json& json) {
 
 ControlState state_of(const Json& json) {
   ControlState state;
+  json.at("version").get_to(state.version);
   json.at("ini").get_to(state.ini);
   json.at("program").get_to(state.program);
   json.at("text_is_file").get_to(state.text_is_file);

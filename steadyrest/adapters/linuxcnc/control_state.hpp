@@ -23,6 +23,7 @@ struct ControlState {
     double back_deg = 0.0;
     int orientation = 0;
   };
+  std::string version;       ///< of LinuxCNC
   std::string ini;           ///< that LinuxCNC was started with
   std::string program;       ///< absolute path; empty: none
   bool text_is_file = true;  ///< what it has opened of it is what the file holds now

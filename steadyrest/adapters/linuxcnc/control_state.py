@@ -122,6 +122,7 @@ def state(status, lengths, ini_files, home, text):
     # What the program itself sets shows here too while it runs; the layer takes what held at its start.
     program = os.path.normpath(os.path.join(home, status.file)) if status.file else ""
     return {
+        "version": linuxcnc.version,
         "ini": os.path.abspath(status.ini_filename),
         "program": program,
         "text_is_file": text.is_file(program, stopped) if program else True,

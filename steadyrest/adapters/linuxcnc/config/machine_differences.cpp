@@ -51,8 +51,8 @@ class Comparison {
   }
 
  private:
-  void fatal(std::string what, std::string to_do) {
-    out_.push_back({.fatal = true, .what = std::move(what), .to_do = std::move(to_do)});
+  void differs(std::string what, std::string to_do) {
+    out_.push_back({.what = std::move(what), .to_do = std::move(to_do)});
   }
 
   void axes() {
@@ -64,9 +64,9 @@ class Comparison {
           .name = std::string(1, axis.letter), .rotary = axis.rotary, .present = axis.present()};
     });
     if (ours != theirs) {
-      fatal(fmt::format("the machine file has the axes {}, LinuxCNC has {} ({})", ours, theirs,
-                        ini_.path()),
-            "name the machine file of this configuration");
+      differs(fmt::format("the machine file has the axes {}, LinuxCNC has {} ({})", ours, theirs,
+                          ini_.path()),
+              "name the machine file of this configuration");
     }
   }
 
@@ -74,9 +74,9 @@ class Comparison {
     const double ours_ms = 1e3 * machine_.control.servo_period_s;
     const double theirs_ms = configuration_.servo_period_ms;
     if (std::abs(ours_ms - theirs_ms) > kSame * theirs_ms) {
-      fatal(fmt::format("servo_period_ms is {:g}, LinuxCNC's servo period {:g} ms ({})", ours_ms,
-                        theirs_ms, ini_.path()),
-            fmt::format("set servo_period_ms = {:g}", theirs_ms));
+      differs(fmt::format("servo_period_ms is {:g}, LinuxCNC's servo period {:g} ms ({})", ours_ms,
+                          theirs_ms, ini_.path()),
+              fmt::format("set servo_period_ms = {:g}", theirs_ms));
     }
   }
 
@@ -92,8 +92,7 @@ class Comparison {
       if (const auto limits = limits_of(ini_, configuration_, theirs); limits) {
         limits_of_axis(machine_.axes[i], *limits);
       } else {
-        out_.push_back({.what = kernel::outcome::text(limits.error()),
-                        .to_do = "the axis's limits were not compared"});
+        differs(limits.error().what, limits.error().to_do);
       }
       ++i;
     }
@@ -116,23 +115,22 @@ class Comparison {
   void beyond(const Axis& axis, const char* what, double ours, const Figure& theirs,
               const std::string& unit) {
     if (ours > theirs.value * (1.0 + kSame)) {
-      differs(axis, what, ours, theirs, unit);
+      is_beyond(axis, what, ours, theirs, unit);
     }
   }
 
   void end(const Axis& axis, const char* which, double ours, const Figure& theirs, double sign,
            const char* unit) {
     if (sign * (ours - theirs.value) > kSame) {
-      differs(axis, fmt::format("{} end of travel", which), ours, theirs, unit);
+      is_beyond(axis, fmt::format("{} end of travel", which), ours, theirs, unit);
     }
   }
 
-  void differs(const Axis& axis, const std::string& what, double ours, const Figure& theirs,
-               const std::string& unit) {
-    out_.push_back({.what = fmt::format("axis {}: {} {:g} {} in the machine file is beyond the "
-                                        "control's {:g} ({})",
-                                        axis.name, what, ours, unit, theirs.value, theirs.from),
-                    .to_do = "forecasts are of another machine; take the control's figure"});
+  void is_beyond(const Axis& axis, const std::string& what, double ours, const Figure& theirs,
+                 const std::string& unit) {
+    differs(fmt::format("axis {}: {} {:g} {} in the machine file is beyond the control's {:g} ({})",
+                        axis.name, what, ours, unit, theirs.value, theirs.from),
+            "take the control's figure, or less");
   }
 
   const IniFile& ini_;

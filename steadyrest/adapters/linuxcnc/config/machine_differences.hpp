@@ -12,14 +12,13 @@ namespace steadyrest::adapters::linuxcnc::config {
 
 /// Something that the machine file says otherwise than the configuration.
 struct Difference {
-  bool fatal = false;  ///< the layer would take one signal for another
   std::string what;
   std::string to_do;
 };
 
-/// What of `machine` is not so in the configuration that the control runs. Fatal: which axes there
-/// are, in which order and kind, and the servo period. Else: speeds, accelerations and ends of
-/// travel beyond the control's.
+/// What of `machine` is not so in the configuration that the control runs: which axes there are, in
+/// which order and kind, and the servo period; then speeds, accelerations and ends of travel beyond
+/// the control's.
 [[nodiscard]] std::vector<Difference> differences(const IniFile& ini,
                                                   const Configuration& configuration,
                                                   const kernel::machine::Machine& machine);

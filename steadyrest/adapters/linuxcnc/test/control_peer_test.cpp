@@ -10,7 +10,7 @@ namespace steadyrest::adapters::linuxcnc {
 namespace {
 
 const std::string kLine =
-    R"({"ini":"/c/mill.ini","program":"/nc/part.ngc","text_is_file":false,"stopped":true,"position":[1,2,3,4,5,6,7,8,9],"work_offset":2,)"
+    R"({"version":"2.9.4","ini":"/c/mill.ini","program":"/nc/part.ngc","text_is_file":false,"stopped":true,"position":[1,2,3,4,5,6,7,8,9],"work_offset":2,)"
     R"("work_offset_mm":[10,20,30,0,0,0,0,0,0],"rotation_deg":5,"g92_mm":[0,0,0,0,0,0,0,0,0],)"
     R"("tool_offset_mm":[0,0,12.5,0,0,0,0,0,0],"tool":3,"tools":[{"number":3,"offset":)"
     R"([0,0,12.5,0,0,0,0,0,0],"diameter_mm":6,"front_deg":0,"back_deg":0,"orientation":0}],)"
@@ -20,6 +20,7 @@ const std::string kLine =
 TEST(ControlState, ReadsALineOfTheScript) {
   const auto state = control_state(kLine);
   ASSERT_TRUE(state.has_value()) << state.error().what;
+  EXPECT_EQ(state->version, "2.9.4");
   EXPECT_EQ(state->ini, "/c/mill.ini");
   EXPECT_EQ(state->program, "/nc/part.ngc");
   EXPECT_FALSE(state->text_is_file);

@@ -4,6 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <steadyrest/adapters/linuxcnc/config/machine_differences.hpp>
 #include <steadyrest/apps/cli/live/linuxcnc_control.hpp>
 #include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
@@ -17,6 +19,7 @@ using steadyrest::live::LoadedProgram;
 
 constexpr double kFirstState_s = 5.0;
 constexpr double kPoll_s = 0.1;
+constexpr std::string_view kVersion = "2.9";
 
 }  // namespace
 
@@ -90,6 +93,11 @@ std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
   if (!state) {
     return not_compared(state.error());
   }
+  if (!state->version.starts_with(kVersion)) {
+    return refused(bad_input(
+        fmt::format("LinuxCNC {} runs here; the layer is made for {}", state->version, kVersion),
+        "install LinuxCNC 2.9 (Debian: linuxcnc-uspace)"));
+  }
   const auto ini = config::IniFile::read(state->ini);
   if (!ini) {
     return not_compared(ini.error());
@@ -98,17 +106,12 @@ std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
   if (!configuration) {
     return not_compared(configuration.error());
   }
-  Refusals fatal;
+  Refusals different;
   for (config::Difference& found : config::differences(*ini, *configuration, machine)) {
-    if (found.fatal) {
-      fatal.push_back(bad_input(std::move(found.what), std::move(found.to_do)));
-    } else {
-      findings.push_back(
-          {passport::Severity::warning, kCheck, std::move(found.what), std::move(found.to_do)});
-    }
+    different.push_back(bad_input(std::move(found.what), std::move(found.to_do)));
   }
-  if (!fatal.empty()) {
-    return std::unexpected(std::move(fatal));
+  if (!different.empty()) {
+    return std::unexpected(std::move(different));
   }
   return findings;
 }

@@ -31,8 +31,9 @@ class ControlSource {
   std::shared_ptr<adapters::linuxcnc::ControlPeer> peer_;
 };
 
-/// What of the machine file is not so on the control. Refused: a machine file of another machine.
-/// A configuration that cannot be read is a finding, no reason not to start.
+/// Compares the machine file with the control. Refused: another version of LinuxCNC, a machine file
+/// of another machine, limits beyond the control's. A control whose status or configuration cannot
+/// be read is a finding, no reason not to start.
 [[nodiscard]] std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
     ControlSource& source, const kernel::machine::Machine& machine);
 
