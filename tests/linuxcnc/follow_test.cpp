@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `steadyrest run` says of the program that a real LinuxCNC has loaded, and of a machine file
 // that is not of this control.
-#include <cstdlib>
 #include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
+#include <tests/linuxcnc/live_mill.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 
@@ -20,22 +19,6 @@ using kernel::file::testing::text_of_file;
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr int kCannotRun = 77;
-
-int follow_on_linuxcnc(const OwnFolder& folder) {
-  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
-  const std::string sim = "port = \"sim\"";
-  text.replace(text.find(sim), sim.size(), "port = \"linuxcnc\"");
-  std::ofstream(folder.at("machine.toml")) << text;
-  std::ofstream(folder.at("unused.ngc")) << "G21\n";
-  const std::string command =
-      "DRIVE=follow.py PROBE='" STEADYREST_PROGRAM "' MACHINE='" + folder.at("machine.toml") +
-      "' HAL='lag.hal layer.hal' bash " STEADYREST_SOURCE_DIR "/tests/linuxcnc/measure.sh '" +
-      folder.at("unused.ngc") + "' '" + folder.at("log") + "'";
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 std::string words(const json& said, const char* step) {
   return said[step].value("words", json()).is_string() ? said[step]["words"].get<std::string>()
                                                        : std::string();
@@ -43,8 +26,11 @@ std::string words(const json& said, const char* step) {
 
 TEST(FollowOnLinuxCnc, SaysWhatIsKnownOfTheLoadedProgram) {
   const OwnFolder folder;
-  const int status = follow_on_linuxcnc(folder);
-  if (status == kCannotRun) {
+  linuxcnc_test::write_mill(folder.at("machine.toml"));
+  std::ofstream(folder.at("unused.ngc")) << "G21\n";
+  const int status =
+      linuxcnc_test::run_on_linuxcnc(folder, {.script = "follow.py", .program = "unused.ngc"});
+  if (status == linuxcnc_test::kCannotRun) {
     GTEST_SKIP() << "LinuxCNC cannot run here";
   }
   ASSERT_EQ(status, 0);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <tests/linuxcnc/live_mill.hpp>
 #include <tests/linuxcnc/servo_log.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
@@ -30,7 +30,6 @@ using kernel::file::testing::text_of_file;
 using linuxcnc_test::servo_log;
 using linuxcnc_test::ServoRow;
 
-constexpr int kCannotRun = 77;
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
 constexpr double kLongestReturn = 100.0;  ///< of the ratio, in servo cycles of 1 ms
 /// Of the speed: 20 until the watchdog sees it, 83 from 0 at the 800 mm/s² that LinuxCNC gives
@@ -154,24 +153,9 @@ double expect_whole(const std::string& file, const Life& life,
   return life.last_beat - last_cycle(file).value_or(life.first_beat - 1.0);
 }
 
-int run_on_linuxcnc(const OwnFolder& folder, unsigned long kills) {
-  const std::string command =
-      "DRIVE=kills.py DRIVE_ARGS='" + std::to_string(kills) + " " +
-      std::to_string(number_from("STEADYREST_SEED", 1)) +
-      "' PROBE='" STEADYREST_PROGRAM "' MACHINE='" + folder.at("machine.toml") +
-      "' HAL='lag.hal layer.hal layer_offsets.hal lag_log.hal' bash " STEADYREST_SOURCE_DIR
-      "/tests/linuxcnc/measure.sh '" +
-      folder.at("circles.ngc") + "' '" + folder.at("log") + "'";
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 /// The mill of the examples, on a running LinuxCNC; enough circles for all kills.
 void write_inputs(const OwnFolder& folder, unsigned long kills) {
-  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
-  const std::string sim = "port = \"sim\"";
-  text.replace(text.find(sim), sim.size(), "port = \"linuxcnc\"");
-  std::ofstream(folder.at("machine.toml")) << text;
+  linuxcnc_test::write_mill(folder.at("machine.toml"));
   std::ofstream(folder.at("circles.ngc"))
       << "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0 P"
       << 200 + 10 * kills << '\n';
@@ -243,8 +227,13 @@ TEST(Kills, EachLeavesTheFeedToThePanelAndTheNextLayerTakesOver) {
   const OwnFolder folder;
   const unsigned long kills = number_from("STEADYREST_KILLS", 6);
   write_inputs(folder, kills);
-  const int status = run_on_linuxcnc(folder, kills);
-  if (status == kCannotRun) {
+  const int status = linuxcnc_test::run_on_linuxcnc(
+      folder, {.script = "kills.py",
+               .program = "circles.ngc",
+               .hal = "lag.hal layer.hal layer_offsets.hal lag_log.hal",
+               .arguments = std::to_string(kills) + " " +
+                            std::to_string(number_from("STEADYREST_SEED", 1))});
+  if (status == linuxcnc_test::kCannotRun) {
     GTEST_SKIP() << "LinuxCNC cannot run here";
   }
   ASSERT_EQ(status, 0);

@@ -3,16 +3,14 @@
 // position loop with 20 1/s. Time is the servo thread's own count; no other clock judges anything.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
+#include <tests/linuxcnc/live_mill.hpp>
 #include <tests/linuxcnc/servo_log.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
@@ -28,26 +26,7 @@ using linuxcnc_test::servo_log;
 using linuxcnc_test::ServoRow;
 using nlohmann::json;
 
-constexpr int kCannotRun = 77;
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
-
-/// The mill of the examples, on a running LinuxCNC.
-void write_machine(const std::string& file) {
-  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
-  const std::string sim = "port = \"sim\"";
-  text.replace(text.find(sim), sim.size(), "port = \"linuxcnc\"");
-  std::ofstream(file) << text;
-}
-
-int run_on_linuxcnc(const OwnFolder& folder) {
-  const std::string command = "DRIVE=layer.py PROBE='" STEADYREST_PROGRAM "' MACHINE='" +
-                              folder.at("machine.toml") +
-                              "' HAL='lag.hal layer.hal lag_log.hal' bash " STEADYREST_SOURCE_DIR
-                              "/tests/linuxcnc/measure.sh '" +
-                              folder.at("circles.ngc") + "' '" + folder.at("log") + "'";
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 void expect_slowed_and_handed_back(const std::vector<ServoRow>& log) {
   ASSERT_GT(log.size(), 6000U);
@@ -79,12 +58,14 @@ void expect_replays(const std::string& file, const kernel::machine::Machine& mac
 // v²/(2·R·k²) with k = 20 1/s: 10 µm ask for 8.9 mm/s on this circle, 13 % of its feed.
 TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
   const OwnFolder folder;
-  write_machine(folder.at("machine.toml"));
+  linuxcnc_test::write_mill(folder.at("machine.toml"));
   std::ofstream(folder.at("circles.ngc"))
       << "G21 G90 G94 G17 G61\nM52 P1 S6000 M3\nG0 X10 Y-30 Z0\nG1 Y0 F4000\n"
          "G3 X10 Y0 I-10 J0 P80\n";
-  const int status = run_on_linuxcnc(folder);
-  if (status == kCannotRun) {
+  const int status = linuxcnc_test::run_on_linuxcnc(
+      folder,
+      {.script = "layer.py", .program = "circles.ngc", .hal = "lag.hal layer.hal lag_log.hal"});
+  if (status == linuxcnc_test::kCannotRun) {
     GTEST_SKIP() << "LinuxCNC cannot run here";
   }
   ASSERT_EQ(status, 0);

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
+#include <tests/linuxcnc/live_mill.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/record/record_reader.hpp>
@@ -24,7 +24,6 @@ using kernel::file::testing::OwnFolder;
 using kernel::file::testing::text_of_file;
 using nlohmann::json;
 
-constexpr int kCannotRun = 77;
 constexpr double kRadius_mm = 10.0;
 constexpr double kPeriod_s = 0.001;
 constexpr double kMostLate_s = 0.004;
@@ -35,24 +34,14 @@ const std::string kCircle =
     "G21 G90 G94 G17 G61\nM52 P1\nG0 X10 Y-20 Z0\nG4 P0.5\nG1 Y0 F4000\nG3 X10 Y0 I-10 J0\n"
     "G1 Y20\nM2\n";
 
-int status_of(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 /// The mill of the examples with other lines.
 void write_machine(const std::string& file, const std::string& port, const std::string& envelope,
                    const std::string& limit_um) {
-  std::string text = text_of_file(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml");
-  const auto put = [&](const std::string& old, const std::string& now) {
-    text.replace(text.find(old), old.size(), now);
-  };
-  put("port = \"sim\"", "port = \"" + port + "\"");
-  put("[envelope]\n", "[envelope]\n" + envelope);
   // From the frame to the motion it takes a cycle more than on the simulated machine.
-  put("dead_time_ms = 0\n", "dead_time_ms = 1\n");
-  put("\nlimit_um = 10\n", "\nlimit_um = " + limit_um + "\n");
-  std::ofstream(file) << text;
+  linuxcnc_test::write_mill(file, {{"port = \"sim\"", "port = \"" + port + "\""},
+                                   {"[envelope]\n", "[envelope]\n" + envelope},
+                                   {"dead_time_ms = 0\n", "dead_time_ms = 1\n"},
+                                   {"\nlimit_um = 10\n", "\nlimit_um = " + limit_um + "\n"}});
 }
 
 /// A cut by what its record has.
@@ -102,11 +91,9 @@ std::optional<Cut> cut_once(const OwnFolder& folder, const std::string& hal) {
       std::filesystem::remove(entry.path());
     }
   }
-  const int status = status_of("DRIVE=cut_once.py PROBE='" STEADYREST_PROGRAM "' MACHINE='" +
-                               folder.at("machine.toml") + "' HAL='" + hal +
-                               "' bash " STEADYREST_SOURCE_DIR "/tests/linuxcnc/measure.sh '" +
-                               folder.at("circle.ngc") + "' '" + folder.at("log") + "'");
-  if (status == kCannotRun) {
+  const int status = linuxcnc_test::run_on_linuxcnc(
+      folder, {.script = "cut_once.py", .program = "circle.ngc", .hal = hal});
+  if (status == linuxcnc_test::kCannotRun) {
     return std::nullopt;
   }
   EXPECT_EQ(status, 0) << text_of_file(folder.at("run.said"));
@@ -140,8 +127,9 @@ TEST(TwinOfLinuxCnc, ForecastsTheGovernedCircle) {
     GTEST_SKIP() << "LinuxCNC cannot run here, or the computer is too busy for the layer";
   }
   write_machine(folder.at("sim.toml"), "sim", "", "10");
-  ASSERT_EQ(status_of("'" STEADYREST_PROGRAM "' cut '" + folder.at("circle.ngc") + "' --machine '" +
-                      folder.at("sim.toml") + "' --json > '" + folder.at("cut.json") + "'"),
+  ASSERT_EQ(linuxcnc_test::status_of("'" STEADYREST_PROGRAM "' cut '" + folder.at("circle.ngc") +
+                                     "' --machine '" + folder.at("sim.toml") + "' --json > '" +
+                                     folder.at("cut.json") + "'"),
             0);
   const json forecast = json::parse(text_of_file(folder.at("cut.json")))["with"];
   EXPECT_NEAR(real->seconds, forecast["cycle_time_s"].get<double>(),
