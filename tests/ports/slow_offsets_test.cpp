@@ -107,21 +107,40 @@ Cut cut(const std::string& text, bool with_offsets) {
 
 const std::string kHead = "G21 G90 G94 G17\nM52 P1\nG0 X0 Y0 Z0\n";
 
+struct Part {
+  const char* name;
+  const char* piece;  ///< relative moves, cut over and over
+  int times;
+  double share;  ///< of the error without offsets that must not be passed
+};
+
+class PartWithCorners : public testing::TestWithParam<Part> {};
+
 // Half a millimetre takes 71 ms; the error of a corner lasts 1/k = 50 ms.
-TEST(SlowOffsets, MakeAPartWithSharpCornersNoWorse) {
-  for (const std::string mode : {"G61", "G64 P0.05"}) {
-    std::string text = kHead + mode + "\n";
-    for (int i = 0; i < 12; ++i) {
-      text += "G1 X8 F1800\nY3\nX0\nY0\nX8 Y3\nX0 Y6\nX0 Y0\n";
+TEST_P(PartWithCorners, IsNoWorseWithSlowOffsets) {
+  for (const std::string mode : {"G61", "G64 P0.005", "G64 P0.05"}) {
+    for (const int feed : {1800, 2500}) {
+      std::string text = kHead + mode + "\nG91\nF" + std::to_string(feed) + "\n";
+      for (int i = 0; i < GetParam().times; ++i) {
+        text += GetParam().piece;
+      }
+      const Cut without = cut(text + "M2\n", false);
+      const Cut with = cut(text + "M2\n", true);
+      EXPECT_GT(without.rms_mm, 0.01) << mode << feed;
+      EXPECT_LT(with.rms_mm, GetParam().share * without.rms_mm) << mode << ' ' << feed;
+      EXPECT_LT(with.largest_mm, 1.25 * without.largest_mm) << mode << ' ' << feed;
+      EXPECT_NEAR(with.duration_s, without.duration_s, 0.01 * without.duration_s) << "full feed";
     }
-    const Cut without = cut(text + "M2\n", false);
-    const Cut with = cut(text + "M2\n", true);
-    EXPECT_GT(without.rms_mm, 0.02) << mode;
-    EXPECT_LT(with.rms_mm, 0.95 * without.rms_mm) << mode;
-    EXPECT_LT(with.largest_mm, 1.02 * without.largest_mm) << mode;
-    EXPECT_NEAR(with.duration_s, without.duration_s, 0.01 * without.duration_s) << "full feed";
   }
 }
+INSTANTIATE_TEST_SUITE_P(
+    SlowOffsets, PartWithCorners,
+    testing::Values(Part{"pocket", "G1 X8\nY3\nX-8\nY-3\nX8 Y3\nX-8 Y3\nY-6\n", 12, 0.98},
+                    Part{"stairs", "G1 X.4\nY.4\nX.8\nY.4\n", 40, 1.02},
+                    Part{"small_arcs", "G2 X1.2 R0.6\nG3 X1.2 R0.6\n", 30, 1.02},
+                    Part{"saw", "G1 X.45 Y2\nX.45 Y-2\n", 30, 1.02},
+                    Part{"teeth", "G1 X.05\nX.05\nX.05 Y.3\nX.05 Y-.3\n", 60, 1.02}),
+    [](const auto& part) { return std::string(part.param.name); });
 
 TEST(SlowOffsets, StillCancelTheErrorOfACircle) {
   const std::string text = kHead + "G61\nG1 X10 Y-30 F4000\nY0\nG3 X10 Y0 I-10 J0 P6\nM2\n";

@@ -105,12 +105,15 @@ Result<kernel::signal::Frame> LinuxCncPort::read() noexcept {
   std::size_t waiting = hal_.waiting(0);
   if (waiting > config_.most_waiting) {
     // Only what waits now: LinuxCNC goes on writing.
+    remember_offsets();
     for (; waiting > 0 && queue_.next(hal_, sample_) == Got::sample; --waiting) {
+      remember_offsets();
       ++skipped_;
     }
     waiting = hal_.waiting(0);
+  } else {
+    remember_offsets();
   }
-  remember_offsets();
   kernel::signal::Frame frame = frame_of(sample_, config_.units);
   const Inputs inputs = hal_.read_inputs();
   frame.temperature_c = inputs.temperature_c;
@@ -126,8 +129,14 @@ Result<kernel::signal::Frame> LinuxCncPort::read() noexcept {
 /// 2.9.0~pre1): the frame has the one that its positions contain.
 void LinuxCncPort::remember_offsets() noexcept {
   kernel::signal::AxisValues shown{};
+  // After lost cycles the last one shown is all that is known.
+  const bool follows = sample_.tick == offsets_tick_ + 1;
+  offsets_tick_ = sample_.tick;
   for (std::size_t a = 0; a < shown.size(); ++a) {
     shown[a] = sample_.axis[a].offset;
+    if (!follows) {
+      offsets_[0][a] = offsets_[1][a] = shown[a];
+    }
     sample_.axis[a].offset = offsets_[1][a];
   }
   offsets_[1] = offsets_[0];

@@ -72,6 +72,7 @@ class LinuxCncPort final : public kernel::port::Port {
   Sample sample_;
   /// Offsets in force as the last samples showed them, newest first.
   std::array<kernel::signal::AxisValues, 2> offsets_{};
+  std::uint64_t offsets_tick_ = 0;
   kernel::signal::AxisValues heat_offset_;  ///< that the HAL has
   OffsetCourse course_;
   double slowest_offset_mm_s2_;

@@ -275,17 +275,21 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
 /// does, over what a decision sees with the present step. Both are forecast from where the offsets
 /// are.
 void FeedGovernor::choose_offsets(Outset& outset) noexcept {
-  if (precompensator_.acceleration_mm_s2() <= 0.0 || !outset.tool) {
+  Outset tried = outset;
+  tried.tool = precompensator_.tool();
+  if (precompensator_.acceleration_mm_s2() <= 0.0 || !state_.offsets_act || !tried.tool) {
     return;
   }
+  const double ratio = std::min(state_.in_force_ratio, outset.panel_ratio);
   const auto error = [&](bool follows) {
-    outset.follows = follows;
-    const double ratio = std::min(state_.in_force_ratio, outset.panel_ratio);
-    return forecast_.mean_square_mm2(ahead_, outset, ratio, kOffsetSight_s);
+    tried.follows = follows;
+    return forecast_.squares(ahead_, tried, ratio, kOffsetSight_s);
   };
-  const double followed = error(true);
-  const double none = error(false);
-  state_.offsets_follow = followed <= (state_.offsets_follow ? 1.0 : kFollowAgain) * none;
+  const Forecast::Squares followed = error(true);
+  const Forecast::Squares none = error(false);
+  const double share = state_.offsets_follow ? 1.0 : kFollowAgain;
+  state_.offsets_follow = followed.mean_mm2 <= share * none.mean_mm2 &&
+                          followed.largest_mm2 <= share * none.largest_mm2;
   outset.follows = state_.offsets_follow;
 }
 

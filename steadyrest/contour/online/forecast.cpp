@@ -14,7 +14,7 @@ namespace {
 
 using kernel::signal::Point;
 
-constexpr std::size_t kEvery = 3;         ///< steps, of a mean over many
+constexpr std::size_t kEvery = 2;         ///< steps, of a mean over many
 constexpr std::size_t kAround = 12;       ///< cells either way
 constexpr double kRatioTolerance = 1e-9;  // as the kernel's table has it
 
@@ -84,11 +84,11 @@ double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
                         : std::max(plan.floor, plan.target - timing_.fall_1_s * falling);
 }
 
-double Forecast::mean_square_mm2(const LookAhead& path, const Outset& outset, double ratio,
-                                 double time_s) const noexcept {
+Forecast::Squares Forecast::squares(const LookAhead& path, const Outset& outset, double ratio,
+                                    double time_s) const noexcept {
   Walk walk(*this, path, outset);
   const auto count = static_cast<std::size_t>(time_s / timing_.step_s);
-  double sum = 0.0;
+  Squares out;
   std::size_t cut = 0;
   for (std::size_t n = 1; n <= count && walk.tool; ++n) {
     const double from_mm = walk.s;
@@ -97,11 +97,14 @@ double Forecast::mean_square_mm2(const LookAhead& path, const Outset& outset, do
     }
     const Point table = walk.follow(from_mm);
     if (path.cell(walk.tool->cell).cutting && n % kEvery == 0) {
-      sum += nearest_square(path, walk.tool->cell, table);
+      const double square = nearest_square(path, walk.tool->cell, table);
+      out.mean_mm2 += square;
+      out.largest_mm2 = std::max(out.largest_mm2, square);
       ++cut;
     }
   }
-  return cut > 0 ? sum / static_cast<double>(cut) : 0.0;
+  out.mean_mm2 /= static_cast<double>(std::max<std::size_t>(1, cut));
+  return out;
 }
 
 Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, const RatioPlan& plan,

@@ -117,10 +117,14 @@ class Forecast {
                            double limit_mm, bool stop_early, const Trace* trace,
                            Trace* record) const noexcept;
 
-  /// Mean square of the contour error in the cut, with the ratio held for so long. The foot is the
+  /// Squares of the contour error in the cut, with the ratio held for so long. The foot is the
   /// nearest place around the tool point (Outset::tool), which run() need not have.
-  [[nodiscard]] double mean_square_mm2(const LookAhead& path, const Outset& outset, double ratio,
-                                       double time_s) const noexcept;
+  struct Squares {
+    double mean_mm2 = 0.0;
+    double largest_mm2 = 0.0;
+  };
+  [[nodiscard]] Squares squares(const LookAhead& path, const Outset& outset, double ratio,
+                                double time_s) const noexcept;
 
   [[nodiscard]] double floor_ratio(double ratio) const noexcept;
   [[nodiscard]] const AxisStep& axis_step(std::size_t i) const noexcept { return step_[i]; }

@@ -68,6 +68,10 @@ std::optional<ToolPoint::State> Precompensator::in_full() const noexcept {
   return is_full ? std::optional(state_.tool) : std::nullopt;
 }
 
+std::optional<ToolPoint::State> Precompensator::tool() const noexcept {
+  return enabled() && state_.started ? std::optional(state_.tool) : std::nullopt;
+}
+
 OffsetRequest Precompensator::update(const Input& input) noexcept {
   const auto offset = state_.offset;
   const OffsetRequest request = ask(input);

@@ -69,6 +69,8 @@ class Precompensator {
   [[nodiscard]] bool enabled() const noexcept { return config_.max_offset_mm > 0.0; }
   /// Of the last update: where the tool point is, once the offsets have their full size.
   [[nodiscard]] std::optional<ToolPoint::State> in_full() const noexcept;
+  /// The same, whatever their size yet.
+  [[nodiscard]] std::optional<ToolPoint::State> tool() const noexcept;
   [[nodiscard]] const ToolPoint& point() const noexcept { return point_; }
   [[nodiscard]] double max_offset_mm() const noexcept { return config_.max_offset_mm; }
   /// The path must be kept from here on.

@@ -245,6 +245,32 @@ TEST(LinuxCncPort, ShowsWhatTheHalHasOfSensorsAndProbe) {
   EXPECT_EQ(frame->vibration_rate_hz, 10000.0);
 }
 
+// A pause of 150 cycles: those that waited are passed over, but their offsets count.
+TEST(LinuxCncPort, KnowsTheOffsetInThePositionAfterAPause) {
+  for (const bool sampler_full : {false, true}) {
+    FakeHal hal;
+    hal.with_offsets = true;
+    const auto port = port_on(hal);
+    const auto push = [&](std::uint64_t tick) {
+      Sample sample = cutting(tick);
+      sample.axis[2].offset = 0.001 * static_cast<double>(tick);
+      hal.push(sample);
+    };
+    for (std::uint64_t tick = 1; tick <= 5; ++tick) {
+      push(tick);
+      ASSERT_TRUE(port->read().has_value());
+    }
+    const std::uint64_t from = sampler_full ? 156 : 6;
+    for (std::uint64_t tick = from; tick <= 180; ++tick) {
+      push(tick);
+    }
+    for (auto frame = port->read(); frame && frame->cycle < 180; frame = port->read()) {
+      const double shown = 0.001 * static_cast<double>(frame->cycle);
+      EXPECT_NEAR(frame->axis[2].offset_mm, shown, 0.0021) << frame->cycle;
+    }
+  }
+}
+
 // The joint's command contains the offset that was shown two servo cycles before.
 TEST(LinuxCncPort, ShowsTheOffsetThatThePositionsContain) {
   FakeHal hal;

@@ -207,6 +207,30 @@ TEST(ServoModel, AMissingSampleEndsTheWindowAndALateOneDoesNot) {
   EXPECT_GT(rows(0.0018), 0U);
 }
 
+// The layer was stopped for 150 ms on a circle, at any place of a window.
+TEST(ServoModel, APauseTeachesNothingWhereverItBegins) {
+  for (int place = 0; place < 90; ++place) {
+    ServoModel model = model_with({20.0, 0.0, 0.0});
+    TrueAxis axis({20.0, 0.0, 0.0}, 0.0001);
+    const auto circle = [](double t) { return 20.0 * std::sin(3.33 * t); };
+    const double until = 0.5 + 0.001 * place;
+    run(model, axis, until, 0.001, circle);
+    (void)axis.step(until, until + 0.149, circle);
+    run(model, axis, 0.4, 0.001, circle, until + 0.149);
+    EXPECT_NEAR(model.axis(0).gain_1_s, 20.0, 0.1) << place;
+  }
+}
+
+// 1 ms, then 4 ms for good.
+TEST(ServoModel, LearnsOnWithASlowerClock) {
+  ServoModel model = model_with({50.0, 0.0, 0.0});
+  TrueAxis axis({42.0, 0.0, 0.0}, 0.0005);
+  const auto ramp = [](double t) { return 30.0 * t; };
+  run(model, axis, 0.01, 0.001, ramp);
+  run(model, axis, 0.8, 0.004, ramp, 0.01);
+  EXPECT_NEAR(model.axis(0).gain_1_s, 42.0, 0.42);
+}
+
 TEST(ServoModel, RefusesAGainOutsideOfItsRange) {
   ServoModel::Config config;
   config.prior[1].gain_1_s = 0.0;
