@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kWait_s = 0.2;
-/// A start from elsewhere changes the first blocks of most programs; a long one is not read again
-/// for that.
-constexpr double kLongPlan_s = 1.0;
+/// A start from elsewhere changes the first blocks of most programs. Reading a program again for
+/// that may end just after it has begun.
+constexpr double kShortPlan_s = 0.02;
 
 }  // namespace
 
@@ -47,12 +47,20 @@ void ProgramWatch::withdraw(const std::string& file, std::string words) {
   say({.file = file, .segments = 0, .words = std::move(words)});
 }
 
-ProgramWatch::Stamp ProgramWatch::stamp_of(const std::string& file) {
-  std::error_code fault;
-  Stamp stamp;
-  stamp.time = fs::last_write_time(file, fault);
-  stamp.size = fs::file_size(file, fault);
-  return fault ? Stamp{} : stamp;
+ProgramWatch::Stamps ProgramWatch::stamps_of(const std::string& file) const {
+  Stamps stamps;
+  const auto add = [&stamps](const std::string& name) {
+    std::error_code fault;
+    Stamp stamp;
+    stamp.time = fs::last_write_time(name, fault);
+    stamp.size = fs::file_size(name, fault);
+    stamps.push_back(fault ? Stamp{} : stamp);
+  };
+  add(file);
+  for (const std::string& name : subprograms_) {
+    add(name);
+  }
+  return stamps;
 }
 
 void ProgramWatch::watch() {
@@ -90,34 +98,42 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
                               "known; open another program, then this one again");
     return;
   }
-  const Stamp stamp = stamp_of(loaded.file);
   const bool same_file = stamp_ && loaded.file == planned_.file;
+  const bool same_text = same_file && stamps_of(loaded.file) == *stamp_;
+  // What depends on where the axes stand is marked in the route: see PathLocator.
+  LoadedProgram as_planned = planned_;
+  as_planned.stopped = loaded.stopped;
+  if (!loaded.stopped || (!relative_ && plan_s_ > kShortPlan_s)) {
+    as_planned.start.start = loaded.start.start;
+  }
+  const bool same_start = same_file && loaded == as_planned;
   if (same_file && !loaded.stopped) {
-    if (stamp != *stamp_ && !withdrawn_) {
+    if (!withdrawn_ && !(same_text && same_start)) {
       withdrawn_ = true;
       withdraw(loaded.file,
-               loaded.file + " has changed while it runs; the control may run either text");
+               same_text
+                   ? "offsets, tools or modes have changed since the program was read; begin it "
+                     "again"
+                   : loaded.file + " has changed while it runs; the control may run either text");
     }
     return;
   }
-  LoadedProgram as_planned = planned_;
-  if (plan_s_ > kLongPlan_s && !relative_) {
-    as_planned.start.start = loaded.start.start;
-  }
-  as_planned.stopped = loaded.stopped;
-  if (same_file && !withdrawn_ && stamp == *stamp_ && loaded == as_planned) {
+  if (!withdrawn_ && same_text && same_start) {
     return;
   }
-  plan(loaded, stamp);
-}
-
-void ProgramWatch::plan(const LoadedProgram& loaded, const Stamp& stamp) {
-  if (!stamp_ || loaded.file != planned_.file || stamp != *stamp_) {
+  // Only where the axes stand is another: the present route says so itself.
+  as_planned.start.start = loaded.start.start;
+  if (withdrawn_ || !same_text || loaded != as_planned) {
     withdraw(loaded.file, "the program is being read");
   }
+  plan(loaded);
+}
+
+void ProgramWatch::plan(const LoadedProgram& loaded) {
   planned_ = loaded;
-  stamp_ = stamp;
   withdrawn_ = false;
+  subprograms_.clear();
+  stamp_ = stamps_of(loaded.file);
   const auto begin = std::chrono::steady_clock::now();
   auto path = nc::plan::plan_file_from_start(loaded.file, loaded.start, machine_);
   plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -125,6 +141,10 @@ void ProgramWatch::plan(const LoadedProgram& loaded, const Stamp& stamp) {
     withdraw(loaded.file, kernel::outcome::text(path.error()));
     return;
   }
+  subprograms_ = std::move(path->subprograms);
+  const Stamp main = stamp_->front();
+  stamp_ = stamps_of(loaded.file);
+  stamp_->front() = main;  // as it was before it was read
   std::vector<bool> from_start;
   from_start.reserve(path->plans.size());
   for (const nc::plan::SegmentPlan& plan : path->plans) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -50,17 +51,18 @@ class ProgramWatch {
   [[nodiscard]] Status status() const;
 
  private:
-  /// Tells two texts of a file apart.
+  /// Tells two texts of a file, and of the subprograms that it calls, apart.
   struct Stamp {
     std::filesystem::file_time_type time;
     std::uintmax_t size = 0;
     friend bool operator==(const Stamp&, const Stamp&) = default;
   };
-  [[nodiscard]] static Stamp stamp_of(const std::string& file);
+  using Stamps = std::vector<Stamp>;
+  [[nodiscard]] Stamps stamps_of(const std::string& file) const;
 
   void watch();
   void look(const LoadedProgram& loaded);
-  void plan(const LoadedProgram& loaded, const Stamp& stamp);
+  void plan(const LoadedProgram& loaded);
   void withdraw(const std::string& file, std::string words);
   void say(Status status);
 
@@ -69,10 +71,11 @@ class ProgramWatch {
   Source source_;
   // Of the thread.
   LoadedProgram planned_;
-  std::optional<Stamp> stamp_;  ///< of the text that was planned, or refused
-  double plan_s_ = 0.0;         ///< that took so long
-  bool relative_ = false;       ///< its end follows from where it starts
-  bool withdrawn_ = false;      ///< its text has changed
+  std::optional<Stamps> stamp_;           ///< of the texts that were planned, or refused
+  std::vector<std::string> subprograms_;  ///< of the program that was planned
+  double plan_s_ = 0.0;                   ///< that took so long
+  bool relative_ = false;                 ///< its end follows from where it starts
+  bool withdrawn_ = false;                ///< its text has changed
   mutable std::mutex mutex_;
   Status status_;
   std::atomic<bool> ends_{false};

@@ -90,6 +90,10 @@ def main():
     command.auto(linuxcnc.AUTO_RUN, 0)
     said["run"] = layer.until(lambda seen: seen.get("place") == "on_path")
     stopped()
+    command.auto(linuxcnc.AUTO_RUN, 8)  # the second pass's line: which pass it is cannot be known
+    layer.until(lambda seen: seen.get("place") == "searching")
+    said["from_line"] = layer.until(lambda seen: seen.get("place") == "on_path", 1.0)
+    stopped()
     opened(KEPT)
     said["kept"] = layer.until(told("#31"))
     opened(RELATIVE)

@@ -44,6 +44,8 @@ TEST(FollowOnLinuxCnc, SaysWhatIsKnownOfTheLoadedProgram) {
   EXPECT_THAT(words(said, "replaced"), HasSubstr("since the control opened it"));
   EXPECT_GT(said["opened_again"]["segments"], 10);
   EXPECT_EQ(said["run"]["place"], "on_path");
+  // Started at the second line of a square that is cut three times: which one is not known.
+  EXPECT_NE(said["from_line"]["place"], "on_path");
   // Its memory may hold any #31.
   EXPECT_THAT(words(said, "kept"), HasSubstr("part.ngc:3: `X#31`"));
   // G91: the path is known where its start was seen, and only there.

@@ -46,6 +46,13 @@ ControlState state_of(const Json& json) {
   json.at("block_delete").get_to(state.block_delete);
   json.at("inch").get_to(state.inch);
   json.at("incremental").get_to(state.incremental);
+  json.at("plane").get_to(state.plane);
+  json.at("retract_to_initial").get_to(state.retract_to_initial);
+  json.at("centre_absolute").get_to(state.centre_absolute);
+  if (const Json& tool = json.at("selected_tool"); !tool.is_null()) {
+    state.selected_tool = tool.get<int>();
+  }
+  json.at("unread").get_to(state.unread);
   json.at("path_mode").get_to(state.path_mode);
   json.at("path_tolerance_mm").get_to(state.path_tolerance_mm);
   json.at("machine_inch").get_to(state.machine_inch);

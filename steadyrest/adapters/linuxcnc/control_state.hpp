@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,10 +40,15 @@ struct ControlState {
   bool block_delete = false;
   bool inch = false;  ///< G20
   bool incremental = false;
-  std::string path_mode;           ///< exact_path, exact_stop or continuous
-  double path_tolerance_mm = 0.0;  ///< P of G64
-  bool machine_inch = false;       ///< unit of the variable file's lengths
-  std::string variables;           ///< file of the numbered parameters; empty: none
+  std::string plane;  ///< xy, zx or yz
+  bool retract_to_initial = false;
+  bool centre_absolute = false;
+  std::optional<int> selected_tool;  ///< by T; none: that in the spindle
+  std::string unread;                ///< what is in force that the layer's reader does not know
+  std::string path_mode;             ///< exact_path, exact_stop or continuous
+  double path_tolerance_mm = 0.0;    ///< P of G64
+  bool machine_inch = false;         ///< unit of the variable file's lengths
+  std::string variables;             ///< file of the numbered parameters; empty: none
   std::vector<std::string> folders;
 };
 

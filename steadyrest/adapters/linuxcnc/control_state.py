@@ -17,9 +17,10 @@ except ImportError as fault:
     print(json.dumps({"error": "LinuxCNC's Python module is missing: %s" % fault}), flush=True)
     sys.exit(1)
 
-POLL_S = 0.1
+POLL_S = 0.01
 REPEAT_S = 1.0
 LINEAR = (0, 1, 2, 6, 7, 8)
+PLANES = {170: "xy", 180: "zx", 190: "yz"}
 PATH_MODES = {610: "exact_path", 611: "exact_stop", 640: "continuous"}
 OFFSETS = ("xoffset", "yoffset", "zoffset", "aoffset", "boffset", "coffset", "uoffset", "voffset", "woffset")
 
@@ -32,6 +33,13 @@ class Lengths:
 
     def of_axes(self, values):
         return [v * self.mm if i in LINEAR else v for i, v in enumerate(values[:9])]
+
+
+def stamp(name):
+    try:
+        return os.stat(name).st_mtime_ns
+    except OSError:
+        return 0
 
 
 def tools(status, lengths):
@@ -50,7 +58,7 @@ def tools(status, lengths):
 
 
 def files(ini):
-    """The variable file and the folders of subprograms, as the INI file names them."""
+    """The variable file, the folders of subprograms and the remapped words, as the INI file names them."""
     config = linuxcnc.ini(ini)
     home = os.path.dirname(os.path.abspath(ini))
 
@@ -60,13 +68,28 @@ def files(ini):
     variables = config.find("RS274NGC", "PARAMETER_FILE")
     folders = [config.find("DISPLAY", "PROGRAM_PREFIX")]
     folders += (config.find("RS274NGC", "SUBROUTINE_PATH") or "").split(":")
-    return absolute(variables) if variables else "", [absolute(f) for f in folders if f]
+    return absolute(variables) if variables else "", [absolute(f) for f in folders if f], config.findall("RS274NGC", "REMAP")
 
 
-def tolerance_mm(status, lengths):
-    """P of the G64 in force. LinuxCNC shows 0.001 inch before the first G64, but rounds without a limit then."""
-    tolerance, merging = status.settings[3] * lengths.mm, status.settings[4]
-    return 0.0 if merging == 0.0 and abs(tolerance - 0.0254) < 1e-6 else tolerance
+def tolerance_mm(status, lengths, inch):
+    """P of the G64 in force, which is in the program's unit. LinuxCNC shows 0.001 inch, in the machine's, before the first G64, but rounds
+    without a limit then."""
+    tolerance, merging = status.settings[3], status.settings[4]
+    if merging == 0.0 and abs(tolerance * lengths.mm - 0.0254) < 1e-6:
+        return 0.0
+    return tolerance * (25.4 if inch else 1.0)
+
+
+def selected_tool(status):
+    """The number of the tool that T has selected; None: none."""
+    index = status.pocket_prepped
+    return status.tool_table[index].id if 0 < index < len(status.tool_table) else None
+
+
+def unread(status, codes, remaps):
+    """What is in force at the start that the layer's reader does not take over, in words."""
+    unusual = ["G%g" % (code / 10) for code in sorted(codes & {70, 410, 420, 411, 421, 930, 950, 960})]
+    return ", ".join(unusual + ["[RS274NGC] REMAP = %s" % remap for remap in remaps])
 
 
 def without_offsets(position, lengths):
@@ -88,13 +111,14 @@ class OpenedText:
 
     def held(self, program):
         """Of the file that LinuxCNC's task holds open by this name; None: none, or it is not ours to see."""
+        names = {program, os.path.realpath(program)}
         for process in glob.glob("/proc/[0-9]*"):
             try:
                 with open(process + "/comm") as name:
                     if name.read().strip() != self.task[:15]:
                         continue
                 for entry in glob.glob(process + "/fd/*"):
-                    if os.readlink(entry) in (program, program + " (deleted)"):
+                    if os.readlink(entry).removesuffix(" (deleted)") in names:
                         return os.stat(entry)
             except OSError:
                 pass  # it has ended, or is another user's
@@ -138,10 +162,16 @@ def state(status, lengths, ini_files, home, text):
         "block_delete": bool(status.block_delete),
         "inch": 200 in codes,
         "incremental": 910 in codes,
+        "plane": next((PLANES[c] for c in codes if c in PLANES), "xy"),
+        "retract_to_initial": 980 in codes,
+        "centre_absolute": 901 in codes,
+        "selected_tool": selected_tool(status),
+        "unread": unread(status, codes, ini_files[2]),
         "path_mode": next((PATH_MODES[c] for c in codes if c in PATH_MODES), "continuous"),
-        "path_tolerance_mm": tolerance_mm(status, lengths),
+        "path_tolerance_mm": tolerance_mm(status, lengths, 200 in codes),
         "machine_inch": lengths.mm != 1.0,
         "variables": ini_files[0],
+        "variables_ns": stamp(ini_files[0]),
         "folders": ini_files[1],
     }
 

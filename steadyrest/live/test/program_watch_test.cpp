@@ -107,13 +107,11 @@ TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
   EXPECT_EQ(watched.watch.status().segments, 2U);
 }
 
-TEST(ProgramWatch, TakesANewOffsetOnlyWhileNoProgramRuns) {
+TEST(ProgramWatch, WithdrawsWhereAnOffsetChangedBetweenPlanAndStart) {
   Watched watched;
   watched.write(kPart);
   watched.control.tell(std::optional(watched.loaded()));
-  auto shifted = watched.loaded(false);
-  shifted.start.work_offset[0][0] = 5.0;
-  watched.control.tell(std::optional(shifted));
+  watched.control.tell(std::optional(watched.loaded(false)));
   const auto found = [&] {
     int frames = 0;
     for (int i = 0; i < 200; ++i) {
@@ -121,13 +119,44 @@ TEST(ProgramWatch, TakesANewOffsetOnlyWhileNoProgramRuns) {
     }
     return frames;
   };
-  // The desk's machine cuts the program without an offset.
   // The way to the first point is not: where it began was not seen.
   EXPECT_GT(found(), 120);
+  auto shifted = watched.loaded(false);
+  shifted.start.work_offset[0][0] = 5.0;
+  watched.control.tell(std::optional(shifted));
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("offsets, tools or modes"));
+  EXPECT_EQ(found(), 0);
+  // Where the axes stand is the locator's matter.
+  shifted = watched.loaded(false);
   shifted.stopped = true;
   watched.control.tell(std::optional(shifted));
   EXPECT_EQ(watched.watch.status().segments, 2U);
-  EXPECT_EQ(found(), 0);
+  shifted.stopped = false;
+  shifted.start.start[0] = 3.0;
+  watched.control.tell(std::optional(shifted));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+TEST(ProgramWatch, SeesASubprogramThatIsReplaced) {
+  Watched watched;
+  const auto write_sub = [&](const std::string& text) {
+    std::ofstream(watched.folder.at("side.spf")) << text;
+  };
+  write_sub("G1 X20 F1000\nM17\n");
+  watched.write("G17 G90 G94 G71\nG0 X0 Y0\nSIDE\nM30\n");
+  auto loaded = watched.loaded();
+  loaded.start.subprogram_folders = {watched.folder.path().string()};
+  watched.control.tell(std::optional(loaded));
+  const std::size_t before = watched.watch.status().segments;
+  ASSERT_GT(before, 0U) << watched.watch.status().words;
+  write_sub("G1 X20 F1000\nY20\nM17\n");
+  watched.control.tell(std::optional(loaded));
+  EXPECT_EQ(watched.watch.status().segments, before + 1) << watched.watch.status().words;
+  loaded.stopped = false;
+  watched.control.tell(std::optional(loaded));
+  write_sub("G1 X20 F1000\nY20\nX0\nM17\n");
+  watched.control.tell(std::optional(loaded));
+  EXPECT_EQ(watched.watch.status().segments, 0U);
 }
 
 TEST(ProgramWatch, WithdrawsFromAProgramThatIsEditedWhileItRuns) {

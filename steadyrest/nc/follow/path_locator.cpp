@@ -146,6 +146,14 @@ bool PathLocator::began_at_start(const Axes& point) const noexcept {
          nearest(first, rest_, 0.0, 0.0, 0.0).away_mm <= config_.near_mm;
 }
 
+/// The line of the first block that moves, or one that is merged with it: a program that is started
+/// at a line begins with another.
+bool PathLocator::begins_with(std::uint32_t line) const noexcept {
+  const PathView path = route_->path();
+  const bool ahead = path.size() > 1 && path[1].line > path[0].line;
+  return ahead ? line < path[1].line : line <= path[0].line;
+}
+
 void PathLocator::begin_search() noexcept {
   start_fits_ = start_fits_ && !found_;
   passed_over_ = false;
@@ -188,13 +196,17 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
   point_ = point;
   begun_ = true;
   if (frame.program_line > 0) {
+    if (last_line_ == 0 && !begins_with(frame.program_line)) {
+      from_start_ = false;
+      start_fits_ = false;
+    }
     // A line further up: a loop or subprogram begins again.
     from_start_ = from_start_ && (found_ || frame.program_line >= last_line_);
     last_line_ = frame.program_line;
   }
   if (moved) {
     advance_all(point, travel_mm);
-    check(frame.program_line, travel_mm);
+    check(frame, travel_mm);
   }
   if (!found_) {
     scan(point, frame.program_line);
@@ -361,13 +373,17 @@ bool PathLocator::line_fits(std::uint32_t line) const noexcept {
 
 /// A place that the control has left for long, or whose lines are others than the control's, is not
 /// the place.
-void PathLocator::check(std::uint32_t line, double travel_mm) noexcept {
+void PathLocator::check(const kernel::signal::Frame& frame, double travel_mm) noexcept {
   if (!found_) {
     return;
   }
+  const std::uint32_t line = frame.program_line;
+  // Where a probe has touched is not on the path.
+  const bool probed = route_->path()[trail_[0].index].motion == kernel::signal::Motion::probe &&
+                      frame.motion != kernel::signal::Motion::probe;
   off_path_mm_ = trail_[0].away_mm <= config_.near_mm ? 0.0 : off_path_mm_ + travel_mm;
   wrong_line_mm_ = line == 0 || line_fits(line) ? 0.0 : wrong_line_mm_ + travel_mm;
-  if (off_path_mm_ > kOffPath_mm || wrong_line_mm_ > kWrongLine_mm) {
+  if (probed || off_path_mm_ > kOffPath_mm || wrong_line_mm_ > kWrongLine_mm) {
     begin_search();
   }
 }

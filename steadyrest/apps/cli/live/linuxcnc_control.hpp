@@ -29,6 +29,8 @@ class ControlSource {
 
   kernel::machine::Machine machine_;
   std::shared_ptr<adapters::linuxcnc::ControlPeer> peer_;
+  /// While no program ran; what a program sets itself does not count.
+  std::optional<steadyrest::live::LoadedProgram> at_rest_;
 };
 
 /// Compares the machine file with the control. Refused: another version of LinuxCNC, a machine file

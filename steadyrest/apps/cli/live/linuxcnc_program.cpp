@@ -41,6 +41,11 @@ std::vector<nc::interpret::Tool> tools_of(const ControlState& state) {
 
 Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state,
                                                        const kernel::machine::Machine& machine) {
+  if (!state.unread.empty()) {
+    return std::unexpected(bad_input(
+        "LinuxCNC has " + state.unread + " from before the program, which the layer does not read",
+        "return to G40 G94 G97 before the start; a remapped word has no path"));
+  }
   steadyrest::live::LoadedProgram loaded{.file = state.program,
                                          .start = {},
                                          .stopped = state.stopped,
@@ -77,6 +82,12 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start.block_delete = state.block_delete;
   start.inch = state.inch;
   start.incremental = state.incremental;
+  start.plane = state.plane == "zx"   ? nc::interpret::Plane::zx
+                : state.plane == "yz" ? nc::interpret::Plane::yz
+                                      : nc::interpret::Plane::xy;
+  start.retract_to_initial = state.retract_to_initial;
+  start.centre_absolute = state.centre_absolute;
+  start.selected_tool = state.selected_tool;
   start.path_mode = path_mode(state.path_mode);
   start.path_tolerance_mm = state.path_tolerance_mm;
   return loaded;

@@ -215,6 +215,30 @@ TEST(PathLost, AnAbsoluteProgramIsFoundFromWhereItIsAbsolute) {
   EXPECT_GT(on_path(steps) + 30, absolute);
 }
 
+// Three equal squares, started at the second one's first line from where the first begins.
+TEST(PathLost, StartedAtALineItIsNotTakenForTheFirstPass) {
+  const std::string square = "G1 X10 F3000\nY10\nX0\nY0\n";
+  const Route route(planned(kHead + square + square + square + "M2\n").segments);
+  const auto second = planned("\n\n\n\n" + kHead + square + square + "M2\n");
+  for (const Step& step : driven(second, route)) {
+    if (step.seen.place == Place::on_path) {
+      EXPECT_NEAR(step.seen.position_mm, 40.0 + step.truth.path_position_mm, 0.02);
+    }
+  }
+}
+
+// It touches at X30 of 100: what follows goes on from there.
+TEST(PathLost, AProbingMoveEndsWhereItTouched) {
+  const std::string probing = "G38.2 X100 F1500\nG91\nG1 X20 F1500\nY10\nM2\n";
+  const Route route = marked(kHead + "G0 X0 Y0\n" + probing);
+  auto real = planned(kHead + "G0 X0 Y0\n" + "G38.2 X30 F1500\nG91\nG1 X20 F1500\nY10\nM2\n");
+  for (const Step& step : driven(real, route)) {
+    if (step.truth.position[0] > 30.0 || step.truth.position[1] > 0.0) {
+      EXPECT_NE(step.seen.place, Place::on_path) << step.truth.position[0];
+    }
+  }
+}
+
 TEST(PathLost, AnAbortEndsItAndTheNextRunIsFoundAgain) {
   const auto path = planned(kHead + "G1 X40 F4000\nY20\nX0\nM2\n");
   const Route route(path.segments);

@@ -26,8 +26,10 @@ Control::Control(Config start) : config(std::move(start)), rules(rules_of(config
   state.path_mode = config.path_mode;
   state.path_tolerance_mm = config.path_tolerance_mm;
   state.tool_in_spindle = config.tool_in_spindle;
-  state.selected_tool = config.tool_in_spindle;
-  state.retract_to_initial = rules.starts_with_g98;
+  state.selected_tool = config.selected_tool.value_or(config.tool_in_spindle);
+  state.plane = config.plane;
+  state.centre_absolute = config.centre_absolute;
+  state.retract_to_initial = config.retract_to_initial || rules.starts_with_g98;
   // update_offset() keeps the machine where it is and moves the work coordinates, so it must run
   // before the given machine position is converted to them.
   state.position = config.start;

@@ -13,6 +13,8 @@
 
 namespace steadyrest::nc::interpret {
 
+enum class Plane : std::uint8_t { xy, zx, yz };
+
 /// One tool of the control's tool table.
 struct Tool {
   std::int32_t number = 0;
@@ -41,6 +43,9 @@ struct Config {
   DecimalRule decimal_rule = DecimalRule::calculator;
   bool inch = false;                          ///< units in force at the start (G20)
   bool incremental = false;                   ///< G91 in force at the start
+  Plane plane = Plane::xy;                    ///< in force at the start
+  bool centre_absolute = false;               ///< G90.1 likewise
+  bool retract_to_initial = false;            ///< G98 likewise; fanuc begins with it
   PathMode path_mode = PathMode::continuous;  ///< in force at the start, with its tolerance
   double path_tolerance_mm = 0.0;
   bool external_offset = true;  ///< fanuc: G10 L2 P0 is the external offset; false: G52 (Haas)
@@ -74,6 +79,7 @@ struct Config {
   /// Most lines that a program may execute in loops and subprograms; beyond that it is refused.
   std::uint64_t most_repeated_lines = 20'000'000;
   std::int32_t tool_in_spindle = 0;
+  std::optional<std::int32_t> selected_tool;  ///< by T, at the start; else that in the spindle
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none
   std::int32_t modulation_off = 0;
 

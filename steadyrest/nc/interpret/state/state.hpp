@@ -12,8 +12,6 @@ namespace steadyrest::nc::interpret {
 
 inline constexpr double kMmPerInch = 25.4;
 
-enum class Plane : std::uint8_t { xy, zx, yz };
-
 /// Axis indices of a plane: first and second in right-handed order, then the normal.
 struct PlaneAxes {
   std::size_t first;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <expected>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
@@ -35,22 +37,47 @@ Result<PlannedPath> plan_file(const std::string& file, const interpret::Config& 
                     [&](Sink& sink) { return interpret::run_file(file, config, sink); });
 }
 
+namespace {
+
+/// Runs the program into the sink; the files that it calls.
+Result<std::vector<std::string>> subprograms_of(const std::string& file,
+                                                const interpret::Config& config, Sink& sink) {
+  auto source = read::LineSource::open(file);
+  if (!source) {
+    return std::unexpected(std::move(source.error()));
+  }
+  auto run = interpret::ProgramRun::make(*source, config, sink);
+  if (!run) {
+    return std::unexpected(std::move(run.error()));
+  }
+  while (run->step()) {
+  }
+  return run->subprogram_files();
+}
+
+}  // namespace
+
 Result<PlannedPath> plan_file_from_start(const std::string& file, const interpret::Config& config,
                                          const Machine& machine) {
   MovedAxes moved;
   MoveMarks elsewhere;
-  auto report = interpret::run_file(file, config, moved);
-  if (report) {
-    // What it refuses it does not reach: that counts as made otherwise.
-    report = interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
+  auto called = subprograms_of(file, config, moved);
+  if (!called) {
+    return std::unexpected(std::move(called.error()));
   }
+  // What it refuses it does not reach: that counts as made otherwise.
+  const auto report = interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
   if (!report) {
-    return std::unexpected(std::move(report.error()));
+    return std::unexpected(report.error());
   }
-  return plan_moves(machine, file, [&](Sink& sink) {
+  auto path = plan_moves(machine, file, [&](Sink& sink) {
     StartMarks marks(elsewhere, sink);
     return interpret::run_file(file, config, marks);
   });
+  if (path) {
+    path->subprograms = std::move(*called);
+  }
+  return path;
 }
 
 Result<PlannedPath> plan_text(std::string_view text, const interpret::Config& config,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <steadyrest/kernel/signal/path.hpp>
@@ -51,6 +52,7 @@ struct PlannedPath {
   std::vector<kernel::signal::PathSegment> segments;
   std::vector<SegmentPlan> plans;
   std::vector<PathEvent> events;
+  std::vector<std::string> subprograms;  ///< files that it calls; of plan_file_from_start() alone
 };
 
 /// What an interpolator reads: a whole program, or a window that moves along it. Element i is at
