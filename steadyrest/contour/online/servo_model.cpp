@@ -112,9 +112,7 @@ bool ServoModel::update(const Frame& frame) noexcept {
     return false;
   }
   const double dt = frame.time_s - state_.time_s;
-  // A hole in the samples, before the first of a window too, would enter the integrals as a
-  // straight line. After one, the next cycle is measured against its length: a slower clock is
-  // taken over.
+  // A hole would enter the integrals as a straight line; the next is judged by its length.
   const bool gap = state_.first_dt_s > 0.0 && dt > kMaxGapRatio * state_.first_dt_s;
   state_.time_s = frame.time_s;
   if (!state_.started || !(dt > 0.0) || gap) {

@@ -45,6 +45,7 @@ class Comparison {
     axes();
     periods();
     if (out_.empty()) {
+      path_limits();
       limits();
     }
     return std::move(out_);
@@ -77,7 +78,27 @@ class Comparison {
       differs(fmt::format("servo_period_ms is {:g}, LinuxCNC's servo period {:g} ms ({})", ours_ms,
                           theirs_ms, ini_.path()),
               fmt::format("set servo_period_ms = {:g}", theirs_ms));
+    } else if (machine_.control.interpolator_period_s != machine_.control.servo_period_s) {
+      differs(
+          fmt::format("interpolator_period_ms is {:g}; LinuxCNC interpolates in every servo period",
+                      1e3 * machine_.control.interpolator_period_s),
+          fmt::format("set interpolator_period_ms = {:g}", theirs_ms));
     }
+  }
+
+  void path_limits() {
+    const double mm = configuration_.mm_per_unit;
+    const auto compare = [&](const char* what, const char* key, double ours, const char* unit) {
+      const auto theirs = figure(ini_, "TRAJ", key, mm, {0.0, 1e9, unit});
+      if (theirs && *theirs && ours > (*theirs)->value * (1.0 + kSame)) {
+        differs(fmt::format("{} {:g} {} in the machine file is beyond the control's {:g} ({})",
+                            what, ours, unit, (*theirs)->value, (*theirs)->from),
+                "take the control's figure, or less");
+      }
+    };
+    compare("the acceleration along the path,", "MAX_LINEAR_ACCELERATION",
+            machine_.control.max_path_acceleration_mm_s2, "mm/s²");
+    compare("the largest feed,", "MAX_LINEAR_VELOCITY", machine_.control.max_feed_mm_s, "mm/s");
   }
 
   void limits() {

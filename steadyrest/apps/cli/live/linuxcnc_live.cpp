@@ -96,7 +96,12 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
   }
   auto beside = connect(machine);
   if (!beside) {
-    return refused(beside.error());
+    Refusal why = std::move(beside.error());
+    if (!findings->empty()) {  // its status is not shown either
+      why.what = "LinuxCNC does not run, or runs as another user (" + why.what + ")";
+      why.to_do = "start LinuxCNC with the layer's HAL file, as this user";
+    }
+    return refused(why);
   }
   auto followed = std::make_unique<FollowedPort>(*(*beside)->port);
   auto watch = std::make_shared<ProgramWatch>(*followed, machine, std::move(source));

@@ -176,8 +176,7 @@ bool Interpreter::non_modal(const Step& step) {
     case g::kForgetOrigin:
     case g::kOriginOff:
     case g::kOriginOn:
-      offsets_.origin(step, code);
-      return true;
+      return offsets_.origin(step, code);
     default:
       return true;
   }

@@ -78,7 +78,7 @@ bool Offsets::work_offset(const Step& step) {
   return true;
 }
 
-void Offsets::origin(const Step& step, int code) {
+bool Offsets::origin(const Step& step, int code) {
   switch (code) {
     case g::kForgetOrigin:
       state_.g92 = {};
@@ -90,6 +90,11 @@ void Offsets::origin(const Step& step, int code) {
       state_.g92_on = false;
       break;
     case g::kOriginOn:
+      // A running control does not show the offset that G92.2 has put aside.
+      if (control_.config.on_control && !control_.config.g92_on && !state_.g92_used) {
+        return refusals_.g_word(step, code, "parameter_of_the_control",
+                                "an offset that the control may have from before the program");
+      }
       state_.g92 = state_.g92_stored;
       state_.g92_on = true;
       break;
@@ -109,6 +114,7 @@ void Offsets::origin(const Step& step, int code) {
       break;
   }
   update_offset(state_);
+  return true;
 }
 
 void Offsets::store_home(int code) noexcept {

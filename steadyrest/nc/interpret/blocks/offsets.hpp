@@ -15,7 +15,7 @@ class Offsets : private Stage {
   /// G54 … G59.3, G500.
   bool work_offset(const Step& step);
   /// G52, G92, G92.1 … G92.3.
-  void origin(const Step& step, int code);
+  bool origin(const Step& step, int code);
   /// G28.1, G30.1.
   void store_home(int code) noexcept;
 };

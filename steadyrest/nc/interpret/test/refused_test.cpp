@@ -129,6 +129,17 @@ TEST(RefusedPrograms, AProgramCutOffAnywhereIsNeverAccepted) {
   }
 }
 
+// LinuxCNC's memory may hold an offset that G92.2 has put aside by hand.
+TEST(RefusedPrograms, OnTheControlAnOffsetPutAsideBeforeIsNotKnown) {
+  Config config;
+  config.on_control = true;
+  Count sink;
+  const auto before = run_text("G21 G92.3\nM2\n", config, sink);
+  ASSERT_EQ(before->refused.size(), 1U);
+  EXPECT_EQ(before->refused.front().reason, "parameter_of_the_control");
+  EXPECT_TRUE(run_text("G21 G92 X3\nG92.2\nG92.3\nM2\n", config, sink)->refused.empty());
+}
+
 TEST(RefusedPrograms, AMissingEndIsAtTheFilesLastLineHoweverOftenLoopsRan) {
   const Config config;
   Count sink;

@@ -18,7 +18,8 @@ using testing::IsEmpty;
 
 const std::string kIni =
     "[EMCMOT]\nSERVO_PERIOD = 1000000\n[KINS]\nJOINTS = 3\nKINEMATICS = trivkins coordinates=XZA\n"
-    "[TRAJ]\nCOORDINATES = X Z A\nLINEAR_UNITS = inch\nANGULAR_UNITS = degree\n"
+    "[TRAJ]\nCOORDINATES = X Z A\nLINEAR_UNITS = inch\nMAX_LINEAR_VELOCITY = "
+    "3\nMAX_LINEAR_ACCELERATION = 30\nANGULAR_UNITS = degree\n"
     "[AXIS_X]\nMAX_VELOCITY = 2\nMAX_ACCELERATION = 20\nMIN_LIMIT = -1\nMAX_LIMIT = 10\n"
     "[JOINT_0]\nTYPE = LINEAR\n"
     "[AXIS_Z]\nMAX_VELOCITY = 1\nMAX_ACCELERATION = 10\nMIN_LIMIT = -4\nMAX_LIMIT = 0\n"
@@ -39,7 +40,9 @@ Axis axis(const std::string& name, double speed_au_s, double acceleration_au_s2,
 /// The machine of kIni, in mm and rad; Y is a placeholder.
 Machine machine() {
   Machine out;
-  out.control.servo_period_s = 0.001;
+  out.control.servo_period_s = out.control.interpolator_period_s = 0.001;
+  out.control.max_path_acceleration_mm_s2 = 762.0;
+  out.control.max_feed_mm_s = 76.2;
   out.axes = {axis("X", 50.8, 508.0, -25.4, 254.0), axis("Y", 1.0, 1.0, 0.0, 0.0),
               axis("Z", 25.4, 254.0, -101.6, 0.0), axis("A", 1.5, 15.0, -1e6, 1e6)};
   out.axes[1].present = false;
@@ -77,6 +80,24 @@ TEST(MachineDifferences, AnotherServoPeriodIsNamed) {
   const auto all = found(other);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].to_do, "set servo_period_ms = 1");
+}
+
+TEST(MachineDifferences, AnotherInterpolatorPeriodIsNamed) {
+  Machine other = machine();
+  other.control.interpolator_period_s = 0.002;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].to_do, "set interpolator_period_ms = 1");
+}
+
+TEST(MachineDifferences, LimitsAlongThePathAreNamed) {
+  Machine other = machine();
+  other.control.max_path_acceleration_mm_s2 = 3000.0;
+  other.control.max_feed_mm_s = 100.0;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_THAT(all[0].what, AllOf(HasSubstr("3000 mm/s²"), HasSubstr("762")));
+  EXPECT_THAT(all[1].what, HasSubstr("[TRAJ] MAX_LINEAR_VELOCITY = 3"));
 }
 
 TEST(MachineDifferences, LimitsBeyondTheControlsAreNamed) {
