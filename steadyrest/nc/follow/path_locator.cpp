@@ -81,6 +81,10 @@ bool is_finite(const kernel::signal::Frame& frame) noexcept {
   return finite;
 }
 
+bool is_probe(const PathSegment& segment) noexcept {
+  return segment.motion == kernel::signal::Motion::probe;
+}
+
 /// The commanded point without the offsets in force, of a finite frame.
 kernel::signal::AxisValues point_of(const kernel::signal::Frame& frame) noexcept {
   kernel::signal::AxisValues point{};
@@ -190,6 +194,7 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
   const double dt_s = begun_ ? std::clamp(frame.time_s - time_s_, 0.0, kLongestGap_s) : 0.0;
   const double travel_mm = std::max(frame.path_speed_mm_s, speed_mm_s_) * dt_s;
   const bool moved = !begun_ || point != point_;
+  probing_ = frame.motion == kernel::signal::Motion::probe;
   start_fits_ = start_fits_ || (!begun_ && from_start_ && began_at_start(point));
   time_s_ = frame.time_s;
   speed_mm_s_ = std::max(0.0, frame.path_speed_mm_s);
@@ -206,7 +211,7 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
   }
   if (moved) {
     advance_all(point, travel_mm);
-    check(frame, travel_mm);
+    check(frame.program_line, travel_mm);
   }
   if (!found_) {
     scan(point, frame.program_line);
@@ -274,6 +279,9 @@ void PathLocator::advance_all(const Axes& point, double travel_mm) noexcept {
 /// Each turn of a circle is a place.
 void PathLocator::look_at(std::size_t index, const Axes& point) noexcept {
   const PathSegment& segment = route_->path()[index];
+  if (is_probe(segment) && !probing_) {
+    return;
+  }
   const auto turns = static_cast<std::size_t>(
       std::clamp(std::ceil(segment.sweep_rad / kTurn), 1.0, static_cast<double>(kMostTrails)));
   overflow_ = overflow_ || segment.sweep_rad > kTurn * static_cast<double>(kMostTrails);
@@ -373,16 +381,13 @@ bool PathLocator::line_fits(std::uint32_t line) const noexcept {
 
 /// A place that the control has left for long, or whose lines are others than the control's, is not
 /// the place.
-void PathLocator::check(const kernel::signal::Frame& frame, double travel_mm) noexcept {
+void PathLocator::check(std::uint32_t line, double travel_mm) noexcept {
   if (!found_) {
     return;
   }
-  const std::uint32_t line = frame.program_line;
-  // Where a probe has touched is not on the path.
-  const bool probed = route_->path()[trail_[0].index].motion == kernel::signal::Motion::probe &&
-                      frame.motion != kernel::signal::Motion::probe;
   off_path_mm_ = trail_[0].away_mm <= config_.near_mm ? 0.0 : off_path_mm_ + travel_mm;
   wrong_line_mm_ = line == 0 || line_fits(line) ? 0.0 : wrong_line_mm_ + travel_mm;
+  const bool probed = is_probe(route_->path()[trail_[0].index]) && !probing_;
   if (probed || off_path_mm_ > kOffPath_mm || wrong_line_mm_ > kWrongLine_mm) {
     begin_search();
   }

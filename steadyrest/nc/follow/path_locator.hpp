@@ -73,7 +73,7 @@ class PathLocator {
   void keep(std::size_t index, double position_mm, double away_mm) noexcept;
   [[nodiscard]] bool decided() const noexcept;
   [[nodiscard]] bool line_fits(std::uint32_t line) const noexcept;
-  void check(const kernel::signal::Frame& frame, double travel_mm) noexcept;
+  void check(std::uint32_t line, double travel_mm) noexcept;
 
   Config config_;
   const Route* route_ = nullptr;
@@ -93,8 +93,9 @@ class PathLocator {
   double speed_mm_s_ = 0.0;
   Axes point_{};
   bool begun_ = false;
-  Axes stopped_{};  ///< in the last frame without a program
-  Axes rest_{};     ///< where the axes last stood between two of these
+  bool probing_ = false;  ///< where a probe touches is not on the path
+  Axes stopped_{};        ///< in the last frame without a program
+  Axes rest_{};           ///< where the axes last stood between two of these
   bool rested_ = false;
 };
 
