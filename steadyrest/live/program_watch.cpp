@@ -100,7 +100,7 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
   }
   const bool same_file = stamp_ && loaded.file == planned_.file;
   const bool same_text = same_file && stamps_of(loaded.file) == *stamp_;
-  // What depends on where the axes stand is marked in the route: see PathLocator.
+  // The route marks what depends on the position of the axes: see PathLocator.
   LoadedProgram as_planned = planned_;
   as_planned.stopped = loaded.stopped;
   if (!loaded.stopped || (!relative_ && plan_s_ > kShortPlan_s)) {
@@ -121,7 +121,7 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
   if (!withdrawn_ && same_text && same_start) {
     return;
   }
-  // Only where the axes stand is another: the present route says so itself.
+  // Where only the position of the axes differs, the present route still holds.
   as_planned.start.start = loaded.start.start;
   if (withdrawn_ || !same_text || loaded != as_planned) {
     withdraw(loaded.file, "the program is being read");

@@ -126,7 +126,7 @@ TEST(ProgramWatch, WithdrawsWhereAnOffsetChangedBetweenPlanAndStart) {
   watched.control.tell(std::optional(shifted));
   EXPECT_THAT(watched.watch.status().words, HasSubstr("offsets, tools or modes"));
   EXPECT_EQ(found(), 0);
-  // Where the axes stand is the locator's matter.
+  // Another position of the axes is left to the locator.
   shifted = watched.loaded(false);
   shifted.stopped = true;
   watched.control.tell(std::optional(shifted));
