@@ -31,8 +31,7 @@ constexpr double kTravelShare = 1.5;   ///< the speed may rise within the cycle
 constexpr double kRoundedShare = 4.0;  ///< a rounded corner is shorter than its legs
 constexpr double kConfirm_mm = 0.1;    ///< on the way since it was found
 constexpr double kWrongLine_mm = 5.0;
-/// What follows from the start is found only so near to it: a run from a line on begins where the
-/// axes stand, too, but not with the first blocks.
+/// A segment that follows from the start is found only this near to it.
 constexpr double kBegin_mm = 5.0;
 constexpr double kOffPath_mm = 20.0;    ///< no rounded corner is longer
 constexpr double kPreference = 0.01;    ///< of the expected place among equally near ones

@@ -216,8 +216,12 @@ TEST(ServoModel, APauseTeachesNothingWhereverItBegins) {
     const double until = 0.5 + 0.001 * place;
     run(model, axis, until, 0.001, circle);
     (void)axis.step(until, until + 0.149, circle);
-    run(model, axis, 0.4, 0.001, circle, until + 0.149);
-    EXPECT_NEAR(model.axis(0).gain_1_s, 20.0, 0.1) << place;
+    double worst = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      run(model, axis, 0.001, 0.001, circle, until + 0.149 + 0.001 * i);
+      worst = std::max(worst, std::abs(model.axis(0).gain_1_s - 20.0));
+    }
+    EXPECT_LT(worst, 0.1) << place;
   }
 }
 
