@@ -46,6 +46,7 @@ class Comparison {
     periods();
     if (out_.empty()) {
       path_limits();
+      spindle();
       limits();
     }
     return std::move(out_);
@@ -99,6 +100,18 @@ class Comparison {
     compare("the acceleration along the path,", "MAX_LINEAR_ACCELERATION",
             machine_.control.max_path_acceleration_mm_s2, "mm/s²");
     compare("the largest feed,", "MAX_LINEAR_VELOCITY", machine_.control.max_feed_mm_s, "mm/s");
+  }
+
+  /// The layer's factor acts behind LinuxCNC's own limit of the speed.
+  void spindle() {
+    const double ours_rpm = 60.0 * machine_.spindle.max_rev_s;
+    const auto theirs = figure(ini_, "SPINDLE_0", "MAX_FORWARD_VELOCITY", 1.0, {0.0, 1e9, "rpm"});
+    if (theirs && *theirs && ours_rpm > (*theirs)->value * (1.0 + kSame)) {
+      differs(fmt::format("the spindle's largest speed, {:g} rpm in the machine file, is beyond "
+                          "the control's {:g} ({})",
+                          ours_rpm, (*theirs)->value, (*theirs)->from),
+              fmt::format("set max_rpm = {:g}, or less", (*theirs)->value));
+    }
   }
 
   void limits() {

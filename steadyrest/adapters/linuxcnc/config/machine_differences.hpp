@@ -17,8 +17,8 @@ struct Difference {
 };
 
 /// What of `machine` is not so in the configuration that the control runs: which axes there are, in
-/// which order and kind, and the servo period; then speeds, accelerations and ends of travel beyond
-/// the control's.
+/// which order and kind, and the servo period; then speeds (the spindle's too), accelerations and
+/// ends of travel beyond the control's.
 [[nodiscard]] std::vector<Difference> differences(const IniFile& ini,
                                                   const Configuration& configuration,
                                                   const kernel::machine::Machine& machine);

@@ -24,7 +24,8 @@ const std::string kIni =
     "[JOINT_0]\nTYPE = LINEAR\n"
     "[AXIS_Z]\nMAX_VELOCITY = 1\nMAX_ACCELERATION = 10\nMIN_LIMIT = -4\nMAX_LIMIT = 0\n"
     "[JOINT_1]\nTYPE = LINEAR\n"
-    "[AXIS_A]\nMAX_VELOCITY = 90\nMAX_ACCELERATION = 900\n[JOINT_2]\nTYPE = ANGULAR\n";
+    "[AXIS_A]\nMAX_VELOCITY = 90\nMAX_ACCELERATION = 900\n[JOINT_2]\nTYPE = ANGULAR\n"
+    "[SPINDLE_0]\nMAX_FORWARD_VELOCITY = 6000\n";
 
 Axis axis(const std::string& name, double speed_au_s, double acceleration_au_s2, double min_au,
           double max_au) {
@@ -43,6 +44,7 @@ Machine machine() {
   out.control.servo_period_s = out.control.interpolator_period_s = 0.001;
   out.control.max_path_acceleration_mm_s2 = 762.0;
   out.control.max_feed_mm_s = 76.2;
+  out.spindle.max_rev_s = 100.0;
   out.axes = {axis("X", 50.8, 508.0, -25.4, 254.0), axis("Y", 1.0, 1.0, 0.0, 0.0),
               axis("Z", 25.4, 254.0, -101.6, 0.0), axis("A", 1.5, 15.0, -1e6, 1e6)};
   out.axes[1].present = false;
@@ -98,6 +100,16 @@ TEST(MachineDifferences, LimitsAlongThePathAreNamed) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_THAT(all[0].what, AllOf(HasSubstr("3000 mm/s²"), HasSubstr("762")));
   EXPECT_THAT(all[1].what, HasSubstr("[TRAJ] MAX_LINEAR_VELOCITY = 3"));
+}
+
+TEST(MachineDifferences, AFasterSpindleIsNamed) {
+  Machine other = machine();
+  other.spindle.max_rev_s = 200.0;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_THAT(all[0].what, AllOf(HasSubstr("12000 rpm"), HasSubstr("6000"),
+                                 HasSubstr("[SPINDLE_0] MAX_FORWARD_VELOCITY = 6000")));
+  EXPECT_EQ(all[0].to_do, "set max_rpm = 6000, or less");
 }
 
 TEST(MachineDifferences, LimitsBeyondTheControlsAreNamed) {
