@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 packages="
   g++ cmake ninja-build ccache make pkg-config util-linux
   libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libeigen3-dev libboost-dev libtbb-dev
-  zlib1g-dev libsodium-dev libsqlite3-dev libhdf5-dev
+  zlib1g-dev libssl-dev libsodium-dev libsqlite3-dev libhdf5-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
 "
 if [ "${1:-}" = --test ]; then

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
+#include <unistd.h>
+
+#include <steadyrest/web/stream_client.hpp>
+#include <steadyrest/web/traffic.hpp>
+
+namespace steadyrest::web {
+
+using PlainTransport = beast::tcp_stream;
+using TlsTransport = beast::ssl_stream<beast::tcp_stream>;
+
+/// One client's requests, each answered before the next is read.
+template <class Transport>
+class Connection final : public std::enable_shared_from_this<Connection<Transport>> {
+ public:
+  static constexpr bool kSecure = std::is_same_v<Transport, TlsTransport>;
+
+  Connection(Traffic& traffic, Transport transport, std::string address)
+      : traffic_(traffic), transport_(std::move(transport)), address_(std::move(address)) {
+    ++traffic_.connections;
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection() { --traffic_.connections; }
+
+  void begin() {
+    if constexpr (kSecure) {
+      be_patient();
+      transport_.async_handshake(asio::ssl::stream_base::server,
+                                 [self = this->shared_from_this()](beast::error_code fault) {
+                                   if (!fault) {
+                                     self->read();
+                                   }
+                                 });
+    } else {
+      read();
+    }
+  }
+
+ private:
+  using Parser = http::request_parser<http::string_body>;
+
+  /// The whole of what follows, not each of its bytes, must come within this time.
+  void be_patient() {
+    beast::get_lowest_layer(transport_)
+        .expires_after(
+            std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * traffic_.config.patience_s)));
+  }
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(traffic_.config.most_head));
+    parser_->body_limit(traffic_.config.most_body);
+    be_patient();
+    http::async_read(transport_, buffer_, *parser_,
+                     [self = this->shared_from_this()](beast::error_code fault, std::size_t) {
+                       self->got(fault);
+                     });
+  }
+
+  void got(beast::error_code fault) {
+    if (fault) {
+      unreadable(fault);
+      return;
+    }
+    Request request;
+    if (!fill(request)) {
+      last_ = true;
+      write(error(400, "bad_request", "the address cannot be read", "see the API's description"));
+      return;
+    }
+    const bool stream = websocket::is_upgrade(parser_->get());
+    const bool writes = stream || (request.method != "GET" && request.method != "HEAD");
+    if (auto refused = traffic_.gate.refuse(request, writes, traffic_.handlers.now_s()); refused) {
+      write(std::move(*refused));
+      return;
+    }
+    asio::post(traffic_.answers, [self = this->shared_from_this(), stream,
+                                  request = std::move(request)] { self->answer(request, stream); });
+  }
+
+  void unreadable(beast::error_code fault) {
+    last_ = true;
+    if (fault == http::error::body_limit) {
+      write(error(413, "too_large", "the body is too large", "send at most 256 KiB"));
+    } else if (fault == http::error::header_limit) {
+      write(error(431, "too_large", "the head is too large", "send at most 16 KiB"));
+    } else if (fault == beast::error::timeout && parser_->got_some()) {
+      close();
+    } else if (fault.category() == http::make_error_code(http::error::bad_method).category() &&
+               fault != http::error::end_of_stream && fault != http::error::partial_message) {
+      write(error(400, "bad_request", "this is no HTTP request", "speak HTTP/1.1"));
+    } else {
+      close();
+    }
+  }
+
+  bool fill(Request& request) const {
+    const auto& from = parser_->get();
+    const auto head = [&from](const auto& name) { return std::string(from[name]); };
+    request.method = std::string(from.method_string());
+    request.host = head(http::field::host);
+    request.origin = head(http::field::origin);
+    request.authorization = head(http::field::authorization);
+    request.cookie = head(http::field::cookie);
+    request.content_type = head(http::field::content_type);
+    request.csrf = head("X-Steadyrest-CSRF");
+    request.body = from.body();
+    request.address = address_;
+    request.secure = kSecure || !traffic_.config.gate.outer_origin.empty();
+    const auto target = from.target();
+    return parse_target({target.data(), target.size()}, request);
+  }
+
+  /// In the thread of the answers.
+  void answer(const Request& request, bool stream) {
+    if (stream && request.path == traffic_.config.stream_path) {
+      auto admitted = traffic_.handlers.admit(request);
+      asio::post(traffic_.io,
+                 [self = this->shared_from_this(), admitted = std::move(admitted)]() mutable {
+                   self->upgrade(std::move(admitted));
+                 });
+      return;
+    }
+    Response response = traffic_.handlers.answer(request);
+    asio::post(traffic_.io,
+               [self = this->shared_from_this(), response = std::move(response)]() mutable {
+                 self->write(std::move(response));
+               });
+  }
+
+  void upgrade(std::variant<Server::Admitted, Response> admitted) {
+    if (auto* refused = std::get_if<Response>(&admitted); refused != nullptr) {
+      write(std::move(*refused));
+    } else if (traffic_.streams.size() >= traffic_.config.most_streams) {
+      write(error(503, "too_many_streams", "too many pages are open", "close one of them"));
+    } else {
+      beast::get_lowest_layer(transport_).expires_never();  // the stream has its own times
+      std::make_shared<StreamClient<Transport>>(traffic_, std::move(transport_),
+                                                std::move(std::get<Server::Admitted>(admitted)))
+          ->accept(parser_->get());
+    }
+  }
+
+  template <class Body>
+  void send(http::response<Body> message, const Response& of) {
+    message.result(of.status);
+    message.version(11);
+    message.keep_alive(!last_ && parser_->get().keep_alive());
+    message.set(http::field::content_type, of.content_type);
+    for (const auto& [name, value] : of.head) {
+      message.insert(name, value);
+    }
+    message.prepare_payload();
+    const bool goes_on = message.keep_alive();
+    auto kept = std::make_shared<http::response<Body>>(std::move(message));
+    be_patient();
+    http::async_write(transport_, *kept,
+                      [self = this->shared_from_this(), kept, goes_on](beast::error_code fault,
+                                                                       std::size_t /*size*/) {
+                        if (!fault && goes_on) {
+                          self->read();
+                        } else {
+                          self->close();
+                        }
+                      });
+  }
+
+  void write(Response response) {
+    add_security_heads(response,
+                       parser_ && (kSecure || !traffic_.config.gate.outer_origin.empty()));
+    const bool head_alone = parser_->get().method() == http::verb::head;
+    if (response.file.empty()) {
+      http::response<http::string_body> message;
+      message.body() = head_alone ? "" : std::move(response.body);
+      send(std::move(message), response);
+      return;
+    }
+    http::response<http::file_body> message;
+    beast::error_code fault;
+    message.body().open(response.file.c_str(), beast::file_mode::scan, fault);
+    ::unlink(response.file.c_str());
+    if (fault) {
+      write(error(500, "failed", "the file cannot be read", "try again"));
+      return;
+    }
+    send(std::move(message), response);
+  }
+
+  void close() {
+    if constexpr (kSecure) {
+      beast::get_lowest_layer(transport_).expires_after(std::chrono::seconds(2));
+      transport_.async_shutdown([self = this->shared_from_this()](beast::error_code) {});
+    } else {
+      beast::error_code fault;
+      transport_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, fault);
+    }
+  }
+
+  Traffic& traffic_;
+  Transport transport_;
+  std::string address_;
+  beast::flat_buffer buffer_;
+  std::optional<Parser> parser_;
+  bool last_ = false;  ///< no request is read behind this one
+};
+
+}  // namespace steadyrest::web

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <steadyrest/web/gate.hpp>
+
+namespace steadyrest::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+std::string small(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// `[::1]:8080` → `[::1]`, `localhost:8080` → `localhost`.
+std::string without_port(const std::string& host) {
+  const std::size_t bracket = host.rfind(']');
+  const std::size_t colon = host.rfind(':');
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
+  return has_port ? host.substr(0, colon) : host;
+}
+
+}  // namespace
+
+Response error(unsigned status, const std::string& code, const std::string& what,
+               const std::string& to_do) {
+  const Json body = {{"version", 1}, {"error", {{"code", code}, {"what", what}, {"to_do", to_do}}}};
+  Response out;
+  out.status = status;
+  out.body = body.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return out;
+}
+
+bool Gate::knows_host(const std::string& host) const {
+  return std::ranges::find(config_.hosts, without_port(small(host))) != config_.hosts.end();
+}
+
+bool Gate::is_own(const Request& request) const {
+  const std::string own = (request.secure ? "https://" : "http://") + small(request.host);
+  const std::string origin = small(request.origin);
+  return origin.empty() || origin == own ||
+         (!config_.outer_origin.empty() && origin == config_.outer_origin);
+}
+
+std::optional<Response> Gate::refuse(const Request& request, bool writes, double now_s) {
+  if (!rate_.take(request.address, now_s)) {
+    Response out = error(429, "too_many_requests", "too many requests", "wait, then ask again");
+    out.head.emplace_back("Retry-After",
+                          fmt::format("{}", std::ceil(rate_.wait_s(request.address, now_s))));
+    return out;
+  }
+  if (!knows_host(request.host)) {
+    return error(421, "unknown_host", "this server has another name",
+                 "use the address that `steadyrest run` has printed");
+  }
+  if (writes && !is_own(request)) {
+    return error(403, "origin", "the request comes from a page of another site",
+                 "use the page of this server");
+  }
+  return std::nullopt;
+}
+
+void add_security_heads(Response& response, bool secure) {
+  response.head.emplace_back("Content-Security-Policy", kPolicy);
+  response.head.emplace_back("X-Content-Type-Options", "nosniff");
+  response.head.emplace_back("Referrer-Policy", "no-referrer");
+  response.head.emplace_back("Cross-Origin-Opener-Policy", "same-origin");
+  response.head.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
+  if (secure) {
+    response.head.emplace_back("Strict-Transport-Security", "max-age=31536000");
+  }
+  const auto is_cache = [](const auto& head) { return head.first == "Cache-Control"; };
+  if (std::ranges::none_of(response.head, is_cache)) {
+    response.head.emplace_back("Cache-Control", "no-store");
+  }
+}
+
+}  // namespace steadyrest::web

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <steadyrest/web/message.hpp>
+#include <steadyrest/web/rate_limit.hpp>
+
+namespace steadyrest::web {
+
+/// An error as all of them are: `{"version":1,"error":{"code":…,"what":…,"to_do":…}}`.
+[[nodiscard]] Response error(unsigned status, const std::string& code, const std::string& what,
+                             const std::string& to_do);
+
+/// What is refused before anybody looks at who asks: a name that is not this server's (against DNS
+/// rebinding), a page of another site, and too many requests.
+class Gate {
+ public:
+  struct Config {
+    std::vector<std::string> hosts;  ///< names of this server, without port, in small letters
+    std::string outer_origin;        ///< as the browser sees it through a proxy; empty: no proxy
+    RateLimit::Config rate;
+  };
+
+  explicit Gate(Config config) : config_(std::move(config)), rate_(config_.rate) {}
+
+  /// Nothing: it may pass. A write, and a stream, must come from the server's own pages or from no
+  /// page at all.
+  [[nodiscard]] std::optional<Response> refuse(const Request& request, bool writes, double now_s);
+
+ private:
+  [[nodiscard]] bool knows_host(const std::string& host) const;
+  [[nodiscard]] bool is_own(const Request& request) const;
+
+  Config config_;
+  RateLimit rate_;
+};
+
+/// The heads of every answer: nothing but the server's own files may be loaded, no other page may
+/// show this one in a frame.
+void add_security_heads(Response& response, bool secure);
+
+}  // namespace steadyrest::web

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <steadyrest/web/rate_limit.hpp>
+
+namespace steadyrest::web {
+
+double RateLimit::left(const std::string& key, double now_s) const {
+  const auto at = by_key_.find(key);
+  if (at == by_key_.end()) {
+    return by_key_.size() < config_.most_keys ? config_.burst : 0.0;
+  }
+  const double more = std::max(0.0, now_s - at->second.at_s) * config_.per_s;
+  return std::min(config_.burst, at->second.left + more);
+}
+
+bool RateLimit::take(const std::string& key, double now_s) {
+  const std::scoped_lock lock(mutex_);
+  if (by_key_.size() >= config_.most_keys && !by_key_.contains(key)) {
+    const double full_s = config_.burst / config_.per_s;
+    std::erase_if(by_key_, [&](const auto& at) { return now_s - at.second.at_s > full_s; });
+  }
+  const double had = left(key, now_s);
+  if (had < 1.0) {
+    return false;
+  }
+  by_key_[key] = {.left = had - 1.0, .at_s = now_s};
+  return true;
+}
+
+bool RateLimit::has_room(const std::string& key, double now_s) {
+  const std::scoped_lock lock(mutex_);
+  return left(key, now_s) >= 1.0;
+}
+
+double RateLimit::wait_s(const std::string& key, double now_s) {
+  const std::scoped_lock lock(mutex_);
+  return std::max(0.0, 1.0 - left(key, now_s)) / config_.per_s;
+}
+
+}  // namespace steadyrest::web

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+#include <openssl/ssl.h>
+
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/web/connection.hpp>
+#include <steadyrest/web/server.hpp>
+
+namespace steadyrest::web {
+namespace {
+
+using asio::ip::tcp;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr auto kPauseAfterFault = std::chrono::milliseconds(100);
+constexpr auto kLook = std::chrono::seconds(1);
+
+class BeastServer final : public Server {
+ public:
+  BeastServer(Config config, Handlers handlers)
+      : traffic_(std::move(config), std::move(handlers)),
+        acceptor_(traffic_.io),
+        pause_(traffic_.io),
+        look_(traffic_.io) {}
+  BeastServer(const BeastServer&) = delete;
+  BeastServer& operator=(const BeastServer&) = delete;
+  ~BeastServer() override {
+    traffic_.answers.join();
+    traffic_.io.stop();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  Result<void> start() {
+    if (auto ready = prepare_tls(); !ready) {
+      return ready;
+    }
+    const Config& config = traffic_.config;
+    beast::error_code fault;
+    const auto address = asio::ip::make_address(config.address, fault);
+    if (fault) {
+      return refuse(fmt::format("{} is no address", config.address),
+                    "give --listen ADDRESS:PORT, the address as numbers");
+    }
+    const tcp::endpoint endpoint(address, config.port);
+    acceptor_.open(endpoint.protocol(), fault);
+    if (!fault) {
+      acceptor_.set_option(asio::socket_base::reuse_address(true), fault);
+    }
+    if (!fault) {
+      acceptor_.bind(endpoint, fault);
+    }
+    if (!fault) {
+      acceptor_.listen(asio::socket_base::max_listen_connections, fault);
+    }
+    if (fault) {
+      return refuse(fmt::format("{} port {}: {}", config.address, config.port, fault.message()),
+                    "give another --listen");
+    }
+    port_ = acceptor_.local_endpoint().port();
+    accept();
+    look();
+    thread_ = std::thread([this] { traffic_.io.run(); });
+    return {};
+  }
+
+  [[nodiscard]] std::uint16_t port() const noexcept override { return port_; }
+  [[nodiscard]] std::size_t streams() const noexcept override {
+    return traffic_.stream_count.load();
+  }
+  void publish(std::shared_ptr<const std::string> newest) override {
+    asio::post(traffic_.io, [this, newest = std::move(newest)] {
+      each([&newest](Stream& stream) { stream.publish(newest); });
+    });
+  }
+  void announce(std::shared_ptr<const std::string> message) override {
+    asio::post(traffic_.io, [this, message = std::move(message)] {
+      each([&message](Stream& stream) { stream.announce(message); });
+    });
+  }
+
+ private:
+  /// A stream may leave while it is told.
+  template <class Tell>
+  void each(Tell tell) {
+    const std::vector<Stream*> all(traffic_.streams.begin(), traffic_.streams.end());
+    for (Stream* const stream : all) {
+      tell(*stream);
+    }
+  }
+
+  Result<void> prepare_tls() {
+    const Config& config = traffic_.config;
+    if (config.certificate.empty()) {
+      return {};
+    }
+    tls_.emplace(asio::ssl::context::tls_server);
+    ::SSL_CTX_set_min_proto_version(tls_->native_handle(), TLS1_2_VERSION);
+    beast::error_code fault;
+    tls_->use_certificate_chain_file(config.certificate, fault);
+    if (fault) {
+      return refuse(config.certificate, "is no certificate that can be used: " + fault.message(),
+                    "give --tls-certificate a PEM file, the server's own certificate first");
+    }
+    tls_->use_private_key_file(config.key, asio::ssl::context::pem, fault);
+    if (fault) {
+      return refuse(config.key, "is no key of this certificate: " + fault.message(),
+                    "give --tls-key the PEM file of its key, without a password");
+    }
+    return {};
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](beast::error_code fault, tcp::socket socket) {
+      if (!fault) {
+        take(std::move(socket));
+      }
+      if (!acceptor_.is_open()) {
+        return;
+      }
+      if (fault) {
+        pause_.expires_after(kPauseAfterFault);
+        pause_.async_wait([this](beast::error_code /*fault*/) { accept(); });
+      } else {
+        accept();
+      }
+    });
+  }
+
+  void take(tcp::socket socket) {
+    beast::error_code fault;
+    const auto from = socket.remote_endpoint(fault);
+    if (fault || traffic_.connections >= traffic_.config.most_connections) {
+      return;  // it is closed
+    }
+    socket.set_option(tcp::no_delay(true), fault);
+    const std::string address = from.address().to_string();
+    if (tls_) {
+      std::make_shared<Connection<TlsTransport>>(
+          traffic_, TlsTransport(beast::tcp_stream(std::move(socket)), *tls_), address)
+          ->begin();
+    } else {
+      std::make_shared<Connection<PlainTransport>>(traffic_, PlainTransport(std::move(socket)),
+                                                   address)
+          ->begin();
+    }
+  }
+
+  void look() {
+    look_.expires_after(kLook);
+    look_.async_wait([this](beast::error_code /*fault*/) {
+      each([](Stream& stream) { stream.look(); });
+      look();
+    });
+  }
+
+  // The io context last to go: its handlers hold the connections, which look at the others.
+  std::optional<asio::ssl::context> tls_;
+  Traffic traffic_;
+  tcp::acceptor acceptor_;
+  asio::steady_timer pause_;
+  asio::steady_timer look_;
+  std::uint16_t port_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Server>> Server::open(Config config, Handlers handlers) {
+  auto server = std::make_unique<BeastServer>(std::move(config), std::move(handlers));
+  if (auto started = server->start(); !started) {
+    return std::unexpected(std::move(started.error()));
+  }
+  return server;
+}
+
+}  // namespace steadyrest::web

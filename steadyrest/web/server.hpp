@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/message.hpp>
+
+namespace steadyrest::web {
+
+/// HTTP and WebSocket, plain or over TLS, on Boost.Beast.
+///
+/// One thread does the traffic, another makes the answers, one after the other: a slow answer
+/// delays the next one, never a stream. Bounded: connections, streams, sizes of head and body,
+/// time. A stream's client that is slower than the stream gets the newest message and is told how
+/// many it has missed; it never delays another.
+class Server {
+ public:
+  struct Config {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 0;  ///< 0: any free one
+    // NOLINTBEGIN(readability-redundant-member-init)
+    std::string certificate = {};  ///< file, PEM; empty: no TLS
+    std::string key = {};
+    Gate::Config gate = {};
+    std::string stream_path = {};
+    // NOLINTEND(readability-redundant-member-init)
+    std::size_t most_connections = 64;
+    std::size_t most_streams = 32;
+    std::size_t most_head = 16 * 1024;
+    std::size_t most_body = 256 * 1024;
+    double patience_s = 15.0;  ///< for a whole request, or the next one
+  };
+  /// A stream may begin: its first message, and whether it may still go on, asked every second.
+  struct Admitted {
+    std::string first;
+    std::function<bool()> goes_on;
+  };
+  struct Handlers {
+    std::function<Response(const Request&)> answer;
+    /// Or why not.
+    std::function<std::variant<Admitted, Response>(const Request&)> admit;
+    std::function<double()> now_s;
+  };
+
+  /// Refused: an address or port that cannot be had, a certificate or key that cannot be used.
+  [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<Server>> open(Config config,
+                                                                             Handlers handlers);
+  Server() = default;
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+  virtual ~Server() = default;
+
+  [[nodiscard]] virtual std::uint16_t port() const noexcept = 0;
+  /// To each stream: the newest takes the place of one that is not sent yet. `{…}` without its
+  /// first brace: `"missed":n,` goes before it, how many this client did not get since the last.
+  virtual void publish(std::shared_ptr<const std::string> newest) = 0;
+  /// To each stream, in order; a client that leaves more than a few waiting is dropped.
+  virtual void announce(std::shared_ptr<const std::string> message) = 0;
+  [[nodiscard]] virtual std::size_t streams() const noexcept = 0;
+};
+
+}  // namespace steadyrest::web

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/web/server.hpp>
+
+namespace steadyrest::web {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using asio::ip::tcp;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A server that answers with what it was asked, and streams to whoever has the right cookie.
+class OnServer : public testing::Test {
+ protected:
+  std::unique_ptr<Server> open(Server::Config config = {}) {
+    config.gate.hosts = {"127.0.0.1"};
+    config.stream_path = "/stream";
+    auto server = Server::open(
+        std::move(config),
+        {.answer =
+             [this](const Request& request) {
+               asked.fetch_add(1);
+               Response out;
+               out.body = request.method + " " + request.path + " " + request.body;
+               return out;
+             },
+         .admit = [this](const Request& request) -> std::variant<Server::Admitted, Response> {
+           if (request.cookie != "in") {
+             return error(401, "not_logged_in", "no", "no");
+           }
+           return Server::Admitted{.first = "hello", .goes_on = [this] { return goes_on.load(); }};
+         },
+         .now_s = now_s});
+    EXPECT_TRUE(server.has_value());
+    return std::move(*server);
+  }
+
+  static tcp::socket connected(asio::io_context& io, const Server& server) {
+    tcp::socket socket(io);
+    socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
+    return socket;
+  }
+
+  /// Everything that comes back for these bytes.
+  static std::string said(const Server& server, const std::string& bytes) {
+    asio::io_context io;
+    tcp::socket socket = connected(io, server);
+    beast::error_code fault;
+    asio::write(socket, asio::buffer(bytes), fault);
+    std::string out;
+    asio::read(socket, asio::dynamic_buffer(out), fault);
+    return out;
+  }
+
+  static std::string request(const std::string& line, const std::string& head = {},
+                             const std::string& body = {}) {
+    return line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" + head +
+           (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
+           "\r\n" + body;
+  }
+
+  using Socket = websocket::stream<tcp::socket>;
+  static beast::error_code shake(Socket& socket, const std::string& cookie,
+                                 const std::string& origin = {}) {
+    socket.set_option(websocket::stream_base::decorator([&](websocket::request_type& head) {
+      head.set(http::field::cookie, cookie);
+      if (!origin.empty()) {
+        head.set(http::field::origin, origin);
+      }
+    }));
+    beast::error_code fault;
+    socket.handshake("127.0.0.1", "/stream", fault);
+    return fault;
+  }
+  static std::string next(Socket& socket) {
+    beast::flat_buffer buffer;
+    beast::error_code fault;
+    socket.read(buffer, fault);
+    return fault ? "closed" : beast::buffers_to_string(buffer.data());
+  }
+  static void until(const std::function<bool()>& done) {
+    while (!done()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  std::atomic<int> asked{0};
+  std::atomic<bool> goes_on{true};
+};
+
+TEST_F(OnServer, AnswersWithTheHeadsThatKeepOthersOut) {
+  const auto server = open();
+  const std::string got = said(*server, request("POST /a?b=c", {}, "body"));
+  EXPECT_THAT(got, StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(got, HasSubstr("POST /a body"));
+  EXPECT_THAT(got, HasSubstr("frame-ancestors 'none'"));
+}
+
+TEST_F(OnServer, RefusesWhatIsWrongBeforeAnybodyIsAsked) {
+  Server::Config config;
+  config.most_body = 100;
+  config.most_head = 1000;
+  const auto server = open(config);
+  EXPECT_THAT(said(*server, request("POST /a", {}, std::string(101, 'x'))), HasSubstr(" 413 "));
+  EXPECT_THAT(said(*server, request("GET /a", "X-Long: " + std::string(2000, 'x') + "\r\n")),
+              HasSubstr(" 431 "));
+  EXPECT_THAT(said(*server, request("GET /../etc/passwd")), HasSubstr(" 400 "));
+  EXPECT_THAT(said(*server, "rubbish\r\n\r\n"), HasSubstr(" 400 "));
+  EXPECT_THAT(said(*server, "GET / HTTP/1.1\r\nHost: evil.example\r\nConnection: close\r\n\r\n"),
+              HasSubstr(" 421 "));
+  EXPECT_THAT(said(*server, request("POST /a", "Origin: http://evil.example\r\n", "x")),
+              HasSubstr(" 403 "));
+  EXPECT_EQ(asked.load(), 0);
+  EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 200 "));
+}
+
+TEST_F(OnServer, CutsOffWhoeverIsTooSlow) {
+  Server::Config config;
+  config.patience_s = 0.2;
+  const auto server = open(config);
+  const auto begun = std::chrono::steady_clock::now();
+  EXPECT_EQ(said(*server, "GET / HTTP/1.1\r\nHost: 127"), "");
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds(190));
+  EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 200 "));
+}
+
+TEST_F(OnServer, TakesNoMoreConnectionsThanItMay) {
+  Server::Config config;
+  config.most_connections = 2;
+  const auto server = open(config);
+  asio::io_context io;
+  std::vector<tcp::socket> held;
+  held.push_back(connected(io, *server));
+  held.push_back(connected(io, *server));
+  EXPECT_EQ(said(*server, request("GET /")), "");
+  held.clear();
+  until([&] { return !said(*server, request("GET /")).empty(); });
+}
+
+TEST_F(OnServer, StreamsToThoseWhoAreAdmitted) {
+  const auto server = open();
+  asio::io_context io;
+  Socket in(connected(io, *server));
+  ASSERT_FALSE(shake(in, "in"));
+  EXPECT_EQ(next(in), "hello");
+  server->publish(std::make_shared<const std::string>("\"n\":1}"));
+  EXPECT_EQ(next(in), R"({"missed":0,"n":1})");
+  server->announce(std::make_shared<const std::string>("news"));
+  EXPECT_EQ(next(in), "news");
+  Socket out(connected(io, *server));
+  EXPECT_TRUE(shake(out, "out"));
+  Socket foreign(connected(io, *server));
+  EXPECT_TRUE(shake(foreign, "in", "http://evil.example"));
+  EXPECT_EQ(server->streams(), 1U);
+}
+
+TEST_F(OnServer, EndsAStreamThatMayNotGoOnOrThatSpeaks) {
+  const auto server = open();
+  asio::io_context io;
+  Socket talker(connected(io, *server));
+  ASSERT_FALSE(shake(talker, "in"));
+  EXPECT_EQ(next(talker), "hello");
+  talker.write(asio::buffer(std::string("{")));
+  EXPECT_EQ(next(talker), "closed");
+  Socket flood(connected(io, *server));
+  ASSERT_FALSE(shake(flood, "in"));
+  EXPECT_EQ(next(flood), "hello");
+  beast::error_code fault;
+  flood.write(asio::buffer(std::string(1 << 20, 'x')), fault);
+  EXPECT_EQ(next(flood), "closed");
+  Socket watcher(connected(io, *server));
+  ASSERT_FALSE(shake(watcher, "in"));
+  EXPECT_EQ(next(watcher), "hello");
+  goes_on.store(false);
+  EXPECT_EQ(next(watcher), "closed");
+  until([&] { return server->streams() == 0; });
+}
+
+TEST_F(OnServer, TellsASlowClientWhatItHasMissed) {
+  const auto server = open();
+  asio::io_context io;
+  Socket slow(connected(io, *server));
+  ASSERT_FALSE(shake(slow, "in"));
+  EXPECT_EQ(next(slow), "hello");
+  Socket quick(connected(io, *server));
+  ASSERT_FALSE(shake(quick, "in"));
+  EXPECT_EQ(next(quick), "hello");
+  // More than the system holds for a client that does not read.
+  const std::string filler(1 << 20, 'x');
+  constexpr int kSent = 64;
+  for (int n = 0; n < kSent; ++n) {
+    server->publish(std::make_shared<const std::string>("\"n\":" + std::to_string(n) + ",\"x\":\"" +
+                                                        filler + "\"}"));
+    EXPECT_THAT(next(quick), StartsWith("{\"missed\":0,\"n\":" + std::to_string(n) + ","));
+  }
+  int missed = 0;
+  int got = 0;
+  for (std::string line; !line.contains("\"n\":" + std::to_string(kSent - 1) + ",");) {
+    line = next(slow);
+    ASSERT_NE(line, "closed");
+    missed += std::stoi(line.substr(line.find(':') + 1));
+    ++got;
+  }
+  EXPECT_GT(missed, 0);
+  EXPECT_EQ(missed + got, kSent);
+}
+
+TEST_F(OnServer, IsRefusedWhatItCannotHave) {
+  const auto server = open();
+  Server::Config config;
+  config.port = server->port();
+  EXPECT_FALSE(Server::open(config, {}).has_value());
+  config.address = "nowhere";
+  EXPECT_FALSE(Server::open(config, {}).has_value());
+  config = {};
+  config.certificate = "/none.pem";
+  EXPECT_FALSE(Server::open(config, {}).has_value());
+}
+
+}  // namespace
+}  // namespace steadyrest::web

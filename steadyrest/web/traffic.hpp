@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <boost/asio.hpp>
+#include <boost/asio/ssl.hpp>
+
+#include <steadyrest/web/server.hpp>
+
+/// What the server's connections share; inside this room.
+namespace steadyrest::web {
+
+namespace asio = boost::asio;
+
+/// A client of the stream, whatever it is connected by. In the traffic's thread alone.
+class Stream {
+ public:
+  Stream() = default;
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+  virtual ~Stream() = default;
+  virtual void publish(const std::shared_ptr<const std::string>& newest) = 0;
+  virtual void announce(const std::shared_ptr<const std::string>& message) = 0;
+  virtual void look() = 0;  ///< whether it may go on
+};
+
+struct Traffic {
+  Traffic(Server::Config config_in, Server::Handlers handlers_in)
+      : config(std::move(config_in)), handlers(std::move(handlers_in)), gate(config.gate) {}
+
+  Server::Config config;
+  Server::Handlers handlers;
+  Gate gate;
+  std::set<Stream*> streams;
+  std::atomic<std::size_t> stream_count{0};
+  std::size_t connections = 0;
+  // Behind what its handlers' owners still touch when they go with it.
+  asio::io_context io{1};
+  asio::thread_pool answers{1};
+};
+
+}  // namespace steadyrest::web
