@@ -8,8 +8,21 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
+#include <steadyrest/supervisor/supervisor.hpp>
 
 namespace steadyrest::live {
+
+/// One axis as the layer sees it; mm and s, or rad and s.
+struct LiveAxis {
+  double position_au = 0.0;  ///< by the encoder
+  double following_au = 0.0;
+  double velocity_au_s = 0.0;
+  double velocity_bound_au_s = 0.0;  ///< of the estimate; infinite: there is none
+  double acceleration_au_s2 = 0.0;
+  double acceleration_bound_au_s2 = 0.0;
+  double displacement_mm = 0.0;  ///< by heat, forecast
+  double displacement_sd_mm = 0.0;
+};
 
 /// What a cycle leaves for those who look.
 struct LiveStatus {
@@ -23,11 +36,25 @@ struct LiveStatus {
   bool error_known = false;
   double contour_error_mm = 0.0;  ///< by the layer's own estimate
   double contour_limit_mm = 0.0;  ///< of the machine file
+  double feed_asked_ratio = 1.0;  ///< by the contour room
   double feed_ratio = 1.0;        ///< what the layer lets through; the panel's in observe
   double feed_panel_ratio = 1.0;
   double feed_effective_ratio = 1.0;  ///< as the control reports it
   double spindle_ratio = 1.0;
   double spindle_effective_ratio = 1.0;
+  double path_speed_mm_s = 0.0;
+  double spindle_rev_s = 0.0;
+  double predicted_error_mm = 0.0;  ///< the largest ahead with the step that was chosen
+  double limit_used_mm = 0.0;       ///< by the last decision: the limit less margin and reserve
+  bool path_known = false;
+  bool chatter_on = false;  ///< the chatter room is on
+  bool modulates = false;
+  double modulation_goal_ratio = 1.0;  ///< of the modulator, before drive and steps
+  double modulation_phase = 0.0;       ///< in periods, [0, 1)
+  double feed_per_tooth_ratio = 1.0;
+  bool heat_on = false;  ///< the thermal room is on
+  std::uint8_t axis_count = 0;
+  std::array<LiveAxis, kernel::signal::kMaxAxes> axis{};
   kernel::signal::AxisValues offset_mm{};
   kernel::signal::AxisValues path_offset_mm{};
   /// Feed, spindle, offset against heat, offset of the path.
@@ -35,5 +62,8 @@ struct LiveStatus {
   bool port_fault = false;
   std::array<char, 192> port_words{};  ///< of the last fault, ends with 0
 };
+
+/// What a cycle of the layer leaves, without what the loop itself counts.
+void look_at(const supervisor::Supervisor& layer, LiveStatus& into) noexcept;
 
 }  // namespace steadyrest::live

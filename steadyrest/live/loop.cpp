@@ -161,30 +161,19 @@ void Loop::count(const kernel::signal::Command& command) noexcept {
 }
 
 void Loop::publish() noexcept {
-  const kernel::signal::Frame& frame = layer_->frame();
-  const auto in_force = layer_->in_force();
-  const auto& contour = layer_->estimates().contour;
+  look_at(*layer_, now_);
   now_.cycles = figures_.cycles;
   now_.overruns = figures_.overruns;
-  now_.time_s = frame.time_s;
   now_.mode_wanted = wanted_.load();
-  now_.mode_in_force = layer_->mode_in_force();
-  now_.motion = frame.motion;
-  now_.program_line = frame.program_line;
-  now_.error_known = contour && contour->error_valid;
-  now_.contour_error_mm = now_.error_known ? contour->error_mm : 0.0;
-  if (now_.error_known && kernel::signal::in_cut(frame.motion) &&
+  now_.error_known = now_.error_known && !now_.port_fault;
+  if (now_.error_known && kernel::signal::in_cut(now_.motion) &&
       std::abs(now_.contour_error_mm) > config_.contour_limit_mm) {
     figures_.over_limit_s += config_.period_s;
   }
-  now_.feed_ratio = in_force.feed.ratio;
-  now_.feed_panel_ratio = frame.feed.panel_ratio;
-  now_.feed_effective_ratio = frame.feed.effective_ratio;
-  now_.spindle_ratio = in_force.spindle.ratio;
-  now_.spindle_effective_ratio = frame.spindle.effective_ratio;
-  now_.offset_mm = in_force.offset_mm;
-  now_.path_offset_mm = in_force.path_offset_mm;
   status_.store(now_);
+  if (config_.tap != nullptr) {
+    config_.tap->put(now_, port_.last);
+  }
 }
 
 void Loop::note_fault(const kernel::outcome::Refusal& refusal) noexcept {

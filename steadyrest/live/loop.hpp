@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <steadyrest/live/black_box.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/pace.hpp>
+#include <steadyrest/live/tap.hpp>
 #include <steadyrest/live/time_figures.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
@@ -45,7 +47,7 @@ struct Successor {
 /// The layer's only loop: one cycle a period until it is told to stop. README.md has the law.
 ///
 /// run() belongs to one thread. ask_mode() and ask_stop() may be called by any thread and by a
-/// signal's handler; status(), and offer() with withdraw(), by one other thread each.
+/// signal's handler; status() by any other thread; offer() with withdraw() by one.
 class Loop {
  public:
   struct Config {
@@ -65,6 +67,8 @@ class Loop {
     std::function<void(std::uint32_t)> on_reload = {};
     /// A fault begins: the last seconds are worth keeping.
     std::function<void(std::string_view reason)> on_fault = {};
+    /// For what is drawn of each cycle; null: nobody draws. Outlives the loop.
+    Tap* tap = nullptr;
     // NOLINTEND(readability-redundant-member-init)
   };
 
@@ -89,8 +93,12 @@ class Loop {
   [[nodiscard]] bool stop_asked() const noexcept { return stop_.load(); }
   /// Cycles that have ended: whether the loop goes on, for other threads.
   [[nodiscard]] std::uint64_t beats() const noexcept { return beats_.load(); }
-  /// The newest; of a loop that has not begun, an empty one.
-  [[nodiscard]] const LiveStatus& status() noexcept { return status_.load(); }
+  /// The newest; of a loop that has not begun, an empty one. The loop never waits for those who
+  /// look, only they for one another.
+  [[nodiscard]] LiveStatus status() noexcept {
+    const std::scoped_lock lock(looking_);
+    return status_.load();
+  }
   [[nodiscard]] const LoopFigures& figures() const noexcept { return figures_; }
 
  private:
@@ -105,6 +113,7 @@ class Loop {
       auto frame = port_.read();
       read_s = pace_.now_s();
       age_s = frame ? frame->age_s : 0.0;
+      last = frame ? *frame : kernel::signal::Frame();
       return frame;
     }
     kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override {
@@ -112,6 +121,7 @@ class Loop {
     }
     double read_s = 0.0;
     double age_s = 0.0;
+    kernel::signal::Frame last;  ///< its path lives to the end of the cycle
 
    private:
     kernel::port::Port& port_;
@@ -137,6 +147,7 @@ class Loop {
   std::atomic<std::uint64_t> beats_{0};
   double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
+  std::mutex looking_;
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;
   LoopFigures figures_;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/live/tap.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::signal::Frame;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+
+constexpr std::uint32_t kCyclesPerAhead = 32;
+/// The page shows about a second, but no less than a corner and its surroundings.
+constexpr double kSight_s = 1.0;
+constexpr double kShortest_mm = 5.0;
+constexpr double kLongest_mm = 200.0;
+
+Point first_three(const Frame& frame, double kernel::signal::AxisSample::* of) noexcept {
+  return {frame.axis[0].*of, frame.axis[1].*of, frame.axis[2].*of};
+}
+
+/// Points at even distances; `place` runs along with them, so that each segment is met once. At
+/// most as many segments as points: a path of very short ones is seen less far.
+void look_ahead(const Frame& frame, PathAhead& into) noexcept {
+  into.count = 0;
+  if (frame.path_index >= frame.path.size()) {
+    return;
+  }
+  const double sight_mm =
+      std::clamp(kSight_s * frame.programmed_feed_mm_s, kShortest_mm, kLongest_mm);
+  const double step_mm = sight_mm / static_cast<double>(PathAhead::kMost);
+  const std::size_t last = std::min(frame.path.size() - 1, frame.path_index + 8 * PathAhead::kMost);
+  std::size_t place = frame.path_index;
+  for (std::size_t i = 0; i < PathAhead::kMost; ++i) {
+    const double at_mm = frame.path_position_mm + step_mm * static_cast<double>(i);
+    while (place < last && frame.path[place].position_mm + frame.path[place].length_mm < at_mm) {
+      ++place;
+    }
+    const PathSegment& segment = frame.path[place];
+    into.point_mm[into.count++] = math::geometry::point_at(
+        segment, math::geometry::parameter_at(segment, at_mm - segment.position_mm));
+    if (segment.position_mm + segment.length_mm < at_mm) {
+      return;  // the path's end
+    }
+  }
+}
+
+}  // namespace
+
+void Tap::put(const LiveStatus& status, const Frame& frame) noexcept {
+  if (!watched_.load(std::memory_order_relaxed)) {
+    return;
+  }
+  const bool taken = samples_->try_push(
+      {.cycle = status.cycles,
+       .time_s = status.time_s,
+       .position_mm = first_three(frame, &kernel::signal::AxisSample::actual_mm),
+       .following_mm = first_three(frame, &kernel::signal::AxisSample::following_error_mm),
+       .error_known = status.error_known,
+       .contour_error_mm = status.contour_error_mm,
+       .feed_asked_ratio = status.feed_asked_ratio,
+       .feed_ratio = status.feed_ratio,
+       .feed_effective_ratio = status.feed_effective_ratio,
+       .feed_panel_ratio = status.feed_panel_ratio,
+       .path_speed_mm_s = status.path_speed_mm_s,
+       .spindle_rev_s = status.spindle_rev_s});
+  if (!taken) {
+    lost_.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (++since_ahead_ >= kCyclesPerAhead) {
+    since_ahead_ = 0;
+    look_ahead(frame, next_);
+    ahead_.store(next_);
+  }
+}
+
+std::uint64_t Tap::take(std::vector<TapSample>& into) {
+  into.clear();
+  while (auto sample = samples_->try_pop()) {
+    into.push_back(*sample);
+  }
+  return lost_.load(std::memory_order_relaxed);
+}
+
+}  // namespace steadyrest::live

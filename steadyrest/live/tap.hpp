@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <steadyrest/kernel/rt/ring.hpp>
+#include <steadyrest/kernel/rt/snapshot.hpp>
+#include <steadyrest/kernel/signal/frame.hpp>
+#include <steadyrest/live/live_status.hpp>
+
+namespace steadyrest::live {
+
+/// What is drawn of a cycle.
+struct TapSample {
+  std::uint64_t cycle = 0;
+  double time_s = 0.0;
+  kernel::signal::Point position_mm{};  ///< of the first three axes, by their encoders
+  kernel::signal::Point following_mm{};
+  bool error_known = false;
+  double contour_error_mm = 0.0;
+  double feed_asked_ratio = 1.0;
+  double feed_ratio = 1.0;
+  double feed_effective_ratio = 1.0;
+  double feed_panel_ratio = 1.0;
+  double path_speed_mm_s = 0.0;
+  double spindle_rev_s = 0.0;
+};
+
+/// The commanded path from the present point on, as a polyline; empty where it is not known.
+struct PathAhead {
+  static constexpr std::size_t kMost = 64;
+  std::size_t count = 0;
+  std::array<kernel::signal::Point, kMost> point_mm{};
+};
+
+/// Carries what each cycle has seen to those who draw it: the cycle puts it in, one other thread
+/// takes it out. put() runs in the cycle: bounded, no allocation, no lock. Nobody who takes too
+/// late delays it: what finds no room is lost and counted.
+class Tap {
+ public:
+  Tap() : samples_(std::make_unique<Samples>()) {}
+
+  /// Only while somebody watches; from any thread.
+  void watch(bool on) noexcept { watched_.store(on, std::memory_order_relaxed); }
+
+  /// In the cycle, with the frame as it was read: its path lies there.
+  void put(const LiveStatus& status, const kernel::signal::Frame& frame) noexcept;
+
+  /// All samples since the last time, and how many were lost in all.
+  std::uint64_t take(std::vector<TapSample>& into);
+  /// The newest; of the thread that takes.
+  [[nodiscard]] const PathAhead& ahead() noexcept { return ahead_.load(); }
+
+ private:
+  static constexpr std::size_t kSamples = 4096;
+  using Samples = kernel::rt::Ring<TapSample, kSamples>;
+
+  std::unique_ptr<Samples> samples_;
+  kernel::rt::Snapshot<PathAhead> ahead_;
+  PathAhead next_;
+  std::atomic<bool> watched_{false};
+  std::atomic<std::uint64_t> lost_{0};
+  std::uint32_t since_ahead_ = 0;
+};
+
+}  // namespace steadyrest::live

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/tap.hpp>
+#include <steadyrest/live/test/desk.hpp>
+
+namespace steadyrest::live {
+namespace {
+
+using kernel::machine::Mode;
+using test::Desk;
+
+Loop::Config tapped(const Desk& desk, Tap& tap, std::uint64_t cycles) {
+  Loop::Config config{.period_s = desk.machine.control.interpolator_period_s,
+                      .contour_limit_mm = 0.01,
+                      .mode = Mode::observe,
+                      .most_cycles = cycles};
+  config.tap = &tap;
+  return config;
+}
+
+TEST(Tap, HasEveryCycleOnceAndThePathAhead) {
+  Desk desk;
+  Tap tap;
+  tap.watch(true);
+  Loop loop(*desk.port, *desk.layer, desk.pace, tapped(desk, tap, 200));
+  loop.run();
+  std::vector<TapSample> samples;
+  EXPECT_EQ(tap.take(samples), 0U);
+  ASSERT_EQ(samples.size(), 200U);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].cycle, i + 1);
+  }
+  const TapSample& last = samples.back();
+  EXPECT_TRUE(last.error_known);
+  EXPECT_GT(last.path_speed_mm_s, 0.0);
+  // The circle that the desk's machine cuts: even steps along it, from about the last position on.
+  const PathAhead& ahead = tap.ahead();
+  ASSERT_GT(ahead.count, 20U);
+  const auto apart = [&](std::size_t i) {
+    return std::hypot(ahead.point_mm[i][0] - ahead.point_mm[i - 1][0],
+                      ahead.point_mm[i][1] - ahead.point_mm[i - 1][1]);
+  };
+  for (std::size_t i = 1; i + 1 < ahead.count; ++i) {
+    EXPECT_NEAR(apart(i), apart(1), 0.01 * apart(1)) << i;
+  }
+  EXPECT_NEAR(ahead.point_mm[ahead.count - 1][0], 10.0, 1e-9) << "to the path's end";
+  EXPECT_LT(std::hypot(ahead.point_mm[0][0] - last.position_mm[0],
+                       ahead.point_mm[0][1] - last.position_mm[1]),
+            5.0);
+}
+
+TEST(Tap, LosesTheNewestAndCountsThemWhereNobodyTakes) {
+  Tap tap;
+  tap.watch(true);
+  LiveStatus status;
+  for (std::uint64_t n = 1; n <= 5000; ++n) {
+    status.cycles = n;
+    tap.put(status, {});
+  }
+  std::vector<TapSample> samples;
+  EXPECT_EQ(tap.take(samples), 5000U - 4096U);
+  EXPECT_EQ(samples.back().cycle, 4096U);
+  tap.put(status, {});
+  tap.take(samples);
+  EXPECT_EQ(samples.size(), 1U);
+}
+
+TEST(Tap, DoesNothingWhileNobodyWatches) {
+  Tap tap;
+  tap.put({}, {});
+  std::vector<TapSample> samples;
+  tap.take(samples);
+  EXPECT_TRUE(samples.empty());
+}
+
+TEST(Tap, AllocatesNothingInTheCycle) {
+  Tap tap;
+  tap.watch(true);
+  const kernel::rt::testing::AllocationGuard guard;
+  for (int n = 0; n < 100; ++n) {
+    tap.put({}, {});
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+}  // namespace
+}  // namespace steadyrest::live
