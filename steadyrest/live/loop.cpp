@@ -57,6 +57,7 @@ const LoopFigures& Loop::run() noexcept {
       wake = pace_.wait();
     }
     succeed();
+    pass_note_on();
     if (!goes_on(pace_.now_s())) {
       return figures_;
     }
@@ -85,6 +86,19 @@ void Loop::succeed() noexcept {
     config_.on_reload(next->text);
   }
   taken_.fetch_add(1);  // last: what was before may go from here on
+}
+
+bool Loop::note(std::string_view words) {
+  LoopNote note{.size = std::min(words.size(), LoopNote::kLongest), .text = {}};
+  std::copy_n(words.begin(), note.size, note.text.begin());
+  const std::scoped_lock lock(noting_);
+  return notes_.try_push(note);
+}
+
+void Loop::pass_note_on() noexcept {
+  if (const auto note = notes_.try_pop(); note && config_.on_note) {
+    config_.on_note({note->text.data(), note->size});
+  }
 }
 
 /// Sets the mode of the next cycle; false once there is none.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -13,6 +15,7 @@
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/port/port.hpp>
+#include <steadyrest/kernel/rt/ring.hpp>
 #include <steadyrest/kernel/rt/snapshot.hpp>
 #include <steadyrest/live/black_box.hpp>
 #include <steadyrest/live/live_status.hpp>
@@ -44,6 +47,13 @@ struct Successor {
   std::uint32_t text = 0;  ///< the file's text, by its number in a record
 };
 
+/// Words on their way to the cycle.
+struct LoopNote {
+  static constexpr std::size_t kLongest = 160;
+  std::size_t size = 0;
+  std::array<char, kLongest> text{};
+};
+
 /// The layer's only loop: one cycle a period until it is told to stop. README.md has the law.
 ///
 /// run() belongs to one thread. ask_mode() and ask_stop() may be called by any thread and by a
@@ -67,6 +77,8 @@ class Loop {
     std::function<void(std::uint32_t)> on_reload = {};
     /// A fault begins: the last seconds are worth keeping.
     std::function<void(std::string_view reason)> on_fault = {};
+    /// In the cycle: words for a record, of note().
+    std::function<void(std::string_view words)> on_note = {};
     /// For what is drawn of each cycle; null: nobody draws. Outlives the loop.
     Tap* tap = nullptr;
     // NOLINTEND(readability-redundant-member-init)
@@ -82,6 +94,9 @@ class Loop {
   const LoopFigures& run() noexcept;
 
   void ask_mode(kernel::machine::Mode mode) noexcept { wanted_.store(mode); }
+  /// Words for the record, at most LoopNote::kLongest bytes of them; from any thread. False: too many
+  /// wait.
+  bool note(std::string_view words);
   [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
   void ask_stop() noexcept { stop_.store(true); }
   /// Takes over before the next cycle: once taken() has risen, the layer before it may go.
@@ -129,6 +144,7 @@ class Loop {
   };
 
   void succeed() noexcept;
+  void pass_note_on() noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
   void watch() noexcept;
@@ -147,6 +163,8 @@ class Loop {
   std::atomic<std::uint64_t> beats_{0};
   double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
+  std::mutex noting_;
+  kernel::rt::Ring<LoopNote, 32> notes_;
   std::mutex looking_;
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;

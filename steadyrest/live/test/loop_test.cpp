@@ -67,6 +67,19 @@ Loop::Config until_finished(const Desk& desk, Mode mode) {
           .finished = [&desk] { return desk.port->finished(); }};
 }
 
+TEST(Loop, PassesNotesOnInOrderOneACycle) {
+  Desk desk;
+  std::vector<std::string> notes;
+  Loop::Config config = until_finished(desk, Mode::observe);
+  config.most_cycles = 10;
+  config.on_note = [&](std::string_view words) { notes.emplace_back(words); };
+  Loop loop(*desk.port, *desk.layer, desk.pace, config);
+  EXPECT_TRUE(loop.note("anna asked for act"));
+  EXPECT_TRUE(loop.note(std::string(500, 'x')));
+  loop.run();
+  EXPECT_EQ(notes, (std::vector<std::string>{"anna asked for act", std::string(160, 'x')}));
+}
+
 TEST(Loop, ObservesWithoutWriting) {
   Desk desk;
   Spy spy(*desk.port);

@@ -66,6 +66,9 @@ void RunRecord::listen_to(steadyrest::live::Loop::Config& config) {
   config.on_reload = [this](std::uint32_t text) {
     writer_->event(record::EventKind::reload, text);
   };
+  config.on_note = [this](std::string_view words) {
+    writer_->event(record::EventKind::note, words);
+  };
   config.on_fault = [this](std::string_view reason) { writer_->keep(reason); };
   config.on_command = [this](const kernel::signal::Command& command) { port_.record(command); };
 }

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/live_page/api.hpp>
+#include <steadyrest/apps/live_page/assets.hpp>
+#include <steadyrest/apps/live_page/machine_desk.hpp>
+#include <steadyrest/apps/live_page/records.hpp>
+#include <steadyrest/live/protocol.hpp>
+#include <steadyrest/live/status_json.hpp>
+#include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/secret.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+using kernel::machine::Mode;
+using web::Role;
+
+constexpr std::string_view kApi = "/api/";
+constexpr std::string_view kRecords = "/api/v1/records/";
+constexpr std::string_view kReplay = "/replay";
+
+constexpr std::array<Route, 13> kRoutes = {{
+    {"GET", "/api/v1/session", true},
+    {"POST", "/api/v1/session", true},
+    {"DELETE", "/api/v1/session"},
+    {"GET", "/api/v1/status"},
+    {"POST", "/api/v1/mode", false, Role::operating},
+    {"POST", "/api/v1/hand-back"},
+    {"GET", "/api/v1/machine"},
+    {"POST", "/api/v1/machine/check"},
+    {"POST", "/api/v1/machine/apply", false, Role::engineer},
+    {"GET", "/api/v1/records"},
+    {"GET", kRecords},
+    {"POST", kRecords, false, Role::engineer},
+    {"GET", "/api/v1/openapi.json", true},
+}};
+
+bool matches(const Route& route, std::string_view path) {
+  return route.path.ends_with('/') ? path.size() > route.path.size() && path.starts_with(route.path)
+                                   : path == route.path;
+}
+
+/// Of a path that exists: no route for its method.
+web::Response wrong_method(std::string_view path) {
+  std::string allowed;
+  for (const Route& route : kRoutes) {
+    if (matches(route, path)) {
+      allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
+    }
+  }
+  if (allowed.empty()) {
+    return web::error(404, "not_found", "there is nothing at this address",
+                      "see /api/v1/openapi.json");
+  }
+  web::Response out =
+      web::error(405, "method_not_allowed", "this address has another method", "use " + allowed);
+  out.head.emplace_back("Allow", allowed);
+  return out;
+}
+
+web::Response asset(const web::Request& request) {
+  const bool reads = request.method == "GET" || request.method == "HEAD";
+  const Asset* const found = reads ? find_asset(request.path) : nullptr;
+  return found != nullptr ? response_of(*found) : wrong_method(request.path);
+}
+
+std::string author(const web::Caller& caller) {
+  return fmt::format("{} ({})", caller.name, word(caller.role));
+}
+
+}  // namespace
+
+Api::Api(const Desk& desk, const Login::Config& login, std::function<double()> now_s)
+    : desk_(desk), login_(login), stream_(desk), now_s_(std::move(now_s)) {}
+
+std::span<const Route> Api::routes() noexcept {
+  return kRoutes;
+}
+
+// From the outside in: is there such a thing, who asks, may they, is it meant.
+web::Response Api::answer(const web::Request& request) {
+  if (!request.path.starts_with(kApi)) {
+    return asset(request);
+  }
+  const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
+  const auto* const route = std::ranges::find_if(kRoutes, [&](const Route& at) {
+    return at.method == method && matches(at, request.path);
+  });
+  if (route == kRoutes.end()) {
+    return wrong_method(request.path);
+  }
+  const auto who = login_.who(request, now_s_());
+  if (!who && !route->open) {
+    return web::error(401, "not_logged_in", "nobody is logged in", "log in first");
+  }
+  if (who && who->caller.role < route->role) {
+    return web::error(403, "role_too_low",
+                      fmt::format("this takes the role {}; {} has {}", word(route->role),
+                                  who->caller.name, word(who->caller.role)),
+                      "ask somebody who has it");
+  }
+  const bool writes = method != "GET";
+  if (writes && who && who->csrf && !web::same_secret(*who->csrf, request.csrf)) {
+    return web::error(403, "csrf", "the head X-Steadyrest-CSRF is missing or wrong",
+                      "send `csrf` of /api/v1/session");
+  }
+  const bool is_json = request.content_type == "application/json" ||
+                       request.content_type.starts_with("application/json;");
+  if (method == "POST" && !is_json) {
+    return web::error(415, "unsupported_type", "the body is not said to be JSON",
+                      "send Content-Type: application/json");
+  }
+  return run(*route, {.request = request,
+                      .caller = who ? who->caller : web::Caller{},
+                      .rest = request.path.substr(std::min(route->path.size(), request.path.size()))});
+}
+
+web::Response Api::run(const Route& route, const Call& call) {
+  if (route.path == "/api/v1/session") {
+    return route.method == "GET"    ? login_.show(call.request, now_s_())
+           : route.method == "POST" ? login_.begin(call.request, now_s_())
+                                    : login_.end(call.request);
+  }
+  if (route.method == "POST") {
+    return write(route, call);
+  }
+  if (route.path == "/api/v1/status") {
+    web::Response out;
+    out.body = steadyrest::live::answer(desk_.asked, R"({"version":1,"ask":"status"})");
+    return out;
+  }
+  if (route.path == "/api/v1/machine") {
+    return show_machine(desk_);
+  }
+  if (route.path == "/api/v1/records") {
+    return list_records(desk_, call.request);
+  }
+  return route.path == kRecords ? show_record(desk_, call.request, call.rest)
+                                : response_of(openapi());
+}
+
+web::Response Api::write(const Route& route, const Call& call) {
+  const Json asked = Json::parse(call.request.body, nullptr, false);
+  if (!asked.is_object()) {
+    return web::error(400, "bad_request", "the body is no JSON object", "send {…}");
+  }
+  if (route.path == "/api/v1/mode") {
+    return set_mode(call, asked);
+  }
+  if (route.path == "/api/v1/hand-back") {
+    return hand_back(call);
+  }
+  if (route.path == "/api/v1/machine/check") {
+    return check_machine(desk_, asked);
+  }
+  if (route.path == "/api/v1/machine/apply") {
+    return apply_machine(desk_, asked, author(call.caller));
+  }
+  if (call.rest.ends_with(kReplay)) {
+    return replay_record(desk_, call.rest.substr(0, call.rest.size() - kReplay.size()));
+  }
+  return wrong_method(call.request.path + kReplay.data());
+}
+
+web::Response Api::set_mode(const Call& call, const Json& asked) {
+  const Json name = asked.value("mode", Json());
+  const auto mode =
+      name.is_string() ? steadyrest::live::mode_of(name.get<std::string>()) : std::nullopt;
+  if (!mode) {
+    return web::error(422, "refused", "`mode` is none of them; allowed: observe, advise, act",
+                      "give one of these");
+  }
+  if (*mode == Mode::act && asked.value("confirm", Json()) != Json(true)) {
+    return web::error(422, "refused", "in mode act the layer moves the machine's overrides and axes",
+                      "send \"confirm\": true");
+  }
+  desk_.asked.loop.note(fmt::format("page: {} asked for {}", author(call.caller),
+                                    steadyrest::live::word(*mode)));
+  desk_.asked.loop.ask_mode(*mode);
+  return live_page::answer({{"mode_wanted", steadyrest::live::word(*mode)}});
+}
+
+web::Response Api::hand_back(const Call& call) {
+  desk_.asked.loop.ask_mode(Mode::observe);
+  desk_.asked.loop.note(fmt::format("page: {} handed back", author(call.caller)));
+  return live_page::answer({{"mode_wanted", steadyrest::live::word(Mode::observe)}});
+}
+
+std::variant<web::Server::Admitted, web::Response> Api::admit(const web::Request& request) {
+  if (!login_.who(request, now_s_())) {
+    return web::error(401, "not_logged_in", "nobody is logged in", "log in first");
+  }
+  return web::Server::Admitted{
+      .first = stream_.hello(),
+      .goes_on = [this, request] { return login_.goes_on(request, now_s_()); }};
+}
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include <steadyrest/apps/live_page/desk.hpp>
+#include <steadyrest/apps/live_page/login.hpp>
+#include <steadyrest/apps/live_page/stream.hpp>
+#include <steadyrest/web/server.hpp>
+
+namespace steadyrest::apps::live_page {
+
+/// Where a request goes, and what it takes.
+struct Route {
+  std::string_view method;
+  std::string_view path;  ///< one that ends in `/` has a name behind it
+  bool open = false;      ///< before a log-in too
+  web::Role role = web::Role::viewer;
+};
+
+/// The page's HTTP interface (docs/page-api.md). Its answers come one after the other.
+class Api {
+ public:
+  static constexpr std::string_view kStream = "/api/v1/stream";
+
+  Api(const Desk& desk, const Login::Config& login, std::function<double()> now_s);
+
+  [[nodiscard]] web::Response answer(const web::Request& request);
+  /// A stream for whoever is logged in.
+  [[nodiscard]] std::variant<web::Server::Admitted, web::Response> admit(
+      const web::Request& request);
+  [[nodiscard]] const std::string& key() const noexcept { return login_.key(); }
+
+  /// All of them; `/api/v1/openapi.json` describes the same.
+  [[nodiscard]] static std::span<const Route> routes() noexcept;
+
+ private:
+  /// A request whose caller may make it.
+  struct Call {
+    const web::Request& request;
+    web::Caller caller;
+    std::string rest;  ///< behind a path that ends in `/`
+  };
+  [[nodiscard]] web::Response run(const Route& route, const Call& call);
+  [[nodiscard]] web::Response write(const Route& route, const Call& call);
+  [[nodiscard]] web::Response set_mode(const Call& call, const Json& asked);
+  [[nodiscard]] web::Response hand_back(const Call& call);
+
+  const Desk& desk_;
+  Login login_;
+  StreamText stream_;
+  std::function<double()> now_s_;
+};
+
+}  // namespace steadyrest::apps::live_page

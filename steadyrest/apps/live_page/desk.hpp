@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/live/protocol.hpp>
+#include <steadyrest/live/tap.hpp>
+#include <steadyrest/passport/file/consistency.hpp>
+#include <steadyrest/web/message.hpp>
+#include <steadyrest/web/role.hpp>
+
+namespace steadyrest::apps::live_page {
+
+using Json = nlohmann::ordered_json;
+
+/// The running layer as the page has it before it.
+struct Desk {
+  steadyrest::live::Asked asked;  ///< what the socket's clients ask too
+  steadyrest::live::Tap& tap;
+  kernel::machine::Machine machine;  ///< that the run began with
+  std::string machine_file;
+  std::string records;  ///< folder of past runs; empty: none
+  /// What `doctor` finds in a machine file.
+  std::function<std::vector<passport::Finding>(const kernel::machine::Machine&)> findings;
+  double cycle_s = 0.001;
+};
+
+/// An answer with `version` and these keys.
+[[nodiscard]] web::Response answer(Json keys, unsigned status = 200);
+/// One JSON line, whatever bytes its texts have.
+[[nodiscard]] std::string text_of(const Json& json);
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/live_page/api.hpp>
+#include <steadyrest/apps/live_page/live_page.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/web/accounts.hpp>
+#include <steadyrest/web/server.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr auto kFrame = std::chrono::microseconds(33'333);
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool is_loopback(const std::string& address) {
+  return address.starts_with("127.") || address == "::1";
+}
+
+std::string in_address(const std::string& address) {
+  return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
+web::Gate::Config gate_of(const LivePage::Config& config) {
+  web::Gate::Config gate;
+  gate.hosts = {in_address(config.address), "localhost", "127.0.0.1", "[::1]"};
+  gate.outer_origin = config.outer_origin;
+  if (const std::size_t at = config.outer_origin.find("://"); at != std::string::npos) {
+    gate.hosts.push_back(config.outer_origin.substr(at + 3));
+  }
+  return gate;
+}
+
+class Page final : public LivePage {
+ public:
+  Page(Config config, const Desk& desk)
+      : config_(std::move(config)),
+        desk_(desk),
+        api_(desk, {.accounts_file = config_.accounts_file}, now_s),
+        frames_(desk) {}
+  Page(const Page&) = delete;
+  Page& operator=(const Page&) = delete;
+  ~Page() override {
+    ends_.store(true);
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+
+  Result<void> start() {
+    web::Server::Config server;
+    server.address = config_.address;
+    server.port = config_.port;
+    server.certificate = config_.certificate;
+    server.key = config_.key;
+    server.gate = gate_of(config_);
+    server.stream_path = Api::kStream;
+    auto opened = web::Server::open(
+        std::move(server), {.answer = [this](const auto& request) { return api_.answer(request); },
+                            .admit = [this](const auto& request) { return api_.admit(request); },
+                            .now_s = now_s});
+    if (!opened) {
+      return std::unexpected(std::move(opened.error()));
+    }
+    server_ = std::move(*opened);
+    thread_ = std::thread([this] { send(); });
+    return {};
+  }
+
+  [[nodiscard]] std::string address() const override {
+    return fmt::format("{}://{}:{}/", config_.certificate.empty() ? "http" : "https",
+                       in_address(config_.address), server_->port());
+  }
+  [[nodiscard]] std::string address_with_key() const override {
+    return api_.key().empty() ? address() : address() + "#key=" + api_.key();
+  }
+
+ private:
+  void send() {
+    auto next = std::chrono::steady_clock::now();
+    while (!ends_.load()) {
+      const bool watched = server_->streams() > 0;
+      desk_.tap.watch(watched);
+      if (watched) {
+        server_->publish(std::make_shared<const std::string>(frames_.frame()));
+      }
+      next = std::max(next + kFrame, std::chrono::steady_clock::now());
+      std::this_thread::sleep_until(next);
+    }
+    desk_.tap.watch(false);
+  }
+
+  Config config_;
+  const Desk& desk_;
+  Api api_;
+  StreamText frames_;
+  std::unique_ptr<web::Server> server_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+}  // namespace
+
+Result<void> LivePage::check(const Config& config) {
+  const bool reached = !is_loopback(config.address) || !config.outer_origin.empty();
+  if (reached && config.accounts_file.empty()) {
+    return refuse("the page would be open to others without accounts",
+                  "make accounts with `steadyrest page user add` and give --users FILE");
+  }
+  if (!is_loopback(config.address) && config.certificate.empty() && config.outer_origin.empty()) {
+    return refuse("passwords would go over the network unencrypted",
+                  "give --tls-certificate and --tls-key, or --behind-proxy ORIGIN where a proxy "
+                  "encrypts");
+  }
+  if (config.certificate.empty() != config.key.empty()) {
+    return refuse("a certificate needs its key", "give both --tls-certificate and --tls-key");
+  }
+  if (!config.accounts_file.empty()) {
+    const auto accounts = web::Accounts::read(config.accounts_file);
+    if (!accounts) {
+      return std::unexpected(accounts.error());
+    }
+  }
+  return {};
+}
+
+Result<std::unique_ptr<LivePage>> LivePage::open(const Config& config, const Desk& desk) {
+  if (auto checked = check(config); !checked) {
+    return std::unexpected(std::move(checked.error()));
+  }
+  auto page = std::make_unique<Page>(config, desk);
+  if (auto started = page->start(); !started) {
+    return std::unexpected(std::move(started.error()));
+  }
+  return page;
+}
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/apps/live_page/desk.hpp>
+#include <steadyrest/apps/live_page/login.hpp>
+#include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/secret.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+constexpr std::string_view kCookie = "steadyrest_session";
+constexpr std::string_view kBearer = "Bearer ";
+constexpr web::RateLimit::Config kFailures{.per_s = 5.0 / 60.0, .burst = 5.0, .most_keys = 4096};
+
+std::string head_of(const std::string& session, bool secure, bool ends) {
+  return fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", kCookie, session,
+                     secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
+}
+
+std::string text(const Json& from, const char* key) {
+  const auto at = from.find(key);
+  return at != from.end() && at->is_string() ? at->get<std::string>() : "";
+}
+
+}  // namespace
+
+Login::Login(const Config& config)
+    : config_(config),
+      key_(config.accounts_file.empty() ? web::new_secret() : ""),
+      failures_(kFailures) {}
+
+std::optional<Login::Who> Login::who(const web::Request& request, double now_s) {
+  const std::string_view authorization = request.authorization;
+  if (authorization.starts_with(kBearer)) {
+    const auto accounts = web::Accounts::read(config_.accounts_file);
+    const auto caller = accounts ? accounts->of_token(authorization.substr(kBearer.size()))
+                                 : std::optional<web::Caller>();
+    return caller ? std::optional(Who{.caller = *caller, .csrf = std::nullopt}) : std::nullopt;
+  }
+  const auto session = sessions_.find(web::cookie(request, kCookie), now_s);
+  return session ? std::optional(Who{.caller = session->caller, .csrf = session->csrf})
+                 : std::nullopt;
+}
+
+bool Login::goes_on(const web::Request& request, double now_s) const {
+  return !request.authorization.empty() ||
+         sessions_.lives(web::cookie(request, kCookie), now_s);
+}
+
+web::Response Login::show(const web::Request& request, double now_s) {
+  const auto seen = who(request, now_s);
+  Json session;
+  if (seen) {
+    session = {{"name", seen->caller.name}, {"role", word(seen->caller.role)}};
+    session["csrf"] = seen->csrf ? Json(*seen->csrf) : Json(nullptr);
+  }
+  return answer({{"session", session}, {"accounts", key_.empty()}, {"key_login", !key_.empty()}});
+}
+
+// Read each time: who was removed cannot log in again.
+std::optional<web::Caller> Login::check(const std::string& name, const std::string& password,
+                                        const std::string& key) const {
+  if (!key_.empty()) {
+    return web::same_secret(key, key_)
+               ? std::optional(web::Caller{.name = "local", .role = web::Role::engineer})
+               : std::nullopt;
+  }
+  const auto accounts = web::Accounts::read(config_.accounts_file);
+  return accounts ? accounts->check(name, password) : std::nullopt;
+}
+
+web::Response Login::begin(const web::Request& request, double now_s) {
+  const Json asked = Json::parse(request.body, nullptr, false);
+  if (!asked.is_object()) {
+    return web::error(400, "bad_request", "the body is no JSON object",
+                      R"(send {"name":…,"password":…} or {"key":…})");
+  }
+  const std::string name = text(asked, "name");
+  // Of an account from anywhere, and of an address with any account.
+  const std::string of_name = "name " + name;
+  if (!failures_.has_room(request.address, now_s) || !failures_.has_room(of_name, now_s)) {
+    web::Response out = web::error(429, "too_many_failures", "too many failed log-ins",
+                                   "wait a minute, then try again");
+    const double wait_s =
+        std::max(failures_.wait_s(request.address, now_s), failures_.wait_s(of_name, now_s));
+    out.head.emplace_back("Retry-After", fmt::format("{}", std::ceil(wait_s)));
+    return out;
+  }
+  const auto caller = check(name, text(asked, "password"), text(asked, "key"));
+  if (!caller) {
+    static_cast<void>(failures_.take(request.address, now_s));
+    static_cast<void>(failures_.take(of_name, now_s));
+    return web::error(401, "wrong_password", "this is not a name with its password, nor the key",
+                      "try again, or ask who keeps the accounts");
+  }
+  const auto begun = sessions_.begin(*caller, now_s);
+  web::Response out = answer({{"session",
+                               {{"name", caller->name},
+                                {"role", word(caller->role)},
+                                {"csrf", begun.session.csrf}}},
+                              {"accounts", key_.empty()},
+                              {"key_login", !key_.empty()}});
+  out.head.emplace_back("Set-Cookie", head_of(begun.id, request.secure, false));
+  return out;
+}
+
+web::Response Login::end(const web::Request& request) {
+  sessions_.end(web::cookie(request, kCookie));
+  web::Response out;
+  out.status = 204;
+  out.head.emplace_back("Set-Cookie", head_of("", request.secure, true));
+  return out;
+}
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <steadyrest/web/accounts.hpp>
+#include <steadyrest/web/message.hpp>
+#include <steadyrest/web/rate_limit.hpp>
+#include <steadyrest/web/sessions.hpp>
+
+namespace steadyrest::apps::live_page {
+
+/// Who is at the other end: by a session's cookie or a script's token.
+///
+/// Without a file of accounts the process has a key of its own, of the role engineer: whoever may see
+/// what `run` prints may use it.
+class Login {
+ public:
+  struct Config {
+    std::string accounts_file;  ///< empty: the key alone
+  };
+  /// Who asks, and the session they do it by; without one, by a token.
+  struct Who {
+    web::Caller caller;
+    std::optional<std::string> csrf;
+  };
+
+  explicit Login(const Config& config);
+
+  /// Empty where there are accounts.
+  [[nodiscard]] const std::string& key() const noexcept { return key_; }
+
+  [[nodiscard]] std::optional<Who> who(const web::Request& request, double now_s);
+  /// Whether the session of a stream goes on; a token's does while the process lives.
+  [[nodiscard]] bool goes_on(const web::Request& request, double now_s) const;
+
+  [[nodiscard]] web::Response show(const web::Request& request, double now_s);
+  [[nodiscard]] web::Response begin(const web::Request& request, double now_s);
+  [[nodiscard]] web::Response end(const web::Request& request);
+
+ private:
+  [[nodiscard]] std::optional<web::Caller> check(const std::string& name,
+                                                 const std::string& password,
+                                                 const std::string& key) const;
+
+  Config config_;
+  std::string key_;
+  web::Sessions sessions_;
+  web::RateLimit failures_;
+};
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
+
+#include <steadyrest/apps/live_page/stream.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/live/status_json.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+using kernel::units::um_from_mm;
+using steadyrest::live::LiveAxis;
+using steadyrest::live::LiveStatus;
+using steadyrest::live::PathAhead;
+using steadyrest::live::TapSample;
+
+constexpr double kPercent = 100.0;
+constexpr double kMin_s = 60.0;
+constexpr std::size_t kMostSamples = 200;  ///< in a frame: a page that was away needs no history
+
+/// A number with so many digits as a picture can show.
+Json rounded(double value, double to) {
+  return std::isfinite(value) ? Json(std::round(value / to) * to) : Json();
+}
+
+Json micrometres(double mm) {
+  return rounded(um_from_mm(mm), 1e-3);
+}
+
+Json point_json(const kernel::signal::Point& point) {
+  return {rounded(point[0], 1e-4), rounded(point[1], 1e-4), rounded(point[2], 1e-4)};
+}
+
+Json samples_json(const std::vector<TapSample>& samples) {
+  Json out = {{"t_s", Json::array()},
+              {"contour_error_um", Json::array()},
+              {"feed_asked_percent", Json::array()},
+              {"feed_percent", Json::array()},
+              {"feed_effective_percent", Json::array()},
+              {"panel_percent", Json::array()},
+              {"path_speed_mm_min", Json::array()},
+              {"spindle_rpm", Json::array()},
+              {"position_mm", Json::array()},
+              {"following_um", Json::array()}};
+  const std::size_t first = samples.size() - std::min(samples.size(), kMostSamples);
+  for (std::size_t i = first; i < samples.size(); ++i) {
+    const TapSample& sample = samples[i];
+    out["t_s"].push_back(rounded(sample.time_s, 1e-4));
+    out["contour_error_um"].push_back(sample.error_known ? micrometres(sample.contour_error_mm)
+                                                         : Json());
+    out["feed_asked_percent"].push_back(rounded(kPercent * sample.feed_asked_ratio, 0.1));
+    out["feed_percent"].push_back(rounded(kPercent * sample.feed_ratio, 0.1));
+    out["feed_effective_percent"].push_back(rounded(kPercent * sample.feed_effective_ratio, 0.1));
+    out["panel_percent"].push_back(rounded(kPercent * sample.feed_panel_ratio, 0.1));
+    out["path_speed_mm_min"].push_back(rounded(kMin_s * sample.path_speed_mm_s, 0.1));
+    out["spindle_rpm"].push_back(rounded(kMin_s * sample.spindle_rev_s, 0.1));
+    out["position_mm"].push_back(point_json(sample.position_mm));
+    out["following_um"].push_back({micrometres(sample.following_mm[0]),
+                                   micrometres(sample.following_mm[1]),
+                                   micrometres(sample.following_mm[2])});
+  }
+  return out;
+}
+
+Json ahead_json(const PathAhead& ahead) {
+  if (ahead.count == 0) {
+    return nullptr;
+  }
+  Json points = Json::array();
+  for (std::size_t i = 0; i < ahead.count; ++i) {
+    points.push_back(point_json(ahead.point_mm[i]));
+  }
+  return {{"points_mm", std::move(points)}};
+}
+
+Json axes_json(const LiveStatus& status, const kernel::machine::Machine& machine) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(status.axis_count, machine.axes.size()); ++i) {
+    const LiveAxis& axis = status.axis[i];
+    if (!machine.axes[i].present) {
+      continue;
+    }
+    const bool rotary = machine.axes[i].rotary;
+    const double unit = rotary ? kernel::units::deg_from_rad(1.0) : 1.0;
+    const char* const position = rotary ? "position_deg" : "position_mm";
+    out.push_back(
+        {{"name", machine.axes[i].name},
+         {"rotary", rotary},
+         {position, rounded(unit * axis.position_au, 1e-5)},
+         {rotary ? "velocity_deg_min" : "velocity_mm_min",
+          rounded(kMin_s * unit * axis.velocity_au_s, 1e-3)},
+         {rotary ? "velocity_bound_deg_min" : "velocity_bound_mm_min",
+          rounded(kMin_s * unit * axis.velocity_bound_au_s, 1e-3)},
+         {rotary ? "acceleration_deg_s2" : "acceleration_mm_s2",
+          rounded(unit * axis.acceleration_au_s2, 1e-2)},
+         {rotary ? "acceleration_bound_deg_s2" : "acceleration_bound_mm_s2",
+          rounded(unit * axis.acceleration_bound_au_s2, 1e-2)},
+         {rotary ? "following_mdeg" : "following_um", rounded(1e3 * unit * axis.following_au, 1e-3)}});
+  }
+  return out;
+}
+
+Json heat_json(const LiveStatus& status, const kernel::machine::Machine& machine) {
+  if (!status.heat_on) {
+    return nullptr;
+  }
+  Json axes = Json::array();
+  for (const kernel::machine::ThermalAxis& of : machine.thermal.axis) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(status.axis_count, machine.axes.size()); ++i) {
+      if (machine.axes[i].name == of.name) {
+        axes.push_back({{"name", of.name},
+                        {"displacement_um", micrometres(status.axis[i].displacement_mm)},
+                        {"sd_um", micrometres(status.axis[i].displacement_sd_mm)},
+                        {"offset_um", micrometres(status.offset_mm[i])}});
+      }
+    }
+  }
+  return {{"axes", std::move(axes)}};
+}
+
+Json chatter_json(const LiveStatus& status) {
+  if (!status.chatter_on) {
+    return nullptr;
+  }
+  return {{"active", status.modulates},
+          {"goal_percent", rounded(kPercent * status.modulation_goal_ratio, 0.1)},
+          {"phase", rounded(status.modulation_phase, 1e-3)},
+          {"feed_per_tooth_percent", rounded(kPercent * status.feed_per_tooth_ratio, 0.1)}};
+}
+
+}  // namespace
+
+std::string StreamText::hello() const {
+  const kernel::machine::Machine& machine = desk_.machine;
+  Json axes = Json::array();
+  for (const kernel::machine::Axis& axis : machine.axes) {
+    if (axis.present) {
+      axes.push_back({{"name", axis.name}, {"rotary", axis.rotary}});
+    }
+  }
+  Json steps = Json::array();
+  for (const double ratio : machine.feed_override.ratio) {
+    steps.push_back(rounded(kPercent * ratio, 0.1));
+  }
+  Json modulation;
+  if (machine.chatter.enabled) {
+    modulation = {{"law", passport::word(machine.chatter.law)},
+                  {"amplitude_ratio", machine.chatter.amplitude_ratio},
+                  {"period_s", machine.chatter.period_s},
+                  {"mean_ratio", machine.chatter.mean_ratio}};
+  }
+  return text_of({{"type", "hello"},
+                  {"version", steadyrest::live::kProtocol},
+                  {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
+                  {"cycle_s", desk_.cycle_s},
+                  {"contour",
+                   {{"limit_um", um_from_mm(machine.contour.limit_mm)},
+                    {"strategy", passport::word(machine.contour.strategy)},
+                    {"min_percent", kPercent * machine.contour.min_ratio},
+                    {"max_percent", kPercent * machine.contour.max_ratio},
+                    {"steps_percent", std::move(steps)}}},
+                  {"modulation", modulation},
+                  {"thermal", machine.thermal.enabled},
+                  {"listening", false}});
+}
+
+std::string StreamText::frame() {
+  const std::uint64_t lost = desk_.tap.take(samples_);
+  const LiveStatus status = desk_.asked.loop.status();
+  Json keys = steadyrest::live::status_json(status);
+  keys["mode_wanted"] = steadyrest::live::word(desk_.asked.loop.mode_wanted());
+  keys["port"] = desk_.asked.port;
+  if (desk_.asked.of_port) {
+    keys.update(desk_.asked.of_port());
+  }
+  const Json out = {{"type", "frame"},
+                    {"seq", ++sequence_},
+                    {"lost_cycles", lost - lost_},
+                    {"status", std::move(keys)},
+                    {"predicted_error_um", micrometres(status.predicted_error_mm)},
+                    {"limit_used_um", micrometres(status.limit_used_mm)},
+                    {"path_known", status.path_known},
+                    {"samples", samples_json(samples_)},
+                    {"ahead", ahead_json(desk_.tap.ahead())},
+                    {"steps", nullptr},
+                    {"chatter", chatter_json(status)},
+                    {"thermal", heat_json(status, desk_.machine)},
+                    {"axes", axes_json(status, desk_.machine)}};
+  lost_ = lost;
+  return text_of(out).substr(1);
+}
+
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <steadyrest/apps/live_page/desk.hpp>
+
+namespace steadyrest::apps::live_page {
+
+/// The messages of the stream (docs/page-api.md).
+class StreamText {
+ public:
+  explicit StreamText(const Desk& desk) : desk_(desk) {}
+
+  /// What a client needs before its first frame; of any thread.
+  [[nodiscard]] std::string hello() const;
+  /// The next frame without its first brace, with the samples since the last one; of one thread.
+  [[nodiscard]] std::string frame();
+
+ private:
+  const Desk& desk_;
+  std::uint64_t sequence_ = 0;
+  std::uint64_t lost_ = 0;
+  std::vector<steadyrest::live::TapSample> samples_;
+};
+
+}  // namespace steadyrest::apps::live_page
