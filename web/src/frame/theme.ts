@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 export type Scheme = 'light' | 'dark';
+/** High contrast is dark, with stronger colours. */
+export type Look = Scheme | 'contrast';
 
 /** Colours of the plots; those of the page are in style.css. */
 export interface Theme {
@@ -18,7 +20,7 @@ export interface Theme {
   other: readonly string[];
 }
 
-const THEMES: Record<Scheme, Omit<Theme, 'printing'>> = {
+const THEMES: Record<Look, Omit<Theme, 'printing'>> = {
   light: {
     scheme: 'light',
     text: '#1d2329',
@@ -41,7 +43,25 @@ const THEMES: Record<Scheme, Omit<Theme, 'printing'>> = {
     run: { without: '#f2955c', with: '#69b3e7' },
     other: ['#69b3e7', '#3f7fae', '#f2955c', '#6cc090', '#b797dc', '#d3bd4e', '#e58bba', '#a9b4be', '#e4e8ec'],
   },
+  contrast: {
+    scheme: 'dark',
+    text: '#ffffff',
+    faint: '#e6e6e6',
+    rule: '#6a6a6a',
+    paper: '#000000',
+    rapid: '#9a9a9a',
+    limit: '#ffffff',
+    run: { without: '#ffb347', with: '#5cd6ff' },
+    other: ['#5cd6ff', '#8fb8ff', '#ffb347', '#7dff9b', '#dcaaff', '#ffee58', '#ff9ad5', '#d9d9d9', '#ffffff'],
+  },
 };
+
+let chosen: Look | undefined;
+
+/** Instead of what the system asks for; undefined: as the system asks. */
+export function chooseLook(look: Look | undefined): void {
+  chosen = look;
+}
 
 /** From the palette, again from its start when it runs out. */
 export function curveColour({ other, text }: Theme, i: number): string {
@@ -52,7 +72,7 @@ const dark = () => window.matchMedia('(prefers-color-scheme: dark)');
 
 /** Paper is white whatever the screen's scheme. */
 export function theme(printing = false): Theme {
-  return { ...THEMES[!printing && dark().matches ? 'dark' : 'light'], printing };
+  return { ...THEMES[printing ? 'light' : (chosen ?? (dark().matches ? 'dark' : 'light'))], printing };
 }
 
 export function onSchemeChange(callback: () => void): void {

@@ -8,4 +8,3 @@ import { CanvasRenderer, SVGRenderer } from 'echarts/renderers';
 echarts.use([AriaComponent, CanvasRenderer, CustomChart, DataZoomInsideComponent, GridComponent, LineChart, ScatterChart, SVGRenderer]);
 
 export { echarts };
-export const FONT = 'system-ui, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif';

@@ -51,11 +51,20 @@ export function keysOf(layers: readonly Layer[]): Key[] {
   return [...keys.values()];
 }
 
+/** Colours are data until `ink` sets them: the live page's content-security policy forbids styles in HTML. */
 export function keyLine(keys: readonly Key[]): string {
-  return keys.map((k) => `<span class="key"><i class="${k.mark}" style="--ink:${k.colour}${k.opacity === undefined ? '' : `;opacity:${k.opacity}`}"></i>${escapeHtml(k.name)}</span>`).join('');
+  return keys.map((k) => `<span class="key"><i class="${k.mark}" data-ink="${k.colour}"${k.opacity === undefined ? '' : ` data-opacity="${k.opacity}"`}></i>${escapeHtml(k.name)}</span>`).join('');
 }
 
 export function scaleLine(scale: ColourScale): string {
-  const cells = scale.cells.map((c) => `<span${c.marked ? ' class="marked"' : ''}><i style="background:${c.colour}"></i><em>${escapeHtml(c.upTo)}</em></span>`).join('');
+  const cells = scale.cells.map((c) => `<span${c.marked ? ' class="marked"' : ''}><i data-ink="${c.colour}"></i><em>${escapeHtml(c.upTo)}</em></span>`).join('');
   return `<span class="scale-title">${escapeHtml(scale.title)}</span><span class="scale">${cells}</span>${scale.beside ? keyLine([scale.beside]) : ''}`;
+}
+
+/** Gives the swatches within their colours. */
+export function ink(where: HTMLElement): void {
+  for (const swatch of where.querySelectorAll<HTMLElement>('[data-ink]')) {
+    swatch.style.setProperty('--ink', swatch.dataset['ink'] ?? '');
+    swatch.style.opacity = swatch.dataset['opacity'] ?? '';
+  }
 }

@@ -2,7 +2,8 @@
 // A plot as a picture of its own, with its title, the name of its y axis, key and colour scale above it.
 import { capital } from '../frame/html';
 import type { Theme } from '../frame/theme';
-import { FONT, type echarts } from './echarts';
+import type { echarts } from './echarts';
+import { FONT } from './font';
 import { type ColourScale, type Key, keysOf } from './key';
 import type { Plot } from './drawn';
 

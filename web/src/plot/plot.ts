@@ -5,13 +5,14 @@ import { escapeHtml } from '../frame/html';
 import type { Theme } from '../frame/theme';
 import { axisOption } from './axes';
 import { type Plot, drawnIn, remember } from './drawn';
-import { FONT, echarts } from './echarts';
+import { echarts } from './echarts';
+import { FONT } from './font';
 import { type Box, withEqualAspect } from './equal_aspect';
-import { keyLine, keysOf, scaleLine } from './key';
+import { ink, keyLine, keysOf, scaleLine } from './key';
 import { seriesOf } from './layers';
 import { withDecades } from './logarithmic';
 import { follow } from './reading';
-import { TOOLS, bindTools } from './tools';
+import { ENGLISH, type ToolWords, bindTools, toolButtons } from './tools';
 import { type Window, inView, letPageScroll, onZoom, zoomOption } from './zoom';
 
 export type { Plot };
@@ -20,8 +21,8 @@ const MARGIN = { left: 62, right: 18, top: 12, bottom: 42 };
 const TICKS_PX = 24;
 
 /** A place for a plot; `kind`: low, high, tall, square. */
-export function host(id: string, kind = ''): string {
-  return `<figure class="frame" id="${id}-frame"><figcaption><span class="name" id="${id}-name"></span><span class="key-line" id="key-${id}"></span>${TOOLS}</figcaption>
+export function host(id: string, kind = '', words: ToolWords = ENGLISH): string {
+  return `<figure class="frame" id="${id}-frame"><figcaption><span class="name" id="${id}-name"></span><span class="key-line" id="key-${id}"></span>${toolButtons(words)}</figcaption>
     <div class="plot ${kind}" id="${id}"></div><div class="scale-line" id="scale-${id}"></div></figure>`;
 }
 
@@ -110,4 +111,5 @@ export function plot(id: string, given: Plot, theme: Theme): void {
   put(`${id}-name`, escapeHtml(what.y.name));
   put(`key-${id}`, keyLine(keysOf(what.layers)));
   put(`scale-${id}`, what.scale ? scaleLine(what.scale) : '');
+  ink(element(`${id}-frame`));
 }

@@ -7,14 +7,37 @@ import { showWhole, zoomBy } from './zoom';
 
 const FACTOR = 2;
 
+/** What the buttons say. */
+export interface ToolWords {
+  tools: string;
+  zoomIn: string;
+  zoomOut: string;
+  fit: string;
+  showWhole: string;
+  savePicture: string;
+  saveValues: string;
+}
+export const ENGLISH: ToolWords = {
+  tools: 'Plot tools',
+  zoomIn: 'Zoom in',
+  zoomOut: 'Zoom out',
+  fit: 'Fit',
+  showWhole: 'Show the whole plot',
+  savePicture: 'Save as a picture',
+  saveValues: 'Save the values',
+};
+
 const button = (tool: string, text: string, title: string) => `<button type="button" data-tool="${tool}" title="${title}">${text}</button>`;
-export const TOOLS = `<span class="tools" role="group" aria-label="Plot tools">${[
-  button('in', '+', 'Zoom in'),
-  button('out', '−', 'Zoom out'),
-  button('whole', 'Fit', 'Show the whole plot'),
-  button('png', 'PNG', 'Save as a picture'),
-  button('csv', 'CSV', 'Save the values'),
-].join('')}</span>`;
+
+export function toolButtons(words: ToolWords): string {
+  return `<span class="tools" role="group" aria-label="${words.tools}">${[
+    button('in', '+', words.zoomIn),
+    button('out', '−', words.zoomOut),
+    button('whole', words.fit, words.showWhole),
+    button('png', 'PNG', words.savePicture),
+    button('csv', 'CSV', words.saveValues),
+  ].join('')}</span>`;
+}
 
 function save(name: string, url: string): void {
   const link = document.createElement('a');

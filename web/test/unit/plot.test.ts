@@ -41,6 +41,6 @@ describe('the key', () => {
     const band = { kind: 'band', x: [], low: [], high: [], colour: '#1b6aa5' } as const;
     const keys = keysOf([{ ...band, name: 'bound', opacity: 0.22 }, { ...band, name: 'values', opacity: 0.75 }, { ...band, name: 'shade', opacity: 0.02 }]);
     expect(keys.map((k) => k.opacity)).toEqual([0.22, 0.75, 0.15]);
-    expect(keyLine(keys)).toContain('opacity:0.22');
+    expect(keyLine(keys)).toContain('data-opacity="0.22"');
   });
 });
