@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The live page: `index.html` and hashed assets, which the program embeds and serves.
+// The live page: `index.html` and its assets, which the program embeds and serves.
 import { defineConfig } from 'vite';
 
 export default defineConfig({
@@ -24,6 +24,11 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1200,
-    rollupOptions: { input: 'live.html' },
+    // One script and one style, under the names that the program serves.
+    cssCodeSplit: false,
+    rollupOptions: {
+      input: 'live.html',
+      output: { entryFileNames: 'live.js', assetFileNames: 'live[extname]', inlineDynamicImports: true },
+    },
   },
 });

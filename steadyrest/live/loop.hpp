@@ -94,8 +94,8 @@ class Loop {
   const LoopFigures& run() noexcept;
 
   void ask_mode(kernel::machine::Mode mode) noexcept { wanted_.store(mode); }
-  /// Words for the record, at most LoopNote::kLongest bytes of them; from any thread. False: too many
-  /// wait.
+  /// Words for the record, at most LoopNote::kLongest bytes of them; from any thread. False: too
+  /// many wait.
   bool note(std::string_view words);
   [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
   void ask_stop() noexcept { stop_.store(true); }

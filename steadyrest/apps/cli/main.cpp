@@ -25,6 +25,7 @@
 #include <steadyrest/apps/cli/motion/verb_motion_encoder.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_estimate.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
+#include <steadyrest/apps/cli/page/verb_page.hpp>
 #include <steadyrest/apps/cli/program/verb_program_check.hpp>
 #include <steadyrest/apps/cli/program/verb_program_compensate.hpp>
 #include <steadyrest/apps/cli/program/verb_program_correct.hpp>
@@ -223,6 +224,17 @@ constexpr Entry kVerbs[] = {
      {"examples/programs/rib-pocket.ngc examples/plans/rib-pocket-compensated.ngc --dialect "
       "linuxcnc --plan examples/plans/rib-pocket.json --machine "
       "examples/machines/linuxcnc-mill.toml"}},
+    {"page", "Who may log in to the page of a run"},
+    {"page add-user",
+     "Add somebody who may log in, or give them another password or role",
+     add_verb_page_add_user,
+     {"anna --role operator --users users.json"}},
+    {"page add-token",
+     "Make a token for scripts; it is shown this once",
+     add_verb_page_add_token,
+     {"logger --role viewer --users users.json"}},
+    {"page remove", "Remove a user or a token", add_verb_page_remove, {"anna --users users.json"}},
+    {"page list", "List users and tokens", add_verb_page_list, {"--users users.json"}},
     {"record", "Records of live runs"},
     {"record list", "List the records of a folder", add_verb_record_list, {"examples/records"}},
     {"record show",

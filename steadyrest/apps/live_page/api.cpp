@@ -88,10 +88,10 @@ web::Response Api::answer(const web::Request& request) {
   if (!request.path.starts_with(kApi)) {
     return asset(request);
   }
-  const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
-  const auto* const route = std::ranges::find_if(kRoutes, [&](const Route& at) {
-    return at.method == method && matches(at, request.path);
-  });
+  const std::string_view method =
+      request.method == "HEAD" ? "GET" : std::string_view(request.method);
+  const auto* const route = std::ranges::find_if(
+      kRoutes, [&](const Route& at) { return at.method == method && matches(at, request.path); });
   if (route == kRoutes.end()) {
     return wrong_method(request.path);
   }
@@ -116,9 +116,10 @@ web::Response Api::answer(const web::Request& request) {
     return web::error(415, "unsupported_type", "the body is not said to be JSON",
                       "send Content-Type: application/json");
   }
-  return run(*route, {.request = request,
-                      .caller = who ? who->caller : web::Caller{},
-                      .rest = request.path.substr(std::min(route->path.size(), request.path.size()))});
+  return run(*route,
+             {.request = request,
+              .caller = who ? who->caller : web::Caller{},
+              .rest = request.path.substr(std::min(route->path.size(), request.path.size()))});
 }
 
 web::Response Api::run(const Route& route, const Call& call) {
@@ -177,11 +178,12 @@ web::Response Api::set_mode(const Call& call, const Json& asked) {
                       "give one of these");
   }
   if (*mode == Mode::act && asked.value("confirm", Json()) != Json(true)) {
-    return web::error(422, "refused", "in mode act the layer moves the machine's overrides and axes",
+    return web::error(422, "refused",
+                      "in mode act the layer moves the machine's overrides and axes",
                       "send \"confirm\": true");
   }
-  desk_.asked.loop.note(fmt::format("page: {} asked for {}", author(call.caller),
-                                    steadyrest::live::word(*mode)));
+  desk_.asked.loop.note(
+      fmt::format("page: {} asked for {}", author(call.caller), steadyrest::live::word(*mode)));
   desk_.asked.loop.ask_mode(*mode);
   return live_page::answer({{"mode_wanted", steadyrest::live::word(*mode)}});
 }
@@ -196,9 +198,9 @@ std::variant<web::Server::Admitted, web::Response> Api::admit(const web::Request
   if (!login_.who(request, now_s_())) {
     return web::error(401, "not_logged_in", "nobody is logged in", "log in first");
   }
-  return web::Server::Admitted{
-      .first = stream_.hello(),
-      .goes_on = [this, request] { return login_.goes_on(request, now_s_()); }};
+  return web::Server::Admitted{.first = stream_.hello(), .goes_on = [this, request] {
+                                 return login_.goes_on(request, now_s_());
+                               }};
 }
 
 }  // namespace steadyrest::apps::live_page

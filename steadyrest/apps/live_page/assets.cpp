@@ -21,9 +21,11 @@ namespace {
 const std::array<Asset, 3>& assets() noexcept {
   static const std::array<Asset, 3> all = {{
       {"/", "text/html; charset=utf-8", {steadyrest_live_html_begin, steadyrest_live_html_end}},
-      {"/live.js", "text/javascript; charset=utf-8",
+      {"/live.js",
+       "text/javascript; charset=utf-8",
        {steadyrest_live_script_begin, steadyrest_live_script_end}},
-      {"/live.css", "text/css; charset=utf-8",
+      {"/live.css",
+       "text/css; charset=utf-8",
        {steadyrest_live_style_begin, steadyrest_live_style_end}},
   }};
   return all;

@@ -19,6 +19,9 @@ namespace steadyrest::apps::live_page {
 
 using Json = nlohmann::ordered_json;
 
+inline constexpr double kPercent = 100.0;
+inline constexpr double kMinute_s = 60.0;
+
 /// The running layer as the page has it before it.
 struct Desk {
   steadyrest::live::Asked asked;  ///< what the socket's clients ask too

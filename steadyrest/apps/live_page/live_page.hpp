@@ -10,8 +10,8 @@
 
 namespace steadyrest::apps::live_page {
 
-/// The page of a running layer: its server, and a thread that sends what the cycle leaves, 30 times a
-/// second while somebody watches.
+/// The page of a running layer: its server, and a thread that sends what the cycle leaves, 30 times
+/// a second while somebody watches.
 class LivePage {
  public:
   struct Config {

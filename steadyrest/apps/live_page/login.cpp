@@ -48,8 +48,7 @@ std::optional<Login::Who> Login::who(const web::Request& request, double now_s) 
 }
 
 bool Login::goes_on(const web::Request& request, double now_s) const {
-  return !request.authorization.empty() ||
-         sessions_.lives(web::cookie(request, kCookie), now_s);
+  return !request.authorization.empty() || sessions_.lives(web::cookie(request, kCookie), now_s);
 }
 
 web::Response Login::show(const web::Request& request, double now_s) {
@@ -99,12 +98,11 @@ web::Response Login::begin(const web::Request& request, double now_s) {
                       "try again, or ask who keeps the accounts");
   }
   const auto begun = sessions_.begin(*caller, now_s);
-  web::Response out = answer({{"session",
-                               {{"name", caller->name},
-                                {"role", word(caller->role)},
-                                {"csrf", begun.session.csrf}}},
-                              {"accounts", key_.empty()},
-                              {"key_login", !key_.empty()}});
+  web::Response out = answer(
+      {{"session",
+        {{"name", caller->name}, {"role", word(caller->role)}, {"csrf", begun.session.csrf}}},
+       {"accounts", key_.empty()},
+       {"key_login", !key_.empty()}});
   out.head.emplace_back("Set-Cookie", head_of(begun.id, request.secure, false));
   return out;
 }

@@ -106,7 +106,8 @@ Result<Checked> check(const Desk& desk, const Json& asked) {
   if (!before) {
     return std::unexpected(std::move(before.error()));
   }
-  Checked out{.before = std::move(*before), .after = {}, .refusals = {}, .findings = {}, .why_not = {}};
+  Checked out{
+      .before = std::move(*before), .after = {}, .refusals = {}, .findings = {}, .why_not = {}};
   auto after = wanted_text(desk, out.before, asked);
   if (!after) {
     out.after = out.before;
@@ -175,17 +176,16 @@ web::Response show_machine(const Desk& desk) {
     return failed(text.error());
   }
   const auto machine = passport::parse_all_faults(*text, desk.machine_file);
-  return answer(
-      {{"machine",
-        {{"file", desk.machine_file},
-         {"name", machine ? machine->name : desk.machine.name},
-         {"sha256", web::digest(*text)},
-         {"text", *text},
-         {"sections", sections_json(*text)},
-         {"findings", machine ? json_of(desk.findings(*machine)) : Json::array()},
-         {"reload", desk.asked.reloader != nullptr
-                        ? steadyrest::live::reload_json(desk.asked.reloader->status())
-                        : Json()}}}});
+  return answer({{"machine",
+                  {{"file", desk.machine_file},
+                   {"name", machine ? machine->name : desk.machine.name},
+                   {"sha256", web::digest(*text)},
+                   {"text", *text},
+                   {"sections", sections_json(*text)},
+                   {"findings", machine ? json_of(desk.findings(*machine)) : Json::array()},
+                   {"reload", desk.asked.reloader != nullptr
+                                  ? steadyrest::live::reload_json(desk.asked.reloader->status())
+                                  : Json()}}}});
 }
 
 web::Response check_machine(const Desk& desk, const Json& asked) {
@@ -208,10 +208,10 @@ web::Response apply_machine(const Desk& desk, const Json& asked, const std::stri
   }
   if (!checked->refusals.empty() || !checked->why_not.empty()) {
     Json keys = json_of(desk, *checked);
-    keys["error"] = {{"code", "refused"},
-                     {"what", checked->why_not.empty() ? "the machine file would be refused"
-                                                       : checked->why_not},
-                     {"to_do", "mend what is named"}};
+    keys["error"] = {
+        {"code", "refused"},
+        {"what", checked->why_not.empty() ? "the machine file would be refused" : checked->why_not},
+        {"to_do", "mend what is named"}};
     return answer(std::move(keys), 422);
   }
   if (auto written = kernel::file::write_file(desk.machine_file, checked->after); !written) {

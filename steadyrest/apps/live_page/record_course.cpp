@@ -16,8 +16,6 @@ namespace {
 using kernel::outcome::Result;
 using record::Sample;
 
-constexpr double kPercent = 100.0;
-constexpr double kMin_s = 60.0;
 constexpr std::size_t kMostPoints = 4000;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -41,9 +39,9 @@ constexpr std::array<Column, 8> kColumns = {{
      [](const Sample& s) noexcept { return kPercent * s.frame.feed.effective_ratio; }},
     {"panel_percent", [](const Sample& s) noexcept { return kPercent * s.frame.feed.panel_ratio; }},
     {"path_speed_mm_min",
-     [](const Sample& s) noexcept { return kMin_s * s.frame.path_speed_mm_s; }},
+     [](const Sample& s) noexcept { return kMinute_s * s.frame.path_speed_mm_s; }},
     {"following_um", following_um},
-    {"spindle_rpm", [](const Sample& s) noexcept { return kMin_s * s.frame.spindle_actual_rev_s; }},
+    {"spindle_rpm", [](const Sample& s) noexcept { return kMinute_s * s.frame.spindle_actual_rev_s; }},
     {"offset_x_um",
      [](const Sample& s) noexcept {
        return kernel::units::um_from_mm(s.command.offset_mm[0] + s.command.path_offset_mm[0]);
@@ -60,7 +58,7 @@ struct Interval {
 };
 
 Json values(const std::vector<Interval>& intervals, std::size_t column,
-            std::array<double, kColumns.size()> Interval::*of) {
+            std::array<double, kColumns.size()> Interval::* of) {
   Json out = Json::array();
   for (const Interval& interval : intervals) {
     const double value = (interval.*of)[column];
@@ -106,7 +104,8 @@ Result<Json> course_of(const CourseAsked& asked) {
   }
   const double whole_s = static_cast<double>(reader->totals().samples) * reader->run().cycle_s;
   const double from_s = std::max(asked.from_s, *first_s);
-  const double to_s = std::max(from_s + reader->run().cycle_s, std::min(asked.to_s, *first_s + whole_s));
+  const double to_s =
+      std::max(from_s + reader->run().cycle_s, std::min(asked.to_s, *first_s + whole_s));
   const std::size_t points = std::clamp<std::size_t>(asked.points, 1, kMostPoints);
   const double step_s = (to_s - from_s) / static_cast<double>(points);
   Interval none{};

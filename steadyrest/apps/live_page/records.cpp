@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -42,9 +42,8 @@ web::Response unreadable(const Refusal& refusal) {
 
 /// The file of this name in the folder; none for anything that is no plain name.
 std::optional<std::string> file_of(const Desk& desk, const std::string& name) {
-  const auto files = desk.records.empty()
-                         ? kernel::outcome::Result<std::vector<record::RunFile>>()
-                         : record::run_files(desk.records);
+  const auto files = desk.records.empty() ? kernel::outcome::Result<std::vector<record::RunFile>>()
+                                          : record::run_files(desk.records);
   if (!files) {
     return std::nullopt;
   }
@@ -146,9 +145,8 @@ web::Response list_records(const Desk& desk, const web::Request& request) {
   Json list = Json::array();
   const auto search = request.query.find("search");
   const std::string words = search != request.query.end() ? small(search->second) : "";
-  const auto files = desk.records.empty()
-                         ? kernel::outcome::Result<std::vector<record::RunFile>>()
-                         : record::run_files(desk.records);
+  const auto files = desk.records.empty() ? kernel::outcome::Result<std::vector<record::RunFile>>()
+                                          : record::run_files(desk.records);
   if (files) {
     for (const record::RunFile& file : *files) {
       const auto reader = RecordReader::open(file.file);
@@ -156,8 +154,8 @@ web::Response list_records(const Desk& desk, const web::Request& request) {
         continue;  // it may be removed or begun at this moment
       }
       Json entry = json_of(file, *reader);
-      const std::string all = small(entry["name"].get<std::string>() + "\n" + reader->run().machine +
-                                    "\n" + reader->run().program);
+      const std::string all = small(entry["name"].get<std::string>() + "\n" +
+                                    reader->run().machine + "\n" + reader->run().program);
       if (words.empty() || all.find(words) != std::string::npos) {
         list.insert(list.begin(), std::move(entry));  // the newest first
       }

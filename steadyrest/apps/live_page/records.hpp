@@ -5,7 +5,8 @@
 
 #include <steadyrest/apps/live_page/desk.hpp>
 
-/// Past runs on the page. A record is named by its file's name alone: no path leads out of the folder.
+/// Past runs on the page. A record is named by its file's name alone: no path leads out of the
+/// folder.
 namespace steadyrest::apps::live_page {
 
 /// Those whose name, machine or program has the words of `search`.

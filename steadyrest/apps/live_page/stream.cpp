@@ -16,8 +16,6 @@ using steadyrest::live::LiveStatus;
 using steadyrest::live::PathAhead;
 using steadyrest::live::TapSample;
 
-constexpr double kPercent = 100.0;
-constexpr double kMin_s = 60.0;
 constexpr std::size_t kMostSamples = 200;  ///< in a frame: a page that was away needs no history
 
 /// A number with so many digits as a picture can show.
@@ -54,8 +52,8 @@ Json samples_json(const std::vector<TapSample>& samples) {
     out["feed_percent"].push_back(rounded(kPercent * sample.feed_ratio, 0.1));
     out["feed_effective_percent"].push_back(rounded(kPercent * sample.feed_effective_ratio, 0.1));
     out["panel_percent"].push_back(rounded(kPercent * sample.feed_panel_ratio, 0.1));
-    out["path_speed_mm_min"].push_back(rounded(kMin_s * sample.path_speed_mm_s, 0.1));
-    out["spindle_rpm"].push_back(rounded(kMin_s * sample.spindle_rev_s, 0.1));
+    out["path_speed_mm_min"].push_back(rounded(kMinute_s * sample.path_speed_mm_s, 0.1));
+    out["spindle_rpm"].push_back(rounded(kMinute_s * sample.spindle_rev_s, 0.1));
     out["position_mm"].push_back(point_json(sample.position_mm));
     out["following_um"].push_back({micrometres(sample.following_mm[0]),
                                    micrometres(sample.following_mm[1]),
@@ -85,19 +83,19 @@ Json axes_json(const LiveStatus& status, const kernel::machine::Machine& machine
     const bool rotary = machine.axes[i].rotary;
     const double unit = rotary ? kernel::units::deg_from_rad(1.0) : 1.0;
     const char* const position = rotary ? "position_deg" : "position_mm";
-    out.push_back(
-        {{"name", machine.axes[i].name},
-         {"rotary", rotary},
-         {position, rounded(unit * axis.position_au, 1e-5)},
-         {rotary ? "velocity_deg_min" : "velocity_mm_min",
-          rounded(kMin_s * unit * axis.velocity_au_s, 1e-3)},
-         {rotary ? "velocity_bound_deg_min" : "velocity_bound_mm_min",
-          rounded(kMin_s * unit * axis.velocity_bound_au_s, 1e-3)},
-         {rotary ? "acceleration_deg_s2" : "acceleration_mm_s2",
-          rounded(unit * axis.acceleration_au_s2, 1e-2)},
-         {rotary ? "acceleration_bound_deg_s2" : "acceleration_bound_mm_s2",
-          rounded(unit * axis.acceleration_bound_au_s2, 1e-2)},
-         {rotary ? "following_mdeg" : "following_um", rounded(1e3 * unit * axis.following_au, 1e-3)}});
+    out.push_back({{"name", machine.axes[i].name},
+                   {"rotary", rotary},
+                   {position, rounded(unit * axis.position_au, 1e-5)},
+                   {rotary ? "velocity_deg_min" : "velocity_mm_min",
+                    rounded(kMinute_s * unit * axis.velocity_au_s, 1e-3)},
+                   {rotary ? "velocity_bound_deg_min" : "velocity_bound_mm_min",
+                    rounded(kMinute_s * unit * axis.velocity_bound_au_s, 1e-3)},
+                   {rotary ? "acceleration_deg_s2" : "acceleration_mm_s2",
+                    rounded(unit * axis.acceleration_au_s2, 1e-2)},
+                   {rotary ? "acceleration_bound_deg_s2" : "acceleration_bound_mm_s2",
+                    rounded(unit * axis.acceleration_bound_au_s2, 1e-2)},
+                   {rotary ? "following_mdeg" : "following_um",
+                    rounded(1e3 * unit * axis.following_au, 1e-3)}});
   }
   return out;
 }
@@ -108,7 +106,8 @@ Json heat_json(const LiveStatus& status, const kernel::machine::Machine& machine
   }
   Json axes = Json::array();
   for (const kernel::machine::ThermalAxis& of : machine.thermal.axis) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(status.axis_count, machine.axes.size()); ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(status.axis_count, machine.axes.size());
+         ++i) {
       if (machine.axes[i].name == of.name) {
         axes.push_back({{"name", of.name},
                         {"displacement_um", micrometres(status.axis[i].displacement_mm)},

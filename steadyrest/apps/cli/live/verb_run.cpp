@@ -16,6 +16,7 @@
 #include <steadyrest/apps/cli/live/live_port.hpp>
 #include <steadyrest/apps/cli/live/lossy_port.hpp>
 #include <steadyrest/apps/cli/live/machine_reload.hpp>
+#include <steadyrest/apps/cli/live/run_page.hpp>
 #include <steadyrest/apps/cli/live/run_record.hpp>
 #include <steadyrest/apps/cli/live/signals.hpp>
 #include <steadyrest/apps/cli/live/socket_option.hpp>
@@ -52,6 +53,7 @@ struct Options {
   std::string mode;
   std::string socket;
   std::string record;  ///< folder; empty: no record
+  PageOptions page;
   double for_s = 0.0;
   double lose_link_at_s = -1.0;  ///< below 0: never
 };
@@ -117,6 +119,9 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
   }
   if (const auto free = steadyrest::live::ControlSocket::check(options.socket); !free) {
     return refused(free.error());
+  }
+  if (const auto fits = check_page(options.page); !fits) {
+    return refused(fits.error());
   }
   auto port = open_port(*machine, options.program);
   if (!port) {
@@ -231,18 +236,26 @@ Outcome run(const Options& options) {
   if (record != nullptr) {
     record->listen_to(config);
   }
+  RunPage page(options.page);
+  config.tap = page.tap();
   Loop loop(record != nullptr ? record->port() : *prepared->port.port, prepared->layer, pace,
             config);
   const auto manager = ServiceManager::from_environment();
   Reloader reloader(loop, reloader_config(options, *prepared, record, hangup, manager, loop));
+  const steadyrest::live::Asked asked{.loop = loop,
+                                      .port = passport::word(prepared->machine.port),
+                                      .reloader = &reloader,
+                                      .of_port = prepared->port.shows};
   const auto socket = steadyrest::live::ControlSocket::open(
-      options.socket, [&, port = passport::word(prepared->machine.port)](std::string_view line) {
-        return steadyrest::live::answer(
-            {.loop = loop, .port = port, .reloader = &reloader, .of_port = prepared->port.shows},
-            line);
-      });
+      options.socket,
+      [&asked](std::string_view line) { return steadyrest::live::answer(asked, line); });
   if (!socket) {
     return refused(socket.error());
+  }
+  if (auto opened =
+          page.open(asked, prepared->machine, options.machine, options.record, config.period_s);
+      !opened) {
+    return refused(opened.error());
   }
   std::optional<steadyrest::live::LifeSignThread> life_sign(std::in_place, loop, manager);
   const auto real_time = steadyrest::live::ask_for_real_time();
@@ -252,6 +265,7 @@ Outcome run(const Options& options) {
   show_warnings(prepared->findings);
   const StopSignals signals(loop);
   const LoopFigures& figures = loop.run();
+  page.close();
   life_sign.reset();  // before the record ends: that may take longer than the watchdog waits
   return answer_of(figures, *prepared, real_time, record);
 }
@@ -276,6 +290,7 @@ void add_verb_run(Session& session, Verb& verb) {
                   "happens then")
       ->check(within(0.0, 1e8));
   live::add_socket_option(verb, options->socket);
+  live::add_page_options(verb, options->page);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");
   session.on(verb, [options](Progress& /*progress*/) { return live::run(*options); });

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/apps/live_page/live_page.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/live/loop.hpp>
+#include <steadyrest/live/protocol.hpp>
+
+namespace steadyrest::apps::cli::live {
+
+/// How `run` shows its page.
+struct PageOptions {
+  std::string listen;  ///< `[ADDRESS:]PORT`; empty: no page
+  std::string users;
+  std::string certificate;
+  std::string key;
+  std::string behind_proxy;
+  std::string records;
+};
+
+void add_page_options(Verb& verb, PageOptions& options);
+
+/// Before anything else is opened. Refused: options that do not fit together, accounts that cannot
+/// be read.
+[[nodiscard]] Result<void> check_page(const PageOptions& options);
+
+/// The page of a run, if one was asked for.
+class RunPage {
+ public:
+  /// For the loop; null: nobody draws.
+  [[nodiscard]] steadyrest::live::Tap* tap() noexcept { return wanted_ ? &tap_ : nullptr; }
+
+  explicit RunPage(const PageOptions& options)
+      : options_(options), wanted_(!options.listen.empty()) {}
+
+  /// Says on stderr where it is. What `asked` names outlives the page.
+  [[nodiscard]] Result<void> open(const steadyrest::live::Asked& asked,
+                                  const kernel::machine::Machine& machine,
+                                  const std::string& machine_file, const std::string& record_folder,
+                                  double cycle_s);
+  /// Where; empty: there is none.
+  [[nodiscard]] std::string address() const { return page_ ? page_->address() : ""; }
+  /// No request is answered any more.
+  void close() { page_.reset(); }
+
+ private:
+  PageOptions options_;
+  bool wanted_;
+  steadyrest::live::Tap tap_;
+  std::unique_ptr<live_page::Desk> desk_;
+  std::unique_ptr<live_page::LivePage> page_;
+};
+
+}  // namespace steadyrest::apps::cli::live
