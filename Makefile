@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # A thin door to the CMake presets. `make run` and `make test` set up a bare Debian 12 by themselves.
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-test build run test fast bench format format-check tidy coverage clean
+.PHONY: help setup setup-test build run demo test fast bench format format-check tidy coverage clean
 SHELL := /bin/sh
 JOBS ?= $(shell nproc)
 PROGRAM ?= examples/programs/rib-pocket.mpf
@@ -10,6 +10,7 @@ REPORT ?= out/$(basename $(notdir $(PROGRAM)))
 
 help:
 	@echo "make run     cut $(PROGRAM) on the simulated machine, without and with the layer"
+	@echo "make demo    the page of a layer at work on the simulated machine; PORT=linuxcnc on LinuxCNC's simulator"
 	@echo "make fast    the fast tests (under two minutes once built)"
 	@echo "make test    everything: format, house, both compilers, sanitizers, clang-tidy, web, all tests"
 	@echo "make bench   the benchmarks"
@@ -34,6 +35,9 @@ build: setup
 run: build
 	@build/release/bin/steadyrest cut $(PROGRAM) --machine $(MACHINE) --report $(REPORT)
 	@echo "Report: $(REPORT)/report.html"
+
+demo: build
+	@sh scripts/demo.sh
 
 fast: setup-test
 	@sh scripts/check.sh fast

@@ -41,7 +41,8 @@ constexpr std::array<Column, 8> kColumns = {{
     {"path_speed_mm_min",
      [](const Sample& s) noexcept { return kMinute_s * s.frame.path_speed_mm_s; }},
     {"following_um", following_um},
-    {"spindle_rpm", [](const Sample& s) noexcept { return kMinute_s * s.frame.spindle_actual_rev_s; }},
+    {"spindle_rpm",
+     [](const Sample& s) noexcept { return kMinute_s * s.frame.spindle_actual_rev_s; }},
     {"offset_x_um",
      [](const Sample& s) noexcept {
        return kernel::units::um_from_mm(s.command.offset_mm[0] + s.command.path_offset_mm[0]);

@@ -28,8 +28,10 @@ struct LivePort {
 };
 
 /// The port of the machine file. Refused: a port that this program does not have; for `sim` a
-/// missing program, and what its control refuses.
+/// missing program, and what its control refuses. `repeats`: the simulated machine begins its
+/// program again and again.
 [[nodiscard]] std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
-                                                          const ProgramOptions& program);
+                                                          const ProgramOptions& program,
+                                                          bool repeats = false);
 
 }  // namespace steadyrest::apps::cli::live

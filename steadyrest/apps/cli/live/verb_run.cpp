@@ -54,6 +54,7 @@ struct Options {
   std::string socket;
   std::string record;  ///< folder; empty: no record
   PageOptions page;
+  bool repeats = false;
   double for_s = 0.0;
   double lose_link_at_s = -1.0;  ///< below 0: never
 };
@@ -123,7 +124,7 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
   if (const auto fits = check_page(options.page); !fits) {
     return refused(fits.error());
   }
-  auto port = open_port(*machine, options.program);
+  auto port = open_port(*machine, options.program, options.repeats);
   if (!port) {
     return std::unexpected(port.error());
   }
@@ -285,6 +286,8 @@ void add_verb_run(Session& session, Verb& verb) {
   verb.add_option("--record", options->record,
                   "Record the run in a new file in this folder (SQLite)")
       ->type_name("FOLDER");
+  verb.add_flag("--repeat", options->repeats,
+                "Simulated machine: begin the program again whenever it has ended");
   verb.add_option("--lose-link-at-s", options->lose_link_at_s,
                   "Simulated machine: its link is lost for 0.5 s at this time, for a trial of what "
                   "happens then")

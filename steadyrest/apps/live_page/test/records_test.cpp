@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <steadyrest/apps/live_page/test/page_desk.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+using test::PageDesk;
+using testing::Each;
+using testing::SizeIs;
+
+class RecordsOnPage : public testing::Test {
+ protected:
+  RecordsOnPage() {
+    desk.desk().records = STEADYREST_SOURCE_DIR "/examples/records";
+    desk.log_in();
+  }
+  PageDesk desk;
+};
+
+TEST_F(RecordsOnPage, AreListedAndSearched) {
+  const auto found = [this](const std::string& words) {
+    auto request = PageDesk::request("GET", "/api/v1/records");
+    request.query["search"] = words;
+    return Json::parse(desk.ask(request).body)["records"];
+  };
+  EXPECT_THAT(found(""), SizeIs(1));
+  EXPECT_THAT(found("CIRCLE"), SizeIs(1));
+  EXPECT_THAT(found("nothing like it"), SizeIs(0));
+  EXPECT_EQ(found("")[0]["name"], "circle-start.sqlite");
+}
+
+TEST_F(RecordsOnPage, AreShownWithTheirEventsAndCourse) {
+  const Json record = desk.json("GET", "/api/v1/records/circle-start.sqlite")["record"];
+  EXPECT_GT(record["samples"], 100);
+  EXPECT_EQ(record["events"][0]["kind"], "mode");
+  auto request = PageDesk::request("GET", "/api/v1/records/circle-start.sqlite/data");
+  request.query["points"] = "20";
+  const Json course = Json::parse(desk.ask(request).body);
+  ASSERT_EQ(course["t_s"].size(), 20U);
+  const Json& speed = course["columns"]["path_speed_mm_min"];
+  EXPECT_EQ(speed["max"].size(), 20U);
+  double most = 0.0;
+  for (std::size_t i = 0; i < 20; ++i) {
+    EXPECT_LE(speed["min"][i].get<double>(), speed["max"][i].get<double>());
+    most = std::max(most, speed["max"][i].get<double>());
+  }
+  EXPECT_GT(most, 1000.0);
+}
+
+TEST_F(RecordsOnPage, AreDecidedAgain) {
+  const Json got = desk.json("POST", "/api/v1/records/circle-start.sqlite/replay", "{}");
+  EXPECT_GT(got["cycles"], 100) << got;
+  EXPECT_TRUE(got["first_difference"].is_null()) << got;
+}
+
+TEST_F(RecordsOnPage, AreDownloadedWhole) {
+  const auto got = desk.ask("GET", "/api/v1/records/circle-start.sqlite/export");
+  EXPECT_EQ(std::filesystem::file_size(got.file),
+            std::filesystem::file_size(desk.desk().records + "/circle-start.sqlite"));
+  std::filesystem::remove(got.file);
+}
+
+TEST_F(RecordsOnPage, HaveNoOtherNames) {
+  for (const std::string name :
+       {"none.sqlite", "..", "../records/circle-start.sqlite", "make_circle.py", ".",
+        "circle-start.sqlite/none", "/etc/passwd", "circle-start.sqlite/../circle-start.sqlite"}) {
+    EXPECT_EQ(desk.ask("GET", "/api/v1/records/" + name).status, 404U) << name;
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::apps::live_page
