@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <steadyrest/kernel/units/constants.hpp>
@@ -110,10 +111,11 @@ Supervisor::Written Supervisor::written() const noexcept {
 }
 
 // Excludes the channels: when taken back they keep what the undelivered cycle saw of the panel (the
-// operator did turn it), when restored they do not.
+// operator did turn it), when restored they do not. The offsets are what the machine has, beyond a
+// limit that a new machine file has lowered too: they return from there by the slew.
 void Supervisor::put_back(const Written& written) noexcept {
-  offset_.restore(written.offset);
-  path_offset_.restore(written.path_offset);
+  offset_.take_over(written.offset);
+  path_offset_.take_over(written.path_offset);
   state_.delivered_s = written.delivered_s;
   state_.delivered_stamped_s = written.delivered_stamped_s;
   state_.silent_s = written.silent_s;
@@ -156,8 +158,11 @@ void Supervisor::restore(const State& state) noexcept {
   state_.clock_set = false;
   state_.stamp_s = kNan;
   state_.stands_s = 0.0;
-  // A state comes from a file: a NaN here would keep the tool in the cut for good.
+  // A state comes from a file: a NaN here would keep the tool in the cut, or the layer silent, for
+  // good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
+  state_.silent_s =
+      state.silent_s >= 0.0 ? state.silent_s : std::numeric_limits<double>::infinity();
   clock_.restore(state.clock);
   if (feed_) {
     feed_->restore(state.feed);
@@ -171,8 +176,11 @@ void Supervisor::restore(const State& state) noexcept {
             .path_offset = state.path_offset,
             .delivered_s = state.delivered_s,
             .delivered_stamped_s = state.delivered_stamped_s,
-            .silent_s = state.silent_s});
-  state_.silence_began_s = clock_.time_s() - state.silent_s;
+            .silent_s = state_.silent_s});
+  // From a file, so within its limits, whatever it says.
+  offset_.restore(state.offset);
+  path_offset_.restore(state.path_offset);
+  state_.silence_began_s = clock_.time_s() - state_.silent_s;
   motion_.reset();
   if (contour_) {
     contour_->reset();
