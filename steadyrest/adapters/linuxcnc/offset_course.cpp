@@ -18,7 +18,7 @@ OffsetCourse::OffsetCourse(const Config& config) noexcept
     : acceleration_(config.acceleration), slew_(config.slew) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double now = config.in_force[a];
-    axis_[a] = {.sum = {.asked = now, .at = now}, .given = now};
+    axis_[a] = {.sum = {.asked_mm = now, .at_mm = now}, .given = now};
   }
 }
 
@@ -53,7 +53,7 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
 double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcept {
   kernel::offset::LimitedFollower& sum = axis_[axis].sum;
   sum.follow(asked, kUsedShare * acceleration_[axis], dt_s);
-  return sum.at + 0.5 * sum.speed * std::abs(sum.speed) / acceleration_[axis];
+  return sum.at_mm + 0.5 * sum.speed_mm_s * std::abs(sum.speed_mm_s) / acceleration_[axis];
 }
 
 }  // namespace steadyrest::adapters::linuxcnc
