@@ -201,7 +201,9 @@ class Planner {
     if (auto done = create(name, own_file(changed, ini_name(path_))); !done) {
       return done;
     }
-    ini_edits_.push_back({.first = entry.line, .removed = 1, .added = {"HALFILE = " + name}});
+    ini_edits_.push_back({.first = entry.line,
+                          .removed = entry.top_line - entry.line + 1,
+                          .added = {"HALFILE = " + name}});
     return {};
   }
 
