@@ -53,7 +53,7 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
                   "give servo_period_ms; it is [EMCMOT] SERVO_PERIOD in the INI file");
   }
   if (units.axes < 1 || units.axes > kernel::signal::kMaxAxes) {
-    return refuse("number of axes (allowed: 1 to 8)", "give the joints of [KINS] JOINTS");
+    return refuse("number of axes (allowed: 1 to 8)", "give the axes of the machine file");
   }
   if (!(units.linear_unit_mm > 0.0 && std::isfinite(units.linear_unit_mm))) {
     return refuse("linear unit (allowed: above 0 mm)",

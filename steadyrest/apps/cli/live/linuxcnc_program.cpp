@@ -44,7 +44,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   if (!state.unread.empty()) {
     return std::unexpected(bad_input(
         "LinuxCNC has " + state.unread + " from before the program, which the layer does not read",
-        "return to G40 G94 G97 before the start; a remapped word has no path"));
+        "return to G8 G40 G94 G97 before the start; a remapped word has no path"));
   }
   steadyrest::live::LoadedProgram loaded{.file = state.program,
                                          .start = {},
