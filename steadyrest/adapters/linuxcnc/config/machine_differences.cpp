@@ -162,8 +162,9 @@ class Comparison {
   void limits_of_axis(const Axis& ours, const AxisLimits& theirs) {
     const double unit = ours.rotary ? kernel::units::rad_from_deg(1.0) : 1.0;
     const char* const name = ours.rotary ? "°" : "mm";
-    beyond(ours, "speed", ours.max_speed_au_s / unit, theirs.speed_s, fmt::format("{}/s", name));
-    beyond(ours, "acceleration", ours.max_acceleration_au_s2 / unit, theirs.acceleration_s2,
+    beyond(ours, "speed", ours.max_speed_au_s / unit, theirs.speed_units_s,
+           fmt::format("{}/s", name));
+    beyond(ours, "acceleration", ours.max_acceleration_au_s2 / unit, theirs.acceleration_units_s2,
            fmt::format("{}/s²", name));
     if (theirs.min) {
       end(ours, "lower", ours.min_au / unit, *theirs.min, -1.0, name);
