@@ -21,6 +21,7 @@ namespace {
 
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 
 constexpr int kSamplerKey = 0x48534130;  ///< SAMPLER_SHMEM_KEY, channel 0
 constexpr std::size_t kLongestName = 20;

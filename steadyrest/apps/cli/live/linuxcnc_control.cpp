@@ -56,10 +56,8 @@ Result<adapter::ControlState> ControlSource::first(double timeout_s) {
     return ended(std::move(state.error()));
   }
   if (!*state) {
-    return std::unexpected(Refusal{.kind = kernel::outcome::Kind::unavailable,
-                                   .file = {},
-                                   .what = "LinuxCNC does not show its status",
-                                   .to_do = "see whether it runs, as this user"});
+    return kernel::outcome::unavailable("LinuxCNC does not show its status",
+                                        "see whether it runs, as this user");
   }
   return std::move(**state);
 }
