@@ -171,7 +171,8 @@ void Loop::publish() noexcept {
   now_.mode_in_force = layer_->mode_in_force();
   now_.motion = frame.motion;
   now_.program_line = frame.program_line;
-  now_.error_known = contour && contour->error_valid;
+  // After a fault the estimate is the last good cycle's.
+  now_.error_known = !now_.port_fault && contour && contour->error_valid;
   now_.contour_error_mm = now_.error_known ? contour->error_mm : 0.0;
   if (now_.error_known && kernel::signal::in_cut(frame.motion) &&
       std::abs(now_.contour_error_mm) > config_.contour_limit_mm) {

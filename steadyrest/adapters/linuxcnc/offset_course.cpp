@@ -7,7 +7,6 @@
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-constexpr double kReturn_s = 1.0;  ///< of the control's units
 constexpr double kUsedShare = 0.9;
 constexpr double kSlack = 1.0 + 1e-9;      ///< for rounding
 constexpr std::uint64_t kLongestGap = 20;  ///< cycles
@@ -15,7 +14,7 @@ constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 }  // namespace
 
 OffsetCourse::OffsetCourse(const Config& config) noexcept
-    : acceleration_(config.acceleration), slew_(config.slew) {
+    : acceleration_(config.acceleration), slew_(config.slew), back_(config.back) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double now = config.in_force[a];
     axis_[a] = {.sum = {.asked_mm = now, .at_mm = now}, .given = now};
@@ -35,7 +34,7 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
     return;
   }
   bool back = true;
-  const double step = (was_off_ ? kReturn_s : slew_) * dt_s;
+  const double step = (was_off_ ? back_ : slew_) * dt_s;
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double away = pins.offset[a] - axis_[a].given;
     axis_[a].given = std::abs(away) <= step * kSlack ? pins.offset[a]
