@@ -22,19 +22,12 @@ namespace {
 namespace asio = boost::asio;
 using asio::local::stream_protocol;
 using boost::system::error_code;
-using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr auto kPauseAfterFault = std::chrono::milliseconds(100);
 constexpr std::string_view kTooLong =
     R"({"version":1,"error":{"what":"the line is too long; allowed: 4096 bytes","to_do":"send one request in a line"}})";
-
-Refusal unavailable(std::string what, std::string to_do) {
-  Refusal out = kernel::outcome::bad_input(std::move(what), std::move(to_do));
-  out.kind = kernel::outcome::Kind::unavailable;
-  return out;
-}
 
 /// One client: a line, its answer, the next line.
 class Client : public std::enable_shared_from_this<Client> {
@@ -204,8 +197,8 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
 
 Result<std::string> ask(const std::string& path, const std::string& line, double timeout_s) {
   const auto none = [&](const std::string& why) {
-    return std::unexpected(unavailable(fmt::format("no layer answers on {}: {}", path, why),
-                                       "start one with `steadyrest run`, or give its --socket"));
+    return kernel::outcome::unavailable(fmt::format("no layer answers on {}: {}", path, why),
+                                        "start one with `steadyrest run`, or give its --socket");
   };
   if (!fits(path)) {
     return refuse(path, "is no path of a socket", "give the --socket of the layer");

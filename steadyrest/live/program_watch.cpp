@@ -70,7 +70,7 @@ void ProgramWatch::watch() {
     if (!seen) {
       withdraw(planned_.file, kernel::outcome::text(seen.error()));
       loaded.reset();
-      stamp_.reset();
+      lost_ = true;
       continue;
     }
     if (*seen) {
@@ -82,9 +82,26 @@ void ProgramWatch::watch() {
   }
 }
 
+/// What was planned before it began is still what runs. Otherwise it has no path until it has
+/// ended.
+bool ProgramWatch::holds_while_it_runs(const LoadedProgram& loaded, bool same_text,
+                                       bool same_start) {
+  if (withdrawn_.empty() && !same_text) {
+    withdrawn_ = loaded.file + " has changed while it runs; the control may run either text";
+  } else if (withdrawn_.empty() && !same_start) {
+    withdrawn_ = "offsets, tools or modes have changed since the program was read; begin it again";
+  }
+  if (!withdrawn_.empty()) {
+    withdraw(loaded.file, withdrawn_);
+  }
+  return withdrawn_.empty();
+}
+
 void ProgramWatch::look(const LoadedProgram& loaded) {
+  const bool first = !std::exchange(seen_, true);
+  const bool heard_again = std::exchange(lost_, false);
   if (loaded.file.empty()) {
-    if (stamp_ || status().words.empty()) {
+    if (stamp_ || heard_again || status().words.empty()) {
       withdraw({}, "the control has no program loaded");
     }
     stamp_.reset();
@@ -107,23 +124,23 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
     as_planned.start.start = loaded.start.start;
   }
   const bool same_start = same_file && loaded == as_planned;
-  if (same_file && !loaded.stopped) {
-    if (!withdrawn_ && !(same_text && same_start)) {
-      withdrawn_ = true;
-      withdraw(loaded.file,
-               same_text
-                   ? "offsets, tools or modes have changed since the program was read; begin it "
-                     "again"
-                   : loaded.file + " has changed while it runs; the control may run either text");
+  if (!loaded.stopped && !first) {
+    if (!same_file) {
+      withdraw(loaded.file, loaded.file +
+                                " began before it was read; it has no path until it has "
+                                "ended");
+      return;
     }
-    return;
+    if (!holds_while_it_runs(loaded, same_text, same_start)) {
+      return;
+    }
   }
-  if (!withdrawn_ && same_text && same_start) {
+  if (!heard_again && withdrawn_.empty() && same_text && same_start) {
     return;
   }
   // Where only the position of the axes differs, the present route still holds.
   as_planned.start.start = loaded.start.start;
-  if (withdrawn_ || !same_text || loaded != as_planned) {
+  if (!withdrawn_.empty() || !same_text || loaded != as_planned) {
     withdraw(loaded.file, "the program is being read");
   }
   plan(loaded);
@@ -131,7 +148,7 @@ void ProgramWatch::look(const LoadedProgram& loaded) {
 
 void ProgramWatch::plan(const LoadedProgram& loaded) {
   planned_ = loaded;
-  withdrawn_ = false;
+  withdrawn_.clear();
   subprograms_.clear();
   stamp_ = stamps_of(loaded.file);
   const auto begin = std::chrono::steady_clock::now();

@@ -30,7 +30,8 @@ struct LoadedProgram {
 
 /// Keeps a FollowedPort's path that of the loaded program, in its own thread: reads and plans
 /// it when another one is loaded, when its text changes and when the control's offsets do. A
-/// program whose text changes while it runs has no path until it has ended.
+/// program whose text changes while it runs, or that began unseen, has no path until it has ended;
+/// only the state that the watch begins with may be that of a program that runs.
 class ProgramWatch {
  public:
   /// The newest state of the control; nothing when none came within the time. Called in the
@@ -62,6 +63,8 @@ class ProgramWatch {
 
   void watch();
   void look(const LoadedProgram& loaded);
+  [[nodiscard]] bool holds_while_it_runs(const LoadedProgram& loaded, bool same_text,
+                                         bool same_start);
   void plan(const LoadedProgram& loaded);
   void withdraw(const std::string& file, std::string words);
   void say(Status status);
@@ -75,7 +78,9 @@ class ProgramWatch {
   std::vector<std::string> subprograms_;  ///< of the program that was planned
   double plan_s_ = 0.0;                   ///< that took so long
   bool relative_ = false;                 ///< its end follows from where it starts
-  bool withdrawn_ = false;                ///< its text has changed
+  std::string withdrawn_;                 ///< why it has no path while it runs; empty: it has one
+  bool seen_ = false;                     ///< there was a state
+  bool lost_ = false;                     ///< the last one did not come
   mutable std::mutex mutex_;
   Status status_;
   std::atomic<bool> ends_{false};

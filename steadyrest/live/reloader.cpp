@@ -87,12 +87,11 @@ void Reloader::work() {
     // A negative descriptor is passed over.
     std::array<pollfd, 2> on = {pollfd{wake_, POLLIN, 0}, pollfd{signal_, POLLIN, 0}};
     ::poll(on.data(), on.size(), wake_ >= 0 ? -1 : kWithoutWake_ms);
-    const bool asked = drained(wake_);
-    const bool signalled = drained(signal_);
-    if (signalled) {
+    (void)drained(wake_);
+    if (drained(signal_)) {
       asked_.fetch_add(1);
     }
-    if ((asked || signalled) && !stop_.load()) {
+    if (asked_.load() != done_ && !stop_.load()) {
       reload();
     }
   }
@@ -100,6 +99,7 @@ void Reloader::work() {
 
 void Reloader::reload() {
   const std::uint64_t number = asked_.load();
+  done_ = number;
   if (config_.on_begin) {
     config_.on_begin();
   }

@@ -70,6 +70,7 @@ class Reloader {
   int signal_ = -1;
   struct sigaction before_{};  ///< what the signal did
   std::atomic<std::uint64_t> asked_{0};
+  std::uint64_t done_ = 0;  ///< of the thread: the last request that it has served
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   ReloadStatus status_;

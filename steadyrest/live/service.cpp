@@ -117,6 +117,7 @@ LifeSignThread::LifeSignThread(const Loop& loop, const ServiceManager& manager)
 
 LifeSignThread::~LifeSignThread() {
   if (thread_.joinable()) {
+    stop_.store(true);
     ::eventfd_write(wake_, 1);
     thread_.join();
     ::close(wake_);
@@ -125,7 +126,8 @@ LifeSignThread::~LifeSignThread() {
 
 void LifeSignThread::work(double every_s) {
   const int every_ms = std::max(1, static_cast<int>(std::lround(1e3 * every_s)));
-  for (pollfd end{wake_, POLLIN, 0}; ::poll(&end, 1, every_ms) <= 0;) {
+  pollfd end{wake_, POLLIN, 0};  // a negative descriptor is passed over
+  while (::poll(&end, 1, every_ms) <= 0 && !stop_.load()) {
     sign_.look();
   }
   sign_.stopping();

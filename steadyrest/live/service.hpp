@@ -77,6 +77,7 @@ class LifeSignThread {
 
   LifeSign sign_;
   int wake_ = -1;
+  std::atomic<bool> stop_{false};  ///< where there is nothing to wake it by, too
   std::thread thread_;
 };
 

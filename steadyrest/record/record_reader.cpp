@@ -66,11 +66,11 @@ Result<void> check_size(Database& database, const std::string& file) {
   if (!pages || !page_bytes) {
     return std::unexpected(pages ? page_bytes.error() : pages.error());
   }
-  std::error_code none;
-  const auto log = std::filesystem::file_size(file + "-wal", none);
-  const bool logged = !none && log > 0;
-  const auto bytes = std::filesystem::file_size(file, none);
-  if (!none && !logged && std::cmp_less(bytes, *pages * *page_bytes)) {
+  std::error_code fault;
+  const auto log = std::filesystem::file_size(file + "-wal", fault);
+  const bool logged = !fault && log > 0;
+  const auto bytes = std::filesystem::file_size(file, fault);
+  if (!fault && !logged && std::cmp_less(bytes, *pages * *page_bytes)) {
     return refuse(file, "is damaged: it is cut off", "restore it from a copy, or delete it");
   }
   return {};

@@ -10,7 +10,8 @@ inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
 inline constexpr std::int64_t kFormat = 2;
 
-/// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others.
+/// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others, its
+/// acceleration in mm/s² above that.
 inline constexpr int kDelayShift = 16;
 inline constexpr int kAccelerationShift = 32;
 

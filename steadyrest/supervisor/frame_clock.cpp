@@ -15,8 +15,6 @@ namespace {
 
 using kernel::outcome::Reason;
 
-// Beyond the calls: a stamp half a step late, and one lost frame. Test AStampMayBeLate….
-constexpr double kSlackSteps = 1.5;
 // In usual steps: only 1/√31 of the stamps' jitter gets into it, less than a fifth. Test
 // TheUsualStepFollowsByASixteenth.
 constexpr double kMemorySteps = 16.0;

@@ -29,6 +29,9 @@ namespace steadyrest::supervisor {
 /// as long as all stamps are good it is the stamp itself, exactly.
 class FrameClock {
  public:
+  /// Beyond the calls: a stamp half a step late, and one lost frame. Test AStampMayBeLate….
+  static constexpr double kSlackSteps = 1.5;
+
   struct Config {
     double usual_s = 0.001;  ///< initial T, > 0
   };

@@ -40,6 +40,9 @@ std::string misfit(const Machine& running, const Machine& wanted) {
   if (wanted.control.servo_period_s != running.control.servo_period_s) {
     return "[control] servo_period_ms differs";
   }
+  if (wanted.envelope.stale_after_s != running.envelope.stale_after_s) {
+    return "[envelope] stale_after_ms differs";
+  }
   if (wanted.feed_override != running.feed_override) {
     return "[override.feed] differs";
   }

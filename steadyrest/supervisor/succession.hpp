@@ -8,8 +8,8 @@
 namespace steadyrest::supervisor {
 
 /// Refused: what cannot change under a running machine. That is the port, the names, kinds and
-/// order of the axes, the control's periods, the override tables and the shape of the thermal
-/// model.
+/// order of the axes, the control's periods, the watchdog's time on the machine, the override
+/// tables and the shape of the thermal model.
 [[nodiscard]] kernel::outcome::Result<void> fits(const kernel::machine::Machine& running,
                                                  const kernel::machine::Machine& wanted);
 

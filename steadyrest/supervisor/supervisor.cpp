@@ -55,9 +55,10 @@ Result<std::optional<Room>> room(bool on, const Config& config) {
 Result<std::optional<contour::online::FeedGovernor>> contour_room(
     const machine::Machine& machine, bool feed_override, const kernel::port::Capability& port) {
   auto config = contour::online::FeedGovernor::Config::of(machine);
-  config.path_offset_delay_s = port.path_offset_delay_s;
-  config.path_offset_acceleration_mm_s2 = port.path_offset_acceleration_mm_s2;
-  if (!port.path_offset) {
+  if (port.path_offset && config.envelope.max_path_offset_mm > 0.0) {
+    config.path_offset_delay_s = port.path_offset_delay_s;
+    config.path_offset_acceleration_mm_s2 = port.path_offset_acceleration_mm_s2;
+  } else {
     config.envelope.max_path_offset_mm = 0.0;
   }
   return room<contour::online::FeedGovernor>(machine.contour.enabled && feed_override, config);
@@ -288,8 +289,8 @@ signal::Command Supervisor::update(const signal::Frame& frame, const Requests& r
   // become stale by the same rule.
   if (!read_now) {
     known.age_s = ever_read ? frame.age_s + (tick.time_s - last_s) : kNeverReadS;
-  } else if (source_stands()) {
-    known.age_s = std::max(frame.age_s, state_.stands_s);
+  } else if (source_stalled()) {
+    known.age_s = std::max(frame.age_s, state_.stalled_s);
   }
   const Reason unfit = inspect(known, tick);
   unfit_ = unfit;

@@ -81,8 +81,8 @@ class Supervisor {
     /// Of the cycles since the last written one; infinite: none yet.
     double silent_s = std::numeric_limits<double>::infinity();
     double stamp_s = std::numeric_limits<double>::quiet_NaN();  ///< of the last frame read
-    double stands_s = 0.0;  ///< of the cycles that have shown the same stamp again
-    double idle_s = 0.0;    ///< good time since the control became idle
+    double stalled_s = 0.0;  ///< of the cycles that have shown the same stamp again
+    double idle_s = 0.0;     ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
@@ -180,7 +180,7 @@ class Supervisor {
   void watch_source(double stamp_s) noexcept;
   [[nodiscard]] bool stamps_say_short(const FrameClock::Tick& tick) const noexcept;
   [[nodiscard]] bool is_dropped(const FrameClock::Tick& tick) const noexcept;
-  [[nodiscard]] bool source_stands() const noexcept { return state_.stands_s > watchdog_s_; }
+  [[nodiscard]] bool source_stalled() const noexcept { return state_.stalled_s > watchdog_s_; }
   void begin_at_panel() noexcept;
   void resume(const FrameClock::Tick& tick) noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;

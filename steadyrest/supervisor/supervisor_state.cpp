@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <steadyrest/kernel/units/constants.hpp>
@@ -26,12 +27,12 @@ void Supervisor::begin_at_panel() noexcept {
   handed_back_ = true;
 }
 
-// No stamp moves any slew on a source that stands, so the layer cannot go to neutral by itself: it
+// No stamp moves any slew while the source stalls, so the layer cannot go to neutral by itself: it
 // falls silent, and the machine's watchdog hands back.
 void Supervisor::watch_source(double stamp_s) noexcept {
-  state_.stands_s = stamp_s == state_.stamp_s ? state_.stands_s + cycle_s_ : 0.0;
+  state_.stalled_s = stamp_s == state_.stamp_s ? state_.stalled_s + cycle_s_ : 0.0;
   state_.stamp_s = stamp_s;
-  state_.interrupted = state_.interrupted || source_stands();
+  state_.interrupted = state_.interrupted || source_stalled();
 }
 
 /// Every frame shows the operator's setting, even where nothing is written.
@@ -47,7 +48,7 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
 /// The stamps tell that the machine still holds everything, and agree with the silent cycles: a
 /// clock that stood, or gave the last delivery a wrong stamp, would make any silence look short.
 bool Supervisor::stamps_say_short(const FrameClock::Tick& tick) const noexcept {
-  constexpr double kSlackCycles = 2.5;  // FrameClock's own
+  constexpr double kSlackCycles = 1.0 + FrameClock::kSlackSteps;
   const double gap_s = tick.time_s - state_.delivered_s;
   return !state_.clock_set && gap_s <= watchdog_s_ &&
          gap_s >= state_.silent_s - kSlackCycles * cycle_s_;
@@ -74,7 +75,7 @@ void Supervisor::resume(const FrameClock::Tick& tick) noexcept {
     state_.delivered_s = state_.delivered_stamped_s;
   }
   state_.clock_set = state_.interrupted && (state_.clock_set || tick.set);
-  if (!state_.interrupted || !tick.good || source_stands()) {
+  if (!state_.interrupted || !tick.good || source_stalled()) {
     return;
   }
   const bool dropped = is_dropped(tick);
@@ -110,10 +111,11 @@ Supervisor::Written Supervisor::written() const noexcept {
 }
 
 // Excludes the channels: when taken back they keep what the undelivered cycle saw of the panel (the
-// operator did turn it), when restored they do not.
+// operator did turn it), when restored they do not. The offsets are what the machine has, beyond a
+// limit that a new machine file has lowered too: they return from there by the slew.
 void Supervisor::put_back(const Written& written) noexcept {
-  offset_.restore(written.offset);
-  path_offset_.restore(written.path_offset);
+  offset_.take_over(written.offset);
+  path_offset_.take_over(written.path_offset);
   state_.delivered_s = written.delivered_s;
   state_.delivered_stamped_s = written.delivered_stamped_s;
   state_.silent_s = written.silent_s;
@@ -155,9 +157,12 @@ void Supervisor::restore(const State& state) noexcept {
   state_.interrupted = true;
   state_.clock_set = false;
   state_.stamp_s = kNan;
-  state_.stands_s = 0.0;
-  // A state comes from a file: a NaN here would keep the tool in the cut for good.
+  state_.stalled_s = 0.0;
+  // A state comes from a file: a NaN here would keep the tool in the cut, or the layer silent, for
+  // good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
+  state_.silent_s =
+      state.silent_s >= 0.0 ? state.silent_s : std::numeric_limits<double>::infinity();
   clock_.restore(state.clock);
   if (feed_) {
     feed_->restore(state.feed);
@@ -171,8 +176,11 @@ void Supervisor::restore(const State& state) noexcept {
             .path_offset = state.path_offset,
             .delivered_s = state.delivered_s,
             .delivered_stamped_s = state.delivered_stamped_s,
-            .silent_s = state.silent_s});
-  state_.silence_began_s = clock_.time_s() - state.silent_s;
+            .silent_s = state_.silent_s});
+  // From a file, so within its limits, whatever it says.
+  offset_.restore(state.offset);
+  path_offset_.restore(state.path_offset);
+  state_.silence_began_s = clock_.time_s() - state_.silent_s;
   motion_.reset();
   if (contour_) {
     contour_->reset();

@@ -91,7 +91,7 @@ def main():
     said["run"] = layer.until(lambda seen: seen.get("place") == "on_path")
     stopped()
     command.auto(linuxcnc.AUTO_RUN, 8)  # the second pass's line: which pass it is cannot be known
-    layer.until(lambda seen: seen.get("place") == "searching")
+    said["searched"] = layer.until(lambda seen: seen.get("place") == "searching")
     said["from_line"] = layer.until(lambda seen: seen.get("place") == "on_path", 1.0)
     stopped()
     opened(KEPT)

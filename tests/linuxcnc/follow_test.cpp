@@ -45,6 +45,7 @@ TEST(FollowOnLinuxCnc, SaysWhatIsKnownOfTheLoadedProgram) {
   EXPECT_GT(said["opened_again"]["segments"], 10);
   EXPECT_EQ(said["run"]["place"], "on_path");
   // Started at the second line of a square that is cut three times: which one is not known.
+  EXPECT_EQ(said["searched"]["place"], "searching");
   EXPECT_NE(said["from_line"]["place"], "on_path");
   // Its memory may hold any #31.
   EXPECT_THAT(words(said, "kept"), HasSubstr("part.ngc:3: `X#31`"));

@@ -40,7 +40,6 @@ constexpr double kAcceleration_mm_s = 2.0;  ///< a servo cycle: 2000 mm/s²
 /// A servo cycle. The envelope's 0.05 mm/s are 0.05 µm; a stall is made up with 1 µm at once, which
 /// LinuxCNC eases to 0.6 µm a cycle. A jump of the 50 µm would show as 2.5 µm.
 constexpr double kOffsetStep_mm = 1e-3;
-constexpr double kMostLost = 2000.0;  ///< cycles: the record commits every second
 constexpr double kOffsetBefore_mm = 0.05;
 
 unsigned long number_from(const char* name, unsigned long otherwise) {
@@ -48,7 +47,7 @@ unsigned long number_from(const char* name, unsigned long otherwise) {
   return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
 }
 
-/// A servo cycle (lag_log.hal).
+/// One kill, as kills.py noted it.
 struct Kill {
   double tick = 0.0;    ///< by this servo cycle the process had ended
   bool waited = false;  ///< the next layer came when the feed was the panel's
@@ -209,7 +208,6 @@ Figures expect_each_let_go(const std::vector<ServoRow>& log, const std::vector<K
       out.speed_back.push_back(of.speed_back);
     }
     out.lost.push_back(expect_whole(runs[i], of, machine.value()));
-    EXPECT_LE(out.lost.back(), kMostLost) << runs[i];
   }
   expect_whole(runs.back(), {}, machine.value());
   return out;

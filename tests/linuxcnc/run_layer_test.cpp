@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tests/linuxcnc/live_mill.hpp>
@@ -55,6 +56,23 @@ void expect_replays(const std::string& file, const kernel::machine::Machine& mac
   EXPECT_FALSE(replayed->first_difference.has_value());
 }
 
+/// The files that layer.py had read again.
+void expect_reloads_judged_by_the_control(const OwnFolder& folder) {
+  const std::vector<std::string> refused = {"axis X: upper end of travel 9000 mm",
+                                            "offset_slew_um_s differs from the running layer's",
+                                            "[control] differs from the running layer's"};
+  for (std::size_t i = 0; i < refused.size(); ++i) {
+    const std::string name = "reload" + std::to_string(i + 1) + ".json";
+    const json reload = json::parse(text_of_file(folder.at(name)), nullptr, false);
+    ASSERT_TRUE(reload.is_object()) << name;
+    EXPECT_EQ(reload["outcome"], "refused") << name;
+    EXPECT_THAT(reload["words"].get<std::string>(), testing::HasSubstr(refused[i]));
+  }
+  const json last = json::parse(text_of_file(folder.at("reload4.json")), nullptr, false);
+  ASSERT_TRUE(last.is_object());
+  EXPECT_EQ(last["outcome"], "taken") << last;
+}
+
 // v²/(2·R·k²) with k = 20 1/s: 10 µm ask for 8.9 mm/s on this circle, 13 % of its feed.
 TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
   const OwnFolder folder;
@@ -73,8 +91,9 @@ TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
   const json acted = json::parse(text_of_file(folder.at("act.json")), nullptr, false);
   ASSERT_TRUE(observed.is_object()) << text_of_file(folder.at("observe.said"));
   ASSERT_TRUE(acted.is_object()) << text_of_file(folder.at("act.said"));
-  EXPECT_EQ(observed["cycles"], 2000);
-  EXPECT_GT(observed["over_limit_s"].get<double>(), 1.9);
+  EXPECT_EQ(observed["cycles"], 3000);
+  EXPECT_GT(observed["over_limit_s"].get<double>(), 2.9);
+  expect_reloads_judged_by_the_control(folder);
   EXPECT_LT(acted["over_limit_s"].get<double>(), 1.0) << "of 4 s";
   EXPECT_EQ(acted["handed_back"], true);
   EXPECT_EQ(acted["port_faults"], 0);

@@ -2,7 +2,6 @@
 // LinuxCNC starts on configurations that `steadyrest linuxcnc setup` has changed, and the layer's
 // pins are there, connected.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -10,7 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <tests/linuxcnc/live_mill.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 
@@ -20,16 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using kernel::file::testing::OwnFolder;
 using kernel::file::testing::text_of_file;
+using linuxcnc_test::kCannotRun;
+using linuxcnc_test::status_of;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Pair;
-
-constexpr int kCannotRun = 77;
-
-int status_of(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
 
 /// A copy of a configuration, set up with the built program.
 class SetupLoads : public testing::Test {
@@ -56,7 +50,7 @@ class SetupLoads : public testing::Test {
     return status_of("'" STEADYREST_PROGRAM "' linuxcnc setup '" + folder_.at("cfg/" + ini) + "' " +
                      options + " >/dev/null");
   }
-  /// 0, or why not; then pins() has what LinuxCNC shows.
+  /// 0, or why not; then signals_ has what LinuxCNC shows.
   int start(const std::string& ini) {
     const int status = status_of("bash " STEADYREST_SOURCE_DIR "/tests/linuxcnc/loads.sh '" +
                                  folder_.at("cfg/" + ini) + "' '" + folder_.at("shown") + "'");

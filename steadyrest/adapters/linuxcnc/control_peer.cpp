@@ -13,20 +13,15 @@
 
 #include <steadyrest/adapters/linuxcnc/control_peer.hpp>
 #include <steadyrest/adapters/linuxcnc/control_script.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 
-std::unexpected<Refusal> unavailable(std::string what) {
-  return std::unexpected(Refusal{.kind = Kind::unavailable,
-                                 .file = {},
-                                 .what = std::move(what),
-                                 .to_do = "install linuxcnc-uspace with its Python modules"});
-}
+constexpr const char* kInstall = "install linuxcnc-uspace with its Python modules";
 
 /// 0, or why the process did not start; its output is `out`.
 int spawn(const ControlPeer::Config& config, int out, pid_t& process) {
@@ -50,14 +45,15 @@ int spawn(const ControlPeer::Config& config, int out, pid_t& process) {
 Result<std::unique_ptr<ControlPeer>> ControlPeer::start(const Config& config) {
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
-    return unavailable(std::string("no pipe for LinuxCNC's status: ") + std::strerror(errno));
+    return unavailable(std::string("no pipe for LinuxCNC's status: ") + std::strerror(errno),
+                       kInstall);
   }
   pid_t process = -1;
   const int fault = spawn(config, pipe[1], process);
   ::close(pipe[1]);
   if (fault != 0) {
     ::close(pipe[0]);
-    return unavailable(config.python + " does not start: " + std::strerror(fault));
+    return unavailable(config.python + " does not start: " + std::strerror(fault), kInstall);
   }
   return std::unique_ptr<ControlPeer>(new ControlPeer(process, pipe[0]));
 }
@@ -79,7 +75,7 @@ Result<std::optional<ControlState>> ControlPeer::next(double timeout_s) {
     return std::optional<ControlState>();
   }
   if (got <= 0) {
-    return unavailable("the process that reads LinuxCNC's status has ended");
+    return unavailable("the process that reads LinuxCNC's status has ended", kInstall);
   }
   text_.append(buffer.data(), static_cast<std::size_t>(got));
   const std::size_t end = text_.rfind('\n');

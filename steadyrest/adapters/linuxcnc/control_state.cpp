@@ -10,8 +10,6 @@
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-using kernel::outcome::Kind;
-using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using Json = nlohmann::json;
 
@@ -67,10 +65,8 @@ Result<ControlState> control_state(std::string_view line) {
   try {
     const Json json = Json::parse(line);
     if (const auto error = json.find("error"); error != json.end()) {
-      return std::unexpected(Refusal{.kind = Kind::unavailable,
-                                     .file = {},
-                                     .what = error->get<std::string>(),
-                                     .to_do = "see whether LinuxCNC runs, as this user"});
+      return kernel::outcome::unavailable(error->get<std::string>(),
+                                          "see whether LinuxCNC runs, as this user");
     }
     return state_of(json);
   } catch (const Json::exception& fault) {

@@ -106,26 +106,49 @@ def without_offsets(position, lengths):
 class OpenedText:
     """Whether a program file is still the one that LinuxCNC has open: it runs that first, and opens the file anew for later runs."""
 
-    def __init__(self, task):
-        self.task, self.opened, self.ran = task, None, False
+    def __init__(self, task, processes="/proc"):
+        self.comm, self.processes, self.process = task[:15], processes, None
+        self.opened, self.ran = None, False
+        self.program, self.judged, self.judged_s, self.verdict = None, None, 0.0, True
+
+    def is_task(self, process):
+        try:
+            with open(process + "/comm") as name:
+                return name.read().strip() == self.comm and os.access(process + "/fd", os.R_OK | os.X_OK)
+        except OSError:
+            return False  # it has ended
 
     def held(self, program):
-        """Of the file that LinuxCNC's task holds open by this name; None: none, or it is not ours to see."""
-        names = {program, os.path.realpath(program)}
-        for process in glob.glob("/proc/[0-9]*"):
+        """Of the file that LinuxCNC's task holds open by this name (None: none, or it is not ours to see), and whether every descriptor was seen."""
+        if self.process is None or not self.is_task(self.process):
+            self.process = next(filter(self.is_task, glob.iglob(self.processes + "/[0-9]*")), None)
+        if self.process is None:
+            return None, True
+        names, all_seen = {program, os.path.realpath(program)}, True
+        for entry in glob.glob(self.process + "/fd/*"):
             try:
-                with open(process + "/comm") as name:
-                    if name.read().strip() != self.task[:15]:
-                        continue
-                for entry in glob.glob(process + "/fd/*"):
-                    if os.readlink(entry).removesuffix(" (deleted)") in names:
-                        return os.stat(entry)
+                if os.readlink(entry).removesuffix(" (deleted)") in names:
+                    return os.stat(entry), True
             except OSError:
-                pass  # it has ended, or is another user's
-        return None
+                all_seen = False  # closed meanwhile
+        return None, all_seen
 
     def is_file(self, program, stopped):
-        held = self.held(program)
+        """Looks where something has changed, while the answer is no, and once a second."""
+        now_s, seen = time.monotonic(), (program, stopped, stamp(program))
+        if self.judged == seen and self.verdict and now_s - self.judged_s < REPEAT_S:
+            return True
+        held, all_seen = self.held(program)
+        if held is None and not all_seen:
+            self.verdict = self.verdict or program != self.program
+            self.judged = None
+        else:
+            self.verdict = self.is_held(program, stopped, held)
+            self.judged, self.judged_s = seen, now_s
+        self.program = program
+        return self.verdict
+
+    def is_held(self, program, stopped, held):
         if held is None:
             return True
         opened = (program, held.st_dev, held.st_ino)

@@ -8,11 +8,13 @@
 
 #include <steadyrest/adapters/linuxcnc/hal_pins.hpp>
 #include <steadyrest/adapters/linuxcnc/process_identity.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 
 constexpr int kLongestWait_ms = 2000;
 

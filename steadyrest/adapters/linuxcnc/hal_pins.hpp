@@ -15,14 +15,6 @@
 
 namespace steadyrest::adapters::linuxcnc {
 
-[[nodiscard]] inline std::unexpected<kernel::outcome::Refusal> unavailable(std::string what,
-                                                                           std::string to_do) {
-  return std::unexpected(kernel::outcome::Refusal{.kind = kernel::outcome::Kind::unavailable,
-                                                  .file = {},
-                                                  .what = std::move(what),
-                                                  .to_do = std::move(to_do)});
-}
-
 /// Of a signal that a HAL file set; nothing where there is none of this name. Not by a pin: linking
 /// the first one would overwrite the value.
 [[nodiscard]] std::optional<double> signal_value(const std::string& name);

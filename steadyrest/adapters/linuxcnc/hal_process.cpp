@@ -21,6 +21,7 @@ namespace {
 
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 
 constexpr int kSamplerKey = 0x48534130;  ///< SAMPLER_SHMEM_KEY, channel 0
 constexpr std::size_t kLongestName = 20;
@@ -84,7 +85,8 @@ Result<void> HalProcess::Hal::attach(std::size_t axes) {
           fmt::format(
               "sampler channel {} has {} pins, not {}: layer.hal is for another number of axes", c,
               pins_there, types.size()),
-          fmt::format("make the machine file have as many axes as LinuxCNC has joints; it has {}",
+          fmt::format("run steadyrest linuxcnc setup for this configuration, or name its machine "
+                      "file; this one has {} axes",
                       axes));
     }
     columns[c] = types.size();

@@ -8,10 +8,10 @@
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-using kernel::outcome::Kind;
 using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 using Got = SampleQueue::Got;
 
 /// From the write to the command that contains it, beyond one: measured on 2.9.0~pre1.
@@ -23,24 +23,20 @@ constexpr std::uint32_t kBeatsToShow = 30;
 constexpr std::uint32_t kBeatsToRampOut = 300;
 constexpr double kGone_mm = 0.002;
 
-std::unexpected<Refusal> lost(std::string what, std::string to_do) {
-  return std::unexpected(Refusal{
-      .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
-}
-
 std::unexpected<Refusal> why(Got got) {
   switch (got) {
     case Got::frozen:
-      return lost("LinuxCNC's cycle counter does not change",
-                  "add layer.tick to the servo thread before the samplers, as layer.hal does");
+      return unavailable(
+          "LinuxCNC's cycle counter does not change",
+          "add layer.tick to the servo thread before the samplers, as layer.hal does");
     case Got::restarted:
-      return lost("LinuxCNC's cycle counter went back", "start the layer again");
+      return unavailable("LinuxCNC's cycle counter went back", "start the layer again");
     case Got::not_a_tick:
-      return lost("LinuxCNC's cycle counter is not a whole number",
-                  "connect layer.tick to pin 0 of each sampler channel, as layer.hal does");
+      return unavailable("LinuxCNC's cycle counter is not a whole number",
+                         "connect layer.tick to pin 0 of each sampler channel, as layer.hal does");
     default:
-      return lost("no sample came from LinuxCNC's servo thread",
-                  "see whether LinuxCNC runs and sampler.N.enable is 1");
+      return unavailable("no sample came from LinuxCNC's servo thread",
+                         "see whether LinuxCNC runs and sampler.N.enable is 1");
   }
 }
 
@@ -53,7 +49,7 @@ Result<std::unique_ptr<LinuxCncPort>> LinuxCncPort::make(const Config& config, H
                   "give servo_period_ms; it is [EMCMOT] SERVO_PERIOD in the INI file");
   }
   if (units.axes < 1 || units.axes > kernel::signal::kMaxAxes) {
-    return refuse("number of axes (allowed: 1 to 8)", "give the joints of [KINS] JOINTS");
+    return refuse("number of axes (allowed: 1 to 8)", "give the axes of the machine file");
   }
   if (!(units.linear_unit_mm > 0.0 && std::isfinite(units.linear_unit_mm))) {
     return refuse("linear unit (allowed: above 0 mm)",

@@ -39,6 +39,9 @@ class LinuxCncPort final : public kernel::port::Port {
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
+  /// The layer's pins are in force: armed and found alive. Of the thread that reads.
+  [[nodiscard]] bool in_force() const noexcept { return sample_[Column::layer_alive] != 0.0; }
+
   // From any thread.
   /// Servo cycles that the sampler lost because its queue was full.
   [[nodiscard]] std::uint64_t missed() const noexcept { return queue_.missed(); }
@@ -46,8 +49,6 @@ class LinuxCncPort final : public kernel::port::Port {
   [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_.load(); }
   /// How often the watchdog had to be armed after the first time.
   [[nodiscard]] std::uint64_t rearmed() const noexcept { return rearmed_.load(); }
-  /// The layer's pins are in force: armed and found alive.
-  [[nodiscard]] bool in_force() const noexcept { return sample_[Column::layer_alive] != 0.0; }
 
  private:
   LinuxCncPort(const Config& config, HalSide& hal) noexcept
@@ -57,7 +58,8 @@ class LinuxCncPort final : public kernel::port::Port {
         heat_offset_(hal.offset_in_force()),
         course_({.acceleration = hal.offset_acceleration(),
                  .in_force = hal.offset_in_force(),
-                 .slew = config.offset_slew_mm_s / config.units.linear_unit_mm}),
+                 .slew = config.offset_slew_mm_s / config.units.linear_unit_mm,
+                 .back = 1.0 / config.units.linear_unit_mm}),
         slowest_offset_mm_s2_(slowest_mm_s2(config.units, hal.offset_acceleration())),
         offsets_connected_(hal.offsets_connected()) {}
   [[nodiscard]] static double slowest_mm_s2(const Units& units,

@@ -7,7 +7,6 @@
 namespace steadyrest::adapters::linuxcnc {
 namespace {
 
-constexpr double kReturn_s = 1.0;  ///< of the control's units
 constexpr double kUsedShare = 0.9;
 constexpr double kSlack = 1.0 + 1e-9;      ///< for rounding
 constexpr std::uint64_t kLongestGap = 20;  ///< cycles
@@ -15,10 +14,10 @@ constexpr std::uint64_t kLongestGap = 20;  ///< cycles
 }  // namespace
 
 OffsetCourse::OffsetCourse(const Config& config) noexcept
-    : acceleration_(config.acceleration), slew_(config.slew) {
+    : acceleration_(config.acceleration), slew_(config.slew), back_(config.back) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double now = config.in_force[a];
-    axis_[a] = {.sum = {.asked = now, .at = now}, .given = now};
+    axis_[a] = {.sum = {.asked_mm = now, .at_mm = now}, .given = now};
   }
 }
 
@@ -35,7 +34,7 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
     return;
   }
   bool back = true;
-  const double step = (was_off_ ? kReturn_s : slew_) * dt_s;
+  const double step = (was_off_ ? back_ : slew_) * dt_s;
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const double away = pins.offset[a] - axis_[a].given;
     axis_[a].given = std::abs(away) <= step * kSlack ? pins.offset[a]
@@ -53,7 +52,7 @@ void OffsetCourse::apply(Pins& pins, bool enabled, std::uint64_t tick, double pe
 double OffsetCourse::target(std::size_t axis, double asked, double dt_s) noexcept {
   kernel::offset::LimitedFollower& sum = axis_[axis].sum;
   sum.follow(asked, kUsedShare * acceleration_[axis], dt_s);
-  return sum.at + 0.5 * sum.speed * std::abs(sum.speed) / acceleration_[axis];
+  return sum.at_mm + 0.5 * sum.speed_mm_s * std::abs(sum.speed_mm_s) / acceleration_[axis];
 }
 
 }  // namespace steadyrest::adapters::linuxcnc

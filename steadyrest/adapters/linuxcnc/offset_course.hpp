@@ -23,13 +23,14 @@ namespace steadyrest::adapters::linuxcnc {
 /// the offset of before is still in force. It goes on from there.
 ///
 /// While the machine is off LinuxCNC takes the offset in force into the commanded position: the
-/// target is 0 then, and the offset against heat grows from 0 at 1 mm/s afterwards.
+/// target is 0 then, and the offset against heat grows from 0 by `back` afterwards.
 class OffsetCourse {
  public:
   struct Config {
     kernel::signal::AxisValues acceleration{};  ///< for offsets, ≥ 0; 0: not known, no lead
     kernel::signal::AxisValues in_force{};      ///< offset against heat that the HAL has
     double slew = 1.0;                          ///< > 0
+    double back = 1.0;                          ///< of the control's units per second, > 0; 1 mm/s
   };
 
   explicit OffsetCourse(const Config& config) noexcept;
@@ -48,6 +49,7 @@ class OffsetCourse {
 
   kernel::signal::AxisValues acceleration_;
   double slew_;
+  double back_;
   std::array<Axis, kernel::signal::kMaxAxes> axis_{};
   std::uint64_t tick_ = 0;
   bool begun_ = false;

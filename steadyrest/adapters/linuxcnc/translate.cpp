@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 
 #include <steadyrest/adapters/linuxcnc/translate.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
 namespace {
@@ -13,7 +13,6 @@ using kernel::signal::Frame;
 using kernel::signal::Motion;
 using kernel::signal::ProgramState;
 
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kMostSpindleFactor = 2.0;
 constexpr double kSameRatio = 1e-6;
 
@@ -72,7 +71,7 @@ double effective(const Sample& sample, const Units& units, double panel) noexcep
 
 /// A machine axis's unit (mm or rad) in one of the control's units.
 double unit_of(std::size_t axis, const Units& units) noexcept {
-  return units.rotary[axis] ? kDegree_rad : units.linear_unit_mm;
+  return units.rotary[axis] ? kernel::units::rad_from_deg(1.0) : units.linear_unit_mm;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace steadyrest::adapters::linuxcnc {
 
 /// How LinuxCNC's numbers become ours.
 struct Units {
-  std::size_t axes = 3;         ///< joints 0 …, in the order of the machine file; 1 … 8
+  std::size_t axes = 3;         ///< in the order of the machine file; 1 … 8
   double servo_period_s = 0.0;  ///< [EMCMOT] SERVO_PERIOD; must be given
   double linear_unit_mm = 1.0;  ///< [TRAJ] LINEAR_UNITS: 1, or 25.4 for inches
   std::array<bool, kernel::signal::kMaxAxes> rotary{};  ///< counted in degrees

@@ -68,8 +68,8 @@ constexpr Entry kVerbs[] = {
       "examples/programs/circle-r10-larger.mpf --against examples/programs/circle-r10.mpf "
       "--machine examples/machines/ideal-k50.toml"}},
     {"doctor",
-     "Check a machine file and this computer's clock, and measure whether the layer fits in the "
-     "control cycle",
+     "Check a machine file, this computer's clock and its real-time settings, and measure whether "
+     "the layer fits in the control cycle",
      add_verb_doctor,
      {"--machine examples/machines/vmc-840d.toml"}},
     {"run",
@@ -242,7 +242,7 @@ constexpr Entry kVerbs[] = {
      add_verb_record_show,
      {"examples/records/circle-start.sqlite"}},
     {"record export",
-     "Write a record as CSV: one row per cycle, every field of frame and command",
+     "Write a record as CSV or HDF5: one row per cycle, every field of frame and command",
      add_verb_record_export,
      {"examples/records/circle-start.sqlite -o out.csv"}},
     {"record replay",

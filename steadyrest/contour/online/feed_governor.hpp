@@ -180,7 +180,8 @@ class FeedGovernor {
   /// rebuilt.
   void restore(const State& state) noexcept;
   /// No decision takes more: what the share allows, the look in progress (two forecasts), the fall
-  /// and one look along it; with an objective also its share and the look in progress there.
+  /// and one look along it; with an objective also its share and the look in progress there; with
+  /// offsets of limited acceleration also the two forecasts that say whether they follow.
   [[nodiscard]] std::size_t most_forecast_steps() const noexcept;
   void reset() noexcept;
 
@@ -210,7 +211,7 @@ class FeedGovernor {
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
   void fill_pending(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
-  void choose_offsets(Outset& outset) noexcept;
+  void choose_offsets(Outset& outset, Output& output) noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
   struct Search;
   Choice largest_admissible(const Outset& outset, std::size_t top, Output& output) noexcept;

@@ -32,10 +32,10 @@ constexpr double kFollowAgain = 0.9;  // of the other error², so that it does n
 constexpr double kTie = 1e-9;         // other objectives: their rounding
 
 /// Adds a forecast to the decision's count; returns its steps.
-std::size_t count(const Forecast::Result& result, FeedGovernor::Output& output) noexcept {
+std::size_t count(std::size_t steps, FeedGovernor::Output& output) noexcept {
   ++output.forecasts;
-  output.forecast_steps += static_cast<std::uint32_t>(result.steps);
-  return result.steps;
+  output.forecast_steps += static_cast<std::uint32_t>(steps);
+  return steps;
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ struct FeedGovernor::Search {
     // Stops at the first place above the limit: most candidates that fail do so at once.
     const Forecast::Result result =
         of.forecast_.run(path, outset, tried, most_mm, true, trace, nullptr);
-    spent += count(result, output);
+    spent += count(result.steps, output);
     return result;
   }
 
@@ -149,7 +149,7 @@ struct FeedGovernor::Search {
     choice.candidate = 0;
     choice.floor = true;
     choice.forecast = of.forecast_.run(path, outset, plan, limit_mm, false, nullptr, &trace);
-    spent += count(choice.forecast, output);
+    spent += count(choice.forecast.steps, output);
     for (std::size_t i = 0; i < trace.count; ++i) {
       double& error = trace.error_mm[i];
       error = error * kTraceRoom + kTraceRoomMm;
@@ -202,7 +202,7 @@ void FeedGovernor::look_for_objective(const Outset& outset, Output& output) noex
     plan.judged_from_s = settled_s;
     const Forecast::Result result =
         forecast_.run(path, outset, plan, reserve_.limit_mm(), false, nullptr, nullptr);
-    spent += count(result, output);
+    spent += count(result.steps, output);
     const double error = std::abs(result.error_mm);
     const Candidate candidate{candidate_[c],      error,
                               contour.limit_mm,   candidate_.front(),
@@ -274,7 +274,7 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
 /// Slow offsets follow what cancels the error only where that leaves less of it than going to 0
 /// does, over what a decision sees with the present step. Both are forecast from where the offsets
 /// are.
-void FeedGovernor::choose_offsets(Outset& outset) noexcept {
+void FeedGovernor::choose_offsets(Outset& outset, Output& output) noexcept {
   Outset tried = outset;
   tried.tool = precompensator_.tool();
   if (precompensator_.acceleration_mm_s2() <= 0.0 || !state_.offsets_act || !tried.tool) {
@@ -283,7 +283,9 @@ void FeedGovernor::choose_offsets(Outset& outset) noexcept {
   const double ratio = std::min(state_.in_force_ratio, outset.panel_ratio);
   const auto error = [&](bool follows) {
     tried.follows = follows;
-    return forecast_.squares(ahead_, tried, ratio, kOffsetSight_s);
+    const Forecast::Squares squares = forecast_.squares(ahead_, tried, ratio, kOffsetSight_s);
+    count(squares.steps, output);
+    return squares;
   };
   const Forecast::Squares followed = error(true);
   const Forecast::Squares none = error(false);
@@ -307,7 +309,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   }
   fill_pending(frame);
   Outset from = outset(frame);
-  choose_offsets(from);
+  choose_offsets(from, output);
   const std::size_t wish = wanted_candidate(from, output);
   const bool no_effect = state_.idle_effect_s > 0.1;
   Choice choice = largest_admissible(from, reachable_candidate(wish), output);

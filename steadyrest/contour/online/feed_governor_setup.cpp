@@ -290,7 +290,9 @@ std::size_t FeedGovernor::most_forecast_steps() const noexcept {
   const bool by_objective =
       config_.contour.strategy != kernel::machine::ContourStrategy::feed_priority;
   const std::size_t objective = by_objective ? search_steps_ + Forecast::kMaxSteps : 0;
-  return objective + search_steps_ + 4 * Forecast::kMaxSteps;
+  const std::size_t offsets =
+      precompensator_.acceleration_mm_s2() > 0.0 ? 2 * Forecast::kMaxSteps : 0;
+  return objective + offsets + search_steps_ + 4 * Forecast::kMaxSteps;
 }
 
 }  // namespace steadyrest::contour::online

@@ -87,7 +87,7 @@ double Forecast::planned(const RatioPlan& plan, double t_s) const noexcept {
 Forecast::Squares Forecast::squares(const LookAhead& path, const Outset& outset, double ratio,
                                     double time_s) const noexcept {
   Walk walk(*this, path, outset);
-  const auto count = static_cast<std::size_t>(time_s / timing_.step_s);
+  const auto count = std::min(kMaxSteps, static_cast<std::size_t>(time_s / timing_.step_s));
   Squares out;
   std::size_t cut = 0;
   for (std::size_t n = 1; n <= count && walk.tool; ++n) {
@@ -96,6 +96,7 @@ Forecast::Squares Forecast::squares(const LookAhead& path, const Outset& outset,
       break;
     }
     const Point table = walk.follow(from_mm);
+    out.steps = n;
     if (path.cell(walk.tool->cell).cutting && n % kEvery == 0) {
       const double square = nearest_square(path, walk.tool->cell, table);
       out.mean_mm2 += square;

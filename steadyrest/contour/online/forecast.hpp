@@ -117,11 +117,12 @@ class Forecast {
                            double limit_mm, bool stop_early, const Trace* trace,
                            Trace* record) const noexcept;
 
-  /// Squares of the contour error in the cut, with the ratio held for so long. The foot is the
-  /// nearest place around the tool point (Outset::tool), which run() need not have.
+  /// Squares of the contour error in the cut, with the ratio held for so long, kMaxSteps at most.
+  /// The foot is the nearest place around the tool point (Outset::tool), which run() need not have.
   struct Squares {
     double mean_mm2 = 0.0;
     double largest_mm2 = 0.0;
+    std::size_t steps = 0;
   };
   [[nodiscard]] Squares squares(const LookAhead& path, const Outset& outset, double ratio,
                                 double time_s) const noexcept;

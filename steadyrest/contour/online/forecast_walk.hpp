@@ -109,7 +109,7 @@ struct Forecast::Walk {
         offset(from.offset) {
     if (slow()) {
       for (std::size_t i = 0; i < 3; ++i) {
-        command[i] += offset[i].at;
+        command[i] += offset[i].at_mm;
       }
     } else if (tool) {
       command = commanded_for_tool(command);
@@ -217,7 +217,7 @@ struct Forecast::Walk {
     kernel::signal::Point out;
     for (std::size_t i = 0; i < 3; ++i) {
       offset[i].follow(wanted[i] - program[i], of.offset_acceleration_mm_s2_, of.timing_.step_s);
-      out[i] = program[i] + offset[i].at;
+      out[i] = program[i] + offset[i].at_mm;
     }
     return out;
   }

@@ -6,9 +6,9 @@
 #include <steadyrest/contour/online/precompensator.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// The tool point is led by what the command really did up to this frame, and a copy of it one cycle
-// further by what the command will probably do: so an error of that prediction is forgotten with
-// the next frame.
+// The tool point is led by what the command really did up to this frame, and a copy of it ahead by
+// one cycle and the port's delay by what the command will probably do: so an error of that
+// prediction is forgotten with the next frame.
 namespace steadyrest::contour::online {
 namespace {
 

@@ -25,9 +25,10 @@ namespace steadyrest::contour::online {
 ///   o = w·(c′ − c)   at that place,
 /// with w = 0 … 1 growing over `fade_in_s` where it comes into force on a moving machine.
 ///
-/// Slow offsets. A port may move an offset with the acceleration A at most (LimitedFollower): J mm
-/// take 2·√(J/A). Where the error has gone by then the offset only does harm, as at a sharp corner;
-/// the governor finds out by forecasting both, and says whether the offset is to follow o or 0.
+/// Slow offsets. A port may limit an offset's acceleration to A (LimitedFollower): a jump of J mm
+/// then takes 2·√(J/A). Where the error has passed by then, as behind a sharp corner, following
+/// does only harm; the governor forecasts both and says whether the offset follows o or returns
+/// to 0.
 ///
 /// Withdraws (no wish; the envelope then ramps the offset out): no path, threads and taps, frames
 /// that are unfit or not one cycle apart.

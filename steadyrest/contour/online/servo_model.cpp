@@ -112,7 +112,8 @@ bool ServoModel::update(const Frame& frame) noexcept {
     return false;
   }
   const double dt = frame.time_s - state_.time_s;
-  // A hole would enter the integrals as a straight line; the next is judged by its length.
+  // The integrals would take a gap for a straight line. The next step is judged by this one, since
+  // the clock may have slowed down for good.
   const bool gap = state_.first_dt_s > 0.0 && dt > kMaxGapRatio * state_.first_dt_s;
   state_.time_s = frame.time_s;
   if (!state_.started || !(dt > 0.0) || gap) {

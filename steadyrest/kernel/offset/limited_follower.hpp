@@ -10,13 +10,13 @@ namespace steadyrest::kernel::offset {
 /// asked for in the last half second. Where the other needs no more than `a` and no speed above
 /// √(0.1·a·S), the place is the other's, or that of one step before.
 struct LimitedFollower {
-  double asked = 0.0;  ///< where the other was last
-  double at = 0.0;
-  double speed = 0.0;
-  double size = 0.0;  ///< of what was asked for lately
+  double asked_mm = 0.0;  ///< where the other was last
+  double at_mm = 0.0;
+  double speed_mm_s = 0.0;
+  double size_mm = 0.0;  ///< of what was asked for lately
 
-  /// The other is at `next` now, `step_s` > 0 after the last call; `acceleration` > 0.
-  void follow(double next, double acceleration, double step_s) noexcept;
+  /// The other is at `next_mm` now, `step_s` > 0 after the last call; `acceleration_mm_s2` > 0.
+  void follow(double next_mm, double acceleration_mm_s2, double step_s) noexcept;
 };
 
 }  // namespace steadyrest::kernel::offset

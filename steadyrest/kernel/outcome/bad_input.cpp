@@ -15,4 +15,9 @@ Refusal bad_input(std::string file, std::size_t line, std::string what, std::str
   return {Kind::bad_input, std::move(file), line, std::move(what), std::move(to_do)};
 }
 
+std::unexpected<Refusal> unavailable(std::string what, std::string to_do) {
+  return std::unexpected(Refusal{
+      .kind = Kind::unavailable, .file = {}, .what = std::move(what), .to_do = std::move(to_do)});
+}
+
 }  // namespace steadyrest::kernel::outcome

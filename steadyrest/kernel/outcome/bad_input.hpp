@@ -22,4 +22,7 @@ template <class... Parts>
   return std::unexpected(bad_input(std::forward<Parts>(parts)...));
 }
 
+/// A link or device that does not answer: `return unavailable("no sample came", "start it");`.
+[[nodiscard]] std::unexpected<Refusal> unavailable(std::string what, std::string to_do);
+
 }  // namespace steadyrest::kernel::outcome

@@ -144,8 +144,8 @@ class OffsetEnvelope {
   [[nodiscard]] const State& state() const noexcept { return state_; }
   /// Offsets that are not finite are rejected; those beyond the limit are cut to it.
   void restore(const State& state) noexcept;
-  /// From an envelope with other limits, which was in force until now: what is beyond stays there
-  /// and goes to its limit by the slew, frozen or not.
+  /// From an envelope with other limits that was in force until now: an offset beyond the new limit
+  /// stays where it is and returns to the limit by the slew, frozen or not.
   void take_over(const State& state) noexcept { state_ = state; }
 
  private:

@@ -13,10 +13,12 @@ struct Capability {
   bool spindle_override = false;
   bool axis_offset = false;
   bool path_offset = false;          ///< takes a second offset that may change in every cycle
-  double path_offset_delay_s = 0.0;  ///< until such an offset is in the command, beyond one cycle
-  double path_offset_acceleration_mm_s2 = 0.0;  ///< that such an offset moves with; 0: no limit
+  double path_offset_delay_s = 0.0;  ///< from its write to the command that has it, less one cycle
+  double path_offset_acceleration_mm_s2 = 0.0;  ///< limit of such an offset's; 0: none
   bool latched_word = true;  ///< an override word of several bits takes effect as a whole; else it
                              ///< must walk step by step
+
+  friend bool operator==(const Capability&, const Capability&) = default;
 };
 
 /// A machine: the simulated one or a real control behind an adapter. Nothing above depends on

@@ -151,6 +151,24 @@ TEST(Loop, ALostLinkDoesNotEndIt) {
   EXPECT_FALSE(loop.status().port_fault);
 }
 
+TEST(Loop, ALostLinkCountsNoTimeOverTheLimit) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop loop(spy, *desk.layer, desk.pace, until_finished(desk, Mode::observe));
+  bool known = false;
+  bool unknown = false;
+  spy.at_read = [&](int reads) {
+    spy.lost = reads >= 200 && reads < 250;
+    known = known || (reads == 200 && loop.status().error_known);
+    unknown = unknown || (reads == 240 && !loop.status().error_known);
+  };
+  const LoopFigures figures = loop.run();
+  EXPECT_EQ(figures.port_faults, 50U);
+  EXPECT_TRUE(known);
+  EXPECT_TRUE(unknown);
+  EXPECT_NEAR(figures.over_limit_s, 0.942 + 0.083, 0.05) << "as without the fault";
+}
+
 TEST(Loop, TellsARecordWhereAFaultBegins) {
   Desk desk;
   Spy spy(*desk.port);

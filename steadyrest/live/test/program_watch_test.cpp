@@ -208,5 +208,51 @@ TEST(ProgramWatch, WithdrawsWhenTheControlIsNoLongerHeard) {
   EXPECT_EQ(watched.watch.status().segments, 2U);
 }
 
+TEST(ProgramWatch, ALostStatusBringsNoPathToAProgramThatWasEditedWhileItRan) {
+  Watched watched;
+  const auto segments_while_it_runs = [&] {
+    watched.control.tell(std::optional(watched.loaded(false)));
+    return watched.watch.status().segments;
+  };
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(segments_while_it_runs(), 2U);
+  watched.control.tell(kernel::outcome::refuse("the channel is gone", "start it"));
+  EXPECT_EQ(segments_while_it_runs(), 2U) << "the same program goes on";
+  watched.control.tell(kernel::outcome::refuse("the channel is gone", "start it"));
+  watched.write(kPart + "; a later thought\n");
+  EXPECT_EQ(segments_while_it_runs(), 0U) << "edited unheard";
+  watched.control.tell(kernel::outcome::refuse("the channel is gone", "start it"));
+  EXPECT_EQ(segments_while_it_runs(), 0U);
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("has changed while it runs"));
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+TEST(ProgramWatch, ATextThatWasAnotherWhileItRanHasNoPathUntilItHasEnded) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  auto running = watched.loaded(false);
+  running.text_is_file = false;
+  watched.control.tell(std::optional(running));
+  running.text_is_file = true;
+  for (int i = 0; i < 2; ++i) {
+    watched.control.tell(std::optional(running));
+    EXPECT_EQ(watched.watch.status().segments, 0U);
+    EXPECT_THAT(watched.watch.status().words, HasSubstr("until it has ended"));
+  }
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
+TEST(ProgramWatch, PlansAProgramThatRunsWhenTheWatchBegins) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(kernel::outcome::refuse("not yet", "wait"));
+  watched.control.tell(std::optional(watched.loaded(false)));
+  EXPECT_EQ(watched.watch.status().segments, 2U);
+}
+
 }  // namespace
 }  // namespace steadyrest::live

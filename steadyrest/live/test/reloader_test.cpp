@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <memory>
 #include <string>
@@ -6,11 +8,40 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/eventfd.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/reloader.hpp>
+#include <steadyrest/live/service.hpp>
 #include <steadyrest/live/test/desk.hpp>
+#include <steadyrest/live/testing/service_listener.hpp>
+
+namespace {
+
+/// While it holds, eventfd() fails as in a process without a descriptor left. The process keeps its
+/// own: the sanitizers need some for their checks.
+std::atomic<bool> no_eventfd{false};
+
+struct WithoutEventfd {
+  WithoutEventfd() { no_eventfd.store(true); }
+  WithoutEventfd(const WithoutEventfd&) = delete;
+  WithoutEventfd& operator=(const WithoutEventfd&) = delete;
+  ~WithoutEventfd() { no_eventfd.store(false); }
+};
+
+}  // namespace
+
+/// The room's own calls come here.
+extern "C" int eventfd(unsigned int count, int flags) noexcept {
+  if (no_eventfd.load()) {
+    errno = EMFILE;
+    return -1;
+  }
+  return static_cast<int>(::syscall(SYS_eventfd2, count, flags));
+}
 
 namespace steadyrest::live {
 namespace {
@@ -107,6 +138,25 @@ TEST_F(OnDesk, ALoopThatDoesNotCycleTakesNothing) {
   EXPECT_FALSE(reloader.status().taken);
   EXPECT_THAT(reloader.status().words, HasSubstr("does not cycle"));
   EXPECT_FALSE(loop.withdraw()) << "nothing is left on offer";
+}
+
+TEST_F(OnDesk, ServesRequestsWithoutADescriptorToBeWokenBy) {
+  const WithoutEventfd none;
+  Reloader reloader(loop, config());
+  reloader.ask();
+  run_until_answered(reloader, 1);
+  EXPECT_TRUE(reloader.status().taken) << reloader.status().words;
+}
+
+TEST_F(OnDesk, SignsOfLifeEndWithoutADescriptorToBeWokenBy) {
+  const kernel::file::testing::OwnFolder folder;
+  const testing::Listener systemd(folder.at("notify"));
+  const ServiceManager manager(systemd.address, 0.004);
+  const WithoutEventfd none;
+  {
+    const LifeSignThread sign(loop, manager);
+  }
+  EXPECT_EQ(systemd.heard().back(), "STOPPING=1");
 }
 
 TEST_F(OnDesk, ASignalIsARequest) {

@@ -134,7 +134,10 @@ PathLocator::Output PathLocator::not_found() const noexcept {
 /// A control shows that its program runs some cycles after the axes have begun to move: what counts
 /// is where they stood before.
 void PathLocator::stand(const kernel::signal::Frame& frame) noexcept {
-  const Axes point = is_finite(frame) ? point_of(frame) : stopped_;
+  if (!is_finite(frame)) {
+    return;
+  }
+  const Axes point = point_of(frame);
   if (point == stopped_) {
     rest_ = point;
     rested_ = true;

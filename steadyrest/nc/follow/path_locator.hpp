@@ -33,7 +33,7 @@ class PathLocator {
     Place place = Place::no_route;
     std::size_t index = 0;     ///< segment, if on_path or off_path
     double position_mm = 0.0;  ///< path length from the program's start
-    double away_mm = 0.0;      ///< distance from the path; ten millimetres count as a radian
+    double away_mm = 0.0;  ///< from the path; a radian of a rotary axis counts as ten millimetres
   };
 
   PathLocator() noexcept : PathLocator(Config{}) {}

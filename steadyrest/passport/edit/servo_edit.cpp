@@ -56,7 +56,6 @@ std::optional<std::vector<Edit>> edits_of(std::string_view text, const toml::tab
     out.push_back({from, std::min(text.find_first_of("\r\n", to), text.size()), with});
     return true;
   };
-  std::size_t behind_gain = 0;
   std::string indent;
   for (const std::string_view key : kGainKeys) {
     const toml::node* node = axis.get(key);
@@ -67,7 +66,6 @@ std::optional<std::vector<Edit>> edits_of(std::string_view text, const toml::tab
                  value_text(unit_of(key).from_inner(values.gain_1_s), values.gain_comment))) {
       return std::nullopt;
     }
-    behind_gain = out.back().to;
     const std::size_t begin = text.find_last_of('\n', out.back().from) + 1;
     indent = text.substr(begin, text.find_first_not_of(" \t", begin) - begin);
   }
@@ -80,7 +78,6 @@ std::optional<std::vector<Edit>> edits_of(std::string_view text, const toml::tab
   }
   // Before the gain's line end, so that a last line without one stays so.
   out.back().text += with_line_ends("\n" + indent + "feed_forward = " + forward, text);
-  out.back().to = behind_gain;
   return out;
 }
 
@@ -129,13 +126,13 @@ Result<std::string> edited(std::string_view text, const std::string& file,
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  for (const ServoValues& one : values) {
+  const auto has = [&machine](const ServoValues& one) {
     const auto axis = std::ranges::find(machine->axes, one.axis, &Axis::name);
-    if (axis == machine->axes.end() || !near(axis->servo_gain_1_s, one.gain_1_s) ||
-        !near(axis->feed_forward, one.feed_forward) || !changes_only(out, text, values)) {
-      return refuse(file, "putting the gains in would change something else",
-                    "put them in by hand");
-    }
+    return axis != machine->axes.end() && near(axis->servo_gain_1_s, one.gain_1_s) &&
+           near(axis->feed_forward, one.feed_forward);
+  };
+  if (!std::ranges::all_of(values, has) || !changes_only(out, text, values)) {
+    return refuse(file, "putting the gains in would change something else", "put them in by hand");
   }
   return out;
 }

@@ -98,9 +98,9 @@ std::span<const Key<Control>> control_keys() noexcept {
                    "Continuous mode: share of the acceleration left next to an unrounded corner, "
                    "and before a stop."},
       Key<Control>{"clips_programmed_feed", &Control::clips_programmed_feed, 0, 0,
-                   "An F beyond the speeds of the axes counts as what they permit before "
-                   "the override multiplies it, as on LinuxCNC. Otherwise an override acts on such "
-                   "a block only once the product is below them."},
+                   "A programmed F above the axes' speeds is clipped to them before the override "
+                   "multiplies it, as on LinuxCNC. Otherwise the override multiplies F itself, so "
+                   "it slows such a block only once the product drops below those speeds."},
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
                    "The control stops between G0 and a feed move."},
   };

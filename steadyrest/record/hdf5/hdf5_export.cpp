@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -122,7 +123,11 @@ class Column {
     return column;
   }
 
+  /// After a failed write it holds nothing more.
   void add(std::uint64_t bits) {
+    if (!good_) {
+      return;
+    }
     held_.push_back(bits);
     if (held_.size() == kChunk) {
       write();
@@ -245,6 +250,10 @@ Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
       vibration.add(to_bits(sample->vibration[i]));
     }
     progress(++samples);
+    if (samples % kChunk == 0 &&
+        !(vibration.good() && std::ranges::all_of(columns, &Column::good))) {
+      break;
+    }
   }
   columns.push_back(std::move(vibration));
   bool good = group.good();

@@ -83,11 +83,15 @@ class FakePort final : public kernel::port::Port {
     return frame;
   }
   kernel::outcome::Result<void> write(const signal::Command& command) noexcept override {
+    if (deaf) {
+      return std::unexpected(kernel::outcome::Refusal{});
+    }
     written.push_back(command);
     return {};
   }
 
   bool lost = false;
+  bool deaf = false;
   signal::Frame frame;
   std::vector<signal::Command> written;
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words that the port did not take or the watchdog dropped: review findings as tests.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <steadyrest/supervisor/supervisor.hpp>
@@ -249,6 +251,28 @@ TEST(Interruption, ASourceThatStandsGetsNothingMore) {
   EXPECT_TRUE(command.write);
   EXPECT_FALSE(command.feed_masks_panel);
   EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-12);
+}
+
+TEST(Interruption, ARestoredSilenceThatIsNoNumberHasOutlastedTheWatchdog) {
+  for (const double silent_s : {std::nan(""), -1.0}) {
+    Bench first;
+    first.wish_feed(0.5);
+    first.wish_offset(0.02);
+    first.cycles(1000);
+    auto state = first.supervisor.state();
+    state.silent_s = silent_s;
+    Bench second;
+    second.wish_feed(0.5);
+    second.wish_offset(0.02);
+    second.frame = first.frame;
+    second.supervisor.restore(state);
+    signal::Command command;
+    for (int i = 0; i < 10 && !command.write; ++i) {
+      command = second.cycle();
+    }
+    EXPECT_TRUE(command.write) << silent_s;
+    EXPECT_LE(command.offset_mm[2], 0.05 * kCycle_s + 1e-8) << "begins at 0";
+  }
 }
 
 }  // namespace

@@ -85,6 +85,27 @@ TEST(PathOffset, APortWithoutThemGetsTheFeedOverride) {
   EXPECT_LE(circle.true_error_mm(), 0.010);
 }
 
+// How the port moves an offset counts only where one can be asked for.
+TEST(PathOffset, WithoutOneItsDelayAndAccelerationChangeNoDecision) {
+  kernel::port::Capability slow{
+      .feed_override = true, .path_offset_delay_s = 1.0, .path_offset_acceleration_mm_s2 = 400.0};
+  auto machine = cancelling(Mode::act);
+  for (const bool port_takes_offsets : {false, true}) {
+    slow.path_offset = port_takes_offsets;
+    machine.envelope.max_path_offset_mm = port_takes_offsets ? 0.0 : kMost_mm;
+    ASSERT_TRUE(Supervisor::make(machine, slow)) << port_takes_offsets;
+    Circle circle(machine, slow);
+    Circle plain(machine, {.feed_override = true});
+    for (int cycle = 0; cycle < 500; ++cycle) {
+      circle.cycle();
+      plain.cycle();
+      ASSERT_EQ(circle.supervisor.estimates().contour->predicted_error_mm,
+                plain.supervisor.estimates().contour->predicted_error_mm)
+          << cycle;
+    }
+  }
+}
+
 /// Runs until nothing is left of the offset, at most a second; the steps must stay below the fade's
 /// 0.5 mm in 0.2 s.
 void expect_ramps_out(Circle& circle) {

@@ -104,6 +104,31 @@ TEST(Succession, ANarrowerOffsetRangeIsReachedThroughTheSlewEvenWhereItIsFrozen)
   }
 }
 
+// A command that the port does not take leaves the offset where the machine has it.
+TEST(Succession, ANarrowerOffsetRangeIsReachedThroughTheSlewThoughAWriteFails) {
+  const Machine running = test::mill(Mode::act);
+  Asking bench(running);
+  Machine wanted = running;
+  wanted.envelope.max_offset_mm = 0.01;
+  change(bench, running, wanted);
+  test::FakePort port;
+  port.frame = bench.frame;
+  double before = 0.02;
+  for (int i = 0; i < 100; ++i) {
+    port.deaf = i == 50;
+    const auto command =
+        bench.supervisor.cycle(port, {.feed = bench.feed, .spindle = {}, .offset = bench.offset});
+    ASSERT_EQ(command.has_value(), i != 50);
+    if (command && command->write) {
+      const double now = command->offset_mm[kZ];
+      ASSERT_LE(now, before) << i;
+      ASSERT_GE(now, before - 2.0 * wanted.envelope.offset_slew_mm_s * kCycle_s - 1e-12) << i;
+      before = now;
+    }
+  }
+  EXPECT_LT(before, 0.0165);
+}
+
 TEST(Succession, ALayerThatLeavesActGoesOnLeavingIt) {
   const Machine running = test::mill(Mode::act);
   Asking bench(running);
@@ -155,6 +180,7 @@ TEST(Succession, RefusesWhatCannotChangeUnderARunningMachine) {
               HasSubstr("servo_period_ms"));
   EXPECT_THAT(why([](Machine& m) { m.control.interpolator_period_s = 0.002; }),
               HasSubstr("interpolator_period_ms"));
+  EXPECT_THAT(why([](Machine& m) { m.envelope.stale_after_s = 0.3; }), HasSubstr("stale_after_ms"));
   EXPECT_THAT(why([](Machine& m) { m.feed_override.coding = kernel::machine::Coding::binary; }),
               HasSubstr("override.feed"));
   EXPECT_THAT(why([](Machine& m) { m.spindle_override.scan_period_s = 0.5; }),

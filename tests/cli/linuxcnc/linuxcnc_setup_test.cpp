@@ -247,6 +247,21 @@ TEST_F(LinuxCncSetup, PutsItsLineBehindAnInclude) {
   EXPECT_EQ(texts_in(scratch_.path()), before);
 }
 
+// A backslash continues the line: all of it makes way for the copy's.
+TEST_F(LinuxCncSetup, TakesTheWholeLineThatNamesALibraryFile) {
+  if (!fs::exists("/usr/share/linuxcnc/hallib/sim_spindle_encoder.hal")) {
+    GTEST_SKIP() << "LinuxCNC's library is not installed";
+  }
+  replace("m.ini", "HALFILE = m.hal\n", "HALFILE = \\\nsim_spindle_encoder.hal\n");
+  const Texts before = texts_in(scratch_.path());
+  const Finished done = setup();
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_THAT(text_of_file(ini()), HasSubstr("HALFILE = m-layer-sim_spindle_encoder.hal\n"));
+  EXPECT_THAT(text_of_file(ini()), Not(HasSubstr("\nsim_spindle_encoder.hal\n")));
+  ASSERT_EQ(setup({"--undo"}).code, 0);
+  EXPECT_EQ(texts_in(scratch_.path()), before);
+}
+
 TEST(LinuxCncSetupStock, LeavesThePackageAlone) {
   const auto inis = stock_inis();
   if (inis.empty()) {

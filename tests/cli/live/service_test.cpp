@@ -49,5 +49,17 @@ TEST(Service, TellsSystemdItsWholeLife) {
   ::unsetenv("WATCHDOG_USEC");
 }
 
+// Both reach it while it is held, so that neither comes too late.
+TEST(Service, ASecondSignalEndsItWhicheverItIs) {
+  LiveLayer layer("act");
+  ASSERT_TRUE(LiveLayer::until([] { return answer_of("status")["cycles"].get<int>() > 10; }));
+  layer.process().send(SIGSTOP);
+  layer.process().send(SIGTERM);
+  layer.process().send(SIGINT);
+  layer.process().send(SIGCONT);
+  const int ended = layer.process().wait();
+  EXPECT_TRUE(ended == -SIGTERM || ended == -SIGINT) << ended;
+}
+
 }  // namespace
 }  // namespace steadyrest::test

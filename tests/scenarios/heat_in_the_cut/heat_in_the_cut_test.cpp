@@ -15,10 +15,11 @@ TEST(HeatInTheCut, TheOffsetAgainstItDoesNotSlowTheFeed) {
   stage.run(4000);
   const auto& log = stage.log();
   EXPECT_GT(std::abs(log[3999].written->offset_mm[0]), 0.01);
-  EXPECT_NEAR(log[3999].frame.axis[0].command_mm,
-              10.0 * std::cos(std::atan2(log[3999].frame.axis[1].command_mm,
-                                         log[3999].frame.axis[0].command_mm)),
-              0.03)
+  const auto& axis = log[3999].frame.axis;
+  EXPECT_NEAR(axis[0].offset_mm, log[3998].written->offset_mm[0], 1e-3);
+  EXPECT_NEAR(
+      std::hypot(axis[0].command_mm - axis[0].offset_mm, axis[1].command_mm - axis[1].offset_mm),
+      10.0, 1e-3)
       << "it is in what the control reports";
   double lowest = 1.0;
   double largest_mm = 0.0;

@@ -193,7 +193,12 @@ Result<std::vector<ConfiguredAxis>> axes_of(const IniFile& ini) {
       out.push_back(std::move(axis));
     }
   }
-  if (present < 2 || out.size() > kernel::signal::kMaxAxes) {
+  if (present < 2) {
+    return refuse(entry.file, entry.line,
+                  fmt::format("{}: one axis; allowed: 2 or more", entry.text()),
+                  "the layer cannot work on a machine with this number of axes");
+  }
+  if (out.size() > kernel::signal::kMaxAxes) {
     return refuse(entry.file, entry.line,
                   fmt::format("{}: {} axes, counting X, Y and Z; allowed: 2 … {}", entry.text(),
                               out.size(), kernel::signal::kMaxAxes),

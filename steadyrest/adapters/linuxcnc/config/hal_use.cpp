@@ -155,7 +155,8 @@ class HalReader {
   /// `[SECTION]KEY` or `[SECTION](KEY)` becomes its value, where the INI file has it.
   [[nodiscard]] std::string resolved(const std::string& word) const {
     std::string out = word;
-    for (std::size_t at = out.find('['); at != std::string::npos; at = out.find('[', at + 1)) {
+    // A value is not searched in its turn: it may name its own key.
+    for (std::size_t at = out.find('['); at != std::string::npos; at = out.find('[', at)) {
       const std::size_t close = out.find(']', at);
       if (close == std::string::npos) {
         break;
@@ -168,6 +169,9 @@ class HalReader {
                                               std::string_view(out).substr(begin, end - begin));
       if (entry != nullptr) {
         out.replace(at, std::min(end + (round ? 1 : 0), out.size()) - at, entry->value);
+        at += entry->value.size();
+      } else {
+        ++at;
       }
     }
     return out;

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/linuxcnc/config/layer_text.hpp>
+#include <steadyrest/adapters/linuxcnc/sample.hpp>
 
 // The one source of the layer's HAL text: layer.hal and layer_offsets.hal are its output for three
 // axes with nothing in the way.
@@ -16,10 +17,6 @@ namespace {
 bool moves(const LayerAxis& axis) {
   return axis.joint && !axis.rotary;
 }
-
-constexpr std::size_t kAxesPerChannel = 4;
-constexpr std::size_t kAxisColumns = 4;
-constexpr const char* kStateTypes = "fssfffffbfffffbbbbb";
 
 char lower(char letter) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
@@ -280,10 +277,10 @@ void load_offsets(Text& text, const LayerHal& layer) {
     }
   }
   text.line(
-      fmt::format("\n# The sum goes out in counts of {:g} of the machine's unit. The path offset "
-                  "goes to 0 at {:g} 1/s of it when the\n"
-                  "# heartbeat stops; the offset against heat stays.",
-                  layer.offset_count, layer.path_ramp_s));
+      fmt::format("\n# The sum goes out in counts of {:g} machine units. When the heartbeat stops, "
+                  "the path offset returns to 0 at\n"
+                  "# {:g} machine units/s; the offset against heat stays.",
+                  layer.offset_count, layer.path_ramp_units_s));
 }
 
 void offset(Text& text, const LayerHal& layer, std::size_t i) {
@@ -291,7 +288,7 @@ void offset(Text& text, const LayerHal& layer, std::size_t i) {
   const char l = lower(axis.letter);
   const std::string gain = fmt::format("{:.10g}", 1.0 / layer.offset_count);
   text.line();
-  text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_s));
+  text.setp(of_axis("path-ramp", axis) + ".maxv", fmt::format("{:.10g}", layer.path_ramp_units_s));
   text.setp(of_axis("offset", axis) + ".gain0", gain);
   text.setp(of_axis("offset", axis) + ".gain1", gain);
   text.setp(fmt::format("axis.{}.eoffset-scale", l), decimal(layer.offset_count));

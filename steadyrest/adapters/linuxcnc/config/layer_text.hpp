@@ -26,11 +26,11 @@ struct Needed {
 
 /// What the layer's HAL file must fit in with. By default a machine with nothing in the way.
 struct LayerHal {
-  std::vector<LayerAxis> axes;    ///< in the order of the machine file
-  bool offset_components = true;  ///< load what offsets_text() needs
-  double offset_count = 1e-5;     ///< length of one count of eoffset, in the machine's units
-  double mm_per_unit = 1.0;       ///< of the machine's linear unit
-  double path_ramp_s = 5.0;       ///< how fast a dead layer's path offset goes, units/s
+  std::vector<LayerAxis> axes;     ///< in the order of the machine file
+  bool offset_components = true;   ///< load what offsets_text() needs
+  double offset_count = 1e-5;      ///< length of one count of eoffset, in the machine's units
+  double mm_per_unit = 1.0;        ///< of the machine's linear unit
+  double path_ramp_units_s = 5.0;  ///< how fast a dead layer's path offset goes, units/s
   /// Further spindle outputs to scale, below `spindle.0.`: `speed-out`, `speed-out-abs` …
   std::vector<std::string> drives;
 

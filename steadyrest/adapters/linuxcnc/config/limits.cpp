@@ -67,14 +67,14 @@ std::optional<Figure> bounded(const End& end, double factor, double no_limit) {
   return Figure{end.tightest->value * factor, end.tightest->entry->text()};
 }
 
-Result<std::string> slower_joint(const IniFile& ini, const ConfiguredAxis& axis, double speed_s,
-                                 double factor) {
+Result<std::string> slower_joint(const IniFile& ini, const ConfiguredAxis& axis,
+                                 double speed_units_s, double factor) {
   for (const std::size_t joint : axis.joints) {
     const auto own = ini.number(fmt::format("JOINT_{}", joint), "MAX_VELOCITY");
     if (!own) {
       return std::unexpected(own.error());
     }
-    if (*own && (*own)->value * factor < speed_s * (1.0 - 1e-9)) {
+    if (*own && (*own)->value * factor < speed_units_s * (1.0 - 1e-9)) {
       return (*own)->entry->text();
     }
   }
@@ -129,8 +129,8 @@ Result<AxisLimits> limits_of(const IniFile& ini, const Configuration& machine,
         fmt::format("give the axis {} room between MIN_LIMIT and MAX_LIMIT", axis.letter));
   }
   const double none = axis.rotary ? kNoLimit_deg : kNoLimit_mm;
-  return AxisLimits{.speed_s = *speed,
-                    .acceleration_s2 = *acceleration,
+  return AxisLimits{.speed_units_s = *speed,
+                    .acceleration_units_s2 = *acceleration,
                     .min = bounded(*lower, factor, none),
                     .max = bounded(*upper, factor, none),
                     .slower_joint = *slower};

@@ -26,8 +26,8 @@ struct Range {
 /// An axis's limits in mm or degrees and seconds. Travel is what axis and joints permit together;
 /// speed and acceleration are the axis's, which LinuxCNC plans with.
 struct AxisLimits {
-  Figure speed_s;
-  Figure acceleration_s2;
+  Figure speed_units_s;
+  Figure acceleration_units_s2;
   std::optional<Figure> min;
   std::optional<Figure> max;
   std::string slower_joint;  ///< the entry of a joint whose MAX_VELOCITY is below the axis's

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -89,17 +90,43 @@ class Comparison {
 
   void path_limits() {
     const double mm = configuration_.mm_per_unit;
-    const auto compare = [&](const char* what, const char* key, double ours, const char* unit) {
-      const auto theirs = figure(ini_, "TRAJ", key, mm, {0.0, 1e9, unit});
-      if (theirs && *theirs && ours > (*theirs)->value * (1.0 + kSame)) {
-        differs(fmt::format("{} {:g} {} in the machine file is beyond the control's {:g} ({})",
-                            what, ours, unit, (*theirs)->value, (*theirs)->from),
-                "take the control's figure, or less");
-      }
-    };
-    compare("the acceleration along the path,", "MAX_LINEAR_ACCELERATION",
-            machine_.control.max_path_acceleration_mm_s2, "mm/s²");
-    compare("the largest feed,", "MAX_LINEAR_VELOCITY", machine_.control.max_feed_mm_s, "mm/s");
+    path_limit({.what = "the path acceleration",
+                .key = "max_path_acceleration_mm_s2",
+                .key_unit = 1.0,
+                .ours = machine_.control.max_path_acceleration_mm_s2,
+                .unit = "mm/s²"},
+               figure(ini_, "TRAJ", "MAX_LINEAR_ACCELERATION", mm, {0.0, 1e9, "mm/s²"}));
+    path_limit({.what = "the largest feed",
+                .key = "max_feed_mm_min",
+                .key_unit = 60.0,
+                .ours = machine_.control.max_feed_mm_s,
+                .unit = "mm/s"},
+               figure(ini_, "TRAJ", "MAX_LINEAR_VELOCITY", mm, {0.0, 1e9, "mm/s"}));
+  }
+
+  struct PathLimit {
+    const char* what;
+    const char* key;  ///< in the machine file
+    double key_unit;  ///< what it counts for one of `unit`
+    double ours;      ///< infinite without the key
+    const char* unit;
+  };
+
+  void path_limit(const PathLimit& limit,
+                  const kernel::outcome::Result<std::optional<Figure>>& theirs) {
+    if (!theirs || !*theirs || limit.ours <= (*theirs)->value * (1.0 + kSame)) {
+      return;
+    }
+    const Figure& figure = **theirs;
+    if (!std::isfinite(limit.ours)) {
+      differs(fmt::format("the machine file sets no {}; the control's is {:g} {} ({})", limit.key,
+                          figure.value, limit.unit, figure.from),
+              fmt::format("set {} = {:g}, or less", limit.key, limit.key_unit * figure.value));
+      return;
+    }
+    differs(fmt::format("{} {:g} {} in the machine file is beyond the control's {:g} ({})",
+                        limit.what, limit.ours, limit.unit, figure.value, figure.from),
+            "take the control's figure, or less");
   }
 
   /// The layer's factor acts behind LinuxCNC's own limit of the speed.
@@ -135,8 +162,9 @@ class Comparison {
   void limits_of_axis(const Axis& ours, const AxisLimits& theirs) {
     const double unit = ours.rotary ? kernel::units::rad_from_deg(1.0) : 1.0;
     const char* const name = ours.rotary ? "°" : "mm";
-    beyond(ours, "speed", ours.max_speed_au_s / unit, theirs.speed_s, fmt::format("{}/s", name));
-    beyond(ours, "acceleration", ours.max_acceleration_au_s2 / unit, theirs.acceleration_s2,
+    beyond(ours, "speed", ours.max_speed_au_s / unit, theirs.speed_units_s,
+           fmt::format("{}/s", name));
+    beyond(ours, "acceleration", ours.max_acceleration_au_s2 / unit, theirs.acceleration_units_s2,
            fmt::format("{}/s²", name));
     if (theirs.min) {
       end(ours, "lower", ours.min_au / unit, *theirs.min, -1.0, name);
@@ -173,7 +201,29 @@ class Comparison {
   std::vector<Difference> out_;
 };
 
+bool same_limits(const Axis& one, const Axis& other) {
+  return one.max_speed_au_s == other.max_speed_au_s &&
+         one.max_acceleration_au_s2 == other.max_acceleration_au_s2 &&
+         one.max_jerk_au_s3 == other.max_jerk_au_s3;
+}
+
 }  // namespace
+
+std::optional<Difference> changed_since_start(const Machine& running, const Machine& wanted) {
+  std::string what;
+  if (wanted.envelope.offset_slew_mm_s != running.envelope.offset_slew_mm_s) {
+    what = "[envelope] offset_slew_um_s";
+  } else if (wanted.control != running.control) {
+    what = "[control]";
+  } else if (!std::ranges::equal(wanted.axes, running.axes, same_limits)) {
+    what = "an axis's speed, acceleration or jerk limit";
+  } else {
+    return std::nullopt;
+  }
+  return Difference{
+      .what = what + " differs from the running layer's: on LinuxCNC it cannot change during a run",
+      .to_do = "stop the layer and start it with the new file"};
+}
 
 std::vector<Difference> differences(const IniFile& ini, const Configuration& configuration,
                                     const Machine& machine) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,10 @@ struct Difference {
 [[nodiscard]] std::vector<Difference> differences(const IniFile& ini,
                                                   const Configuration& configuration,
                                                   const kernel::machine::Machine& machine);
+
+/// What a layer takes over at its start alone, and `wanted` changes: the port turns the offset
+/// against heat with `offset_slew_um_s`, and paths are planned by [control] and the axes' limits.
+[[nodiscard]] std::optional<Difference> changed_since_start(const kernel::machine::Machine& running,
+                                                            const kernel::machine::Machine& wanted);
 
 }  // namespace steadyrest::adapters::linuxcnc::config

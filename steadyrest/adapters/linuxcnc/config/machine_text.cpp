@@ -212,13 +212,13 @@ class Writer {
             "`steadyrest machine from-log` finds it from a record of a test program");
     const bool rotary = axis.rotary;
     given(rotary ? "max_speed_deg_s" : "max_feed_mm_min",
-          limits->speed_s.value * (rotary ? 1.0 : 60.0), limits->speed_s.from);
+          limits->speed_units_s.value * (rotary ? 1.0 : 60.0), limits->speed_units_s.from);
     if (!limits->slower_joint.empty()) {
       line(fmt::format("# {} is lower; LinuxCNC plans with the axis's.",
                        comment_of(limits->slower_joint)));
     }
     given(rotary ? "max_acceleration_deg_s2" : "max_acceleration_mm_s2",
-          limits->acceleration_s2.value, limits->acceleration_s2.from);
+          limits->acceleration_units_s2.value, limits->acceleration_units_s2.from);
     end(rotary ? "min_deg" : "min_mm", limits->min);
     end(rotary ? "max_deg" : "max_mm", limits->max);
     line("[axis.encoder]");

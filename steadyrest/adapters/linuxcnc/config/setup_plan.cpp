@@ -33,8 +33,9 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::unexpected<kernel::outcome::Refusal> shared(const std::string& file, std::size_t line) {
-  return refuse(file, line, "is set up for another INI file, which loads it, too",
-                "name a copy of the file as it was before in this INI file");
+  return refuse(file, line, "is set up for another INI file that loads it too",
+                "make a copy of the file without the layer's blocks and name the copy in this INI "
+                "file");
 }
 
 class Planner {
@@ -75,7 +76,7 @@ class Planner {
     // Finer than any machine resolves: 0.01 µm, or half a millionth of an inch.
     layer_.offset_count = machine_.mm_per_unit > 10.0 ? 5e-7 : 1e-5;
     layer_.mm_per_unit = machine_.mm_per_unit;
-    layer_.path_ramp_s = 5.0 / machine_.mm_per_unit;
+    layer_.path_ramp_units_s = 5.0 / machine_.mm_per_unit;
     layer_.signal = use_.signals();
     for (const SpindleUse& use : use_.spindle_uses()) {
       if (use.output != "speed-out-rps") {
@@ -93,14 +94,14 @@ class Planner {
         }
         return refuse(where->file, where->line,
                       fmt::format("a name that begins with {} is there already", prefix),
-                      "take the layer's lines that were put in by hand out, or rename yours");
+                      "remove the layer's hand-written lines, or rename yours");
       }
     }
     for (const char* component : {"watchdog", "sampler"}) {
       if (const Loaded* loaded = use_.loaded(component)) {
         return refuse(loaded->where.file, loaded->where.line,
                       fmt::format("loads {}, which the layer needs for itself", component),
-                      "take that line and what belongs to it out");
+                      "remove that line and what belongs to it");
       }
     }
     for (const std::string& pin : driven_pins(layer_, options_.offsets)) {
@@ -112,7 +113,7 @@ class Planner {
         return refuse(where->file, where->line,
                       fmt::format("the machine's own file drives {}", pin),
                       offset ? "leave --offsets out: this machine uses the offsets itself"
-                             : "take that connection out: the layer needs the pin for itself");
+                             : "remove that connection: the layer needs the pin for itself");
       }
     }
     return {};
@@ -201,7 +202,9 @@ class Planner {
     if (auto done = create(name, own_file(changed, ini_name(path_))); !done) {
       return done;
     }
-    ini_edits_.push_back({.first = entry.line, .removed = 1, .added = {"HALFILE = " + name}});
+    ini_edits_.push_back({.first = entry.line,
+                          .removed = entry.top_line - entry.line + 1,
+                          .added = {"HALFILE = " + name}});
     return {};
   }
 

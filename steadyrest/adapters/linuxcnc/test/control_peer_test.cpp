@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/adapters/linuxcnc/control_peer.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
@@ -57,6 +58,67 @@ kernel::outcome::Result<std::optional<ControlState>> first_of(ControlPeer& peer)
     }
   }
   return std::optional<ControlState>();
+}
+
+/// control_state.py's OpenedText on a made-up /proc, in which 7 is LinuxCNC's task; what `asked`
+/// leaves in `said` comes back as the words of an error.
+std::string said(const std::string& asked) {
+  const kernel::file::testing::OwnFolder folder;
+  const std::string script = "folder, source = '" + folder.path().string() +
+                             "', '" STEADYREST_SOURCE_DIR
+                             "/steadyrest/adapters/linuxcnc/control_state.py'\n" +
+                             R"(
+import json, os, sys, types
+sys.modules['linuxcnc'] = sys.modules['hal'] = types.ModuleType('none')
+exec(open(source).read().split('try:\n    watch()')[0])
+os.chdir(folder)
+text, part, said = OpenedText('milltask', folder + '/proc'), folder + '/part.ngc', []
+def process(number, name):
+    os.makedirs('proc/%d/fd' % number)
+    open('proc/%d/comm' % number, 'w').write(name + '\n')
+def write(name):
+    open(name, 'w').write('M2\n')
+process(7, 'milltask')
+write(part)
+)" + asked + "print(json.dumps({'error': ' '.join(map(str, said))}), flush=True)\n";
+  const auto peer = ControlPeer::start({.script = script}).value();
+  const auto state = first_of(*peer);
+  return state ? "none" : state.error().what;
+}
+
+// A plain file cannot be read as a link, as a descriptor that has just been closed.
+TEST(ControlScript, AVanishedDescriptorLeavesTheVerdictOnTheText) {
+  EXPECT_EQ(said(R"(
+for i in range(16): write('proc/7/fd/%d' % i)
+os.symlink(part, 'proc/7/fd/20')
+said.append(text.is_file(part, True))
+os.rename(part, 'part.ngc (deleted)')
+write(part)
+os.remove('proc/7/fd/20')
+os.symlink(part + ' (deleted)', 'proc/7/fd/20')
+said.append(text.is_file(part, True))
+os.remove('proc/7/fd/20')
+said.append(text.is_file(part, True))
+said.append(text.is_file(folder + '/next.ngc', True))
+)"),
+            "True False False True");
+}
+
+TEST(ControlScript, LooksForTheTaskOnlyWhereItHasGone) {
+  EXPECT_EQ(said(R"(
+for i in range(20, 30): process(i, 'other')
+os.symlink(part, 'proc/7/fd/3')
+is_task, looked = text.is_task, []
+text.is_task = lambda process: looked.append(process) or is_task(process)
+text.is_file(part, True)
+looked.clear()
+said += [text.is_file(part, True), len(looked)]
+said += [text.is_file(part, False), len(looked)]
+open('proc/7/comm', 'w').write('bash')
+process(8, 'milltask')
+said += [text.is_file(part, True), text.process.endswith('/8')]
+)"),
+            "True 0 True 1 True True");
 }
 
 TEST(ControlPeer, HandsOutTheNewestOfSeveralLines) {

@@ -170,6 +170,24 @@ TEST(LinuxCncPort, StatesTheSlowestAccelerationOfItsLinearOffsets) {
   EXPECT_EQ(stated(), 1.0) << "slow, not unlimited";
 }
 
+TEST(LinuxCncPort, OffsetsGrowByOneMillimetrePerSecondOnAnInchMachineToo) {
+  FakeHal hal;
+  hal.with_offsets = true;
+  auto config = kMillPort;
+  config.units.linear_unit_mm = 25.4;
+  const auto port = LinuxCncPort::make(config, hal).value();
+  Command command = kHalf;
+  command.offset_mm[2] = 0.1;
+  for (std::uint64_t tick = 1; tick <= 2; ++tick) {
+    Sample sample = cutting(tick);
+    sample[Column::enabled] = tick == 1 ? 0.0 : 1.0;
+    hal.push(sample);
+    ASSERT_TRUE(port->read().has_value());
+    ASSERT_TRUE(port->write(command).has_value());
+  }
+  EXPECT_NEAR(25.4 * hal.written.back().offset[2], 0.001, 1e-9);
+}
+
 // 0.3 mm against the contour error go out at 5 mm/s in the servo thread; 0.05 mm against heat stay.
 TEST(LinuxCncPort, LetsThePathOffsetOfAnEarlierLayerRampOutFirst) {
   FakeHal hal;

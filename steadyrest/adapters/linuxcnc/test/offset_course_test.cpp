@@ -115,6 +115,16 @@ TEST(OffsetCourse, GrowsFromNothingAfterTheMachineWasOff) {
   EXPECT_EQ(before, -0.03);
 }
 
+TEST(OffsetCourse, GrowsByWhatIsAMillimetrePerSecondInTheControlsUnit) {
+  OffsetCourse course({.back = 1.0 / 25.4});
+  for (std::uint64_t tick = 1; tick <= 10; ++tick) {
+    Pins pins;
+    pins.offset[1] = 0.1;
+    course.apply(pins, tick > 1, tick, kPeriod_s);
+    EXPECT_NEAR(25.4 * pins.offset[1], 0.001 * static_cast<double>(tick - 1), 1e-9);
+  }
+}
+
 // A layer that was killed left 50 µm; the next one's supervisor begins at 0. In the cut, a jump
 // would leave a step in the part.
 TEST(OffsetCourse, GoesOnFromTheOffsetOfAnEarlierLayer) {

@@ -19,7 +19,16 @@ using steadyrest::live::LoadedProgram;
 
 constexpr double kFirstState_s = 5.0;
 constexpr double kPoll_s = 0.1;
+constexpr std::chrono::seconds kBetweenStarts(2);
 constexpr std::string_view kVersion = "2.9";
+
+Refusals differences(const ControlFile& control, const kernel::machine::Machine& machine) {
+  Refusals out;
+  for (auto& found : config::differences(control.ini, control.configuration, machine)) {
+    out.push_back(bad_input(std::move(found.what), std::move(found.to_do)));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -44,16 +53,20 @@ Result<adapter::ControlState> ControlSource::first(double timeout_s) {
     state = peer_->next(kPoll_s);
   }
   if (!state) {
-    peer_.reset();
-    return std::unexpected(std::move(state.error()));
+    return ended(std::move(state.error()));
   }
   if (!*state) {
-    return std::unexpected(Refusal{.kind = kernel::outcome::Kind::unavailable,
-                                   .file = {},
-                                   .what = "LinuxCNC does not show its status",
-                                   .to_do = "see whether it runs, as this user"});
+    return kernel::outcome::unavailable("LinuxCNC does not show its status",
+                                        "see whether it runs, as this user");
   }
   return std::move(**state);
+}
+
+std::unexpected<Refusal> ControlSource::ended(Refusal why) {
+  peer_.reset();
+  begins_again_ = std::chrono::steady_clock::now() + kBetweenStarts;
+  ended_ = why;
+  return std::unexpected(std::move(why));
 }
 
 Result<std::optional<LoadedProgram>> ControlSource::operator()(double wait_s) {
@@ -61,13 +74,15 @@ Result<std::optional<LoadedProgram>> ControlSource::operator()(double wait_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
     return std::unexpected(std::move(refusal));
   };
+  if (!peer_ && ended_ && std::chrono::steady_clock::now() < begins_again_) {
+    return failed(*ended_);
+  }
   if (auto started = start(); !started) {
-    return failed(std::move(started.error()));
+    return failed(ended(std::move(started.error())).error());
   }
   auto state = peer_->next(wait_s);
   if (!state) {
-    peer_.reset();
-    return failed(std::move(state.error()));
+    return failed(ended(std::move(state.error())).error());
   }
   if (!*state) {
     return std::optional<LoadedProgram>();
@@ -88,18 +103,19 @@ Result<std::optional<LoadedProgram>> ControlSource::operator()(double wait_s) {
   return std::optional(std::move(*loaded));
 }
 
-std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
-    ControlSource& source, const kernel::machine::Machine& machine) {
+std::expected<Compared, Refusals> compare_with_control(ControlSource& source,
+                                                       const kernel::machine::Machine& machine) {
   constexpr std::string_view kCheck = "control";
-  std::vector<passport::Finding> findings;
+  Compared out;
   const auto not_compared = [&](const Refusal& refusal) {
-    findings.push_back({passport::Severity::warning, kCheck,
-                        "the machine file was not compared with LinuxCNC: " + refusal.what,
-                        refusal.to_do});
-    return findings;
+    out.findings.push_back({passport::Severity::warning, kCheck,
+                            "the machine file was not compared with LinuxCNC: " + refusal.what,
+                            refusal.to_do});
+    return out;
   };
   const auto state = source.first(kFirstState_s);
   if (!state) {
+    out.shown = false;
     return not_compared(state.error());
   }
   if (!state->version.starts_with(kVersion)) {
@@ -107,22 +123,33 @@ std::expected<std::vector<passport::Finding>, Refusals> compare_with_control(
         fmt::format("LinuxCNC {} runs here; the layer is made for {}", state->version, kVersion),
         "install LinuxCNC 2.9 (Debian: linuxcnc-uspace)"));
   }
-  const auto ini = config::IniFile::read(state->ini);
+  auto ini = config::IniFile::read(state->ini);
   if (!ini) {
     return not_compared(ini.error());
   }
-  const auto configuration = config::configuration_of(*ini);
+  auto configuration = config::configuration_of(*ini);
   if (!configuration) {
-    return not_compared(configuration.error());
+    return refused(configuration.error());
   }
-  Refusals different;
-  for (config::Difference& found : config::differences(*ini, *configuration, machine)) {
-    different.push_back(bad_input(std::move(found.what), std::move(found.to_do)));
-  }
-  if (!different.empty()) {
+  out.file.emplace(ControlFile{.ini = std::move(*ini), .configuration = std::move(*configuration)});
+  if (Refusals different = differences(*out.file, machine); !different.empty()) {
     return std::unexpected(std::move(different));
   }
-  return findings;
+  return out;
+}
+
+Result<void> accepts(const kernel::machine::Machine& running,
+                     const std::optional<ControlFile>& control,
+                     const kernel::machine::Machine& wanted) {
+  if (control) {
+    if (Refusals different = differences(*control, wanted); !different.empty()) {
+      return std::unexpected(std::move(different.front()));
+    }
+  }
+  if (auto changed = config::changed_since_start(running, wanted)) {
+    return refuse(wanted.file, std::move(changed->what), std::move(changed->to_do));
+  }
+  return {};
 }
 
 }  // namespace steadyrest::apps::cli::live

@@ -90,14 +90,14 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
                              "leave --program out"));
   }
   ControlSource source(machine);
-  auto findings = compare_with_control(source, machine);
-  if (!findings) {
-    return std::unexpected(std::move(findings.error()));
+  auto compared = compare_with_control(source, machine);
+  if (!compared) {
+    return std::unexpected(std::move(compared.error()));
   }
   auto beside = connect(machine);
   if (!beside) {
     Refusal why = std::move(beside.error());
-    if (!findings->empty()) {  // its status is not shown either
+    if (!compared->shown) {
       why.what = "LinuxCNC does not run, or runs as another user (" + why.what + ")";
       why.to_do = "start LinuxCNC with the layer's HAL file, as this user";
     }
@@ -108,7 +108,10 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
   LivePort out;
   out.period_s = machine.control.servo_period_s;
   out.paces = true;
-  out.findings = std::move(*findings);
+  out.findings = std::move(compared->findings);
+  out.accepts = [machine, control = std::move(compared->file)](const auto& wanted) {
+    return accepts(machine, control, wanted);
+  };
   out.shows = [&port = *(*beside)->port, &path = *followed, &told = *watch] {
     return Json{{"program", program_json(told, path)}, {"stalls", stalls_json(port)}};
   };

@@ -15,8 +15,6 @@ using nc::interpret::PathMode;
 
 namespace {
 
-constexpr double kInch_mm = 25.4;
-
 PathMode path_mode(const std::string& word) {
   return word == "exact_path"   ? PathMode::exact_path
          : word == "exact_stop" ? PathMode::exact_stop
@@ -44,7 +42,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   if (!state.unread.empty()) {
     return std::unexpected(bad_input(
         "LinuxCNC has " + state.unread + " from before the program, which the layer does not read",
-        "return to G40 G94 G97 before the start; a remapped word has no path"));
+        "return to G8 G40 G94 G97 before the start; a remapped word has no path"));
   }
   steadyrest::live::LoadedProgram loaded{.file = state.program,
                                          .start = {},
@@ -58,7 +56,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start = std::move(*config);
   // What the file says of the offsets in force may be older than the control's own figures.
   if (std::error_code none; std::filesystem::exists(state.variables, none)) {
-    const double unit_mm = state.machine_inch ? kInch_mm : 1.0;
+    const double unit_mm = state.machine_inch ? kernel::units::kMmPerInch : 1.0;
     if (auto read = nc::interpret::read_variables(state.variables, unit_mm, start); !read) {
       return std::unexpected(read.error());
     }

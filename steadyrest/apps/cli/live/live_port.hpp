@@ -22,6 +22,8 @@ struct LivePort {
   /// Keys for the status and the run's answer, from any thread; empty: none.
   std::function<Json()> shows;
   std::vector<passport::Finding> findings;  ///< of the control, none an error
+  /// Whether the layer may go on with this machine file; empty: any that fits. From any thread.
+  std::function<Result<void>(const kernel::machine::Machine&)> accepts;
   double period_s = 0.001;
   bool paces = false;              ///< read() waits for the control's next sample
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/apps/cli/live/lossy_port.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli::live {
 
@@ -8,11 +9,7 @@ using kernel::outcome::Result;
 Result<kernel::signal::Frame> LossyPort::read() noexcept {
   auto frame = machine_->read();
   if (frame && frame->time_s >= at_s_ && frame->time_s < at_s_ + for_s_) {
-    return std::unexpected(
-        kernel::outcome::Refusal{.kind = kernel::outcome::Kind::unavailable,
-                                 .file = {},
-                                 .what = "the link is lost, as --lose-link-at-s asked",
-                                 .to_do = "wait"});
+    return kernel::outcome::unavailable("the link is lost, as --lose-link-at-s asked", "wait");
   }
   return frame;
 }

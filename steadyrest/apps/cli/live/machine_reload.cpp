@@ -14,13 +14,12 @@ using steadyrest::live::Successor;
 
 // One reading of the file, so that the record has the text that was judged.
 kernel::outcome::Result<std::unique_ptr<Successor>> read_again(
-    const std::string& file, const kernel::machine::Machine& running,
-    const kernel::port::Capability& capability, record::RecordWriter* writer) {
-  auto text = passport::read_text(file);
+    const ReloadOf& of, const kernel::machine::Machine& running) {
+  auto text = passport::read_text(of.file);
   if (!text) {
     return std::unexpected(std::move(text.error()));
   }
-  auto machine = passport::parse(*text, file);
+  auto machine = passport::parse(*text, of.file);
   if (!machine) {
     return std::unexpected(std::move(machine.error()));
   }
@@ -30,7 +29,12 @@ kernel::outcome::Result<std::unique_ptr<Successor>> read_again(
   if (Refusals errors = errors_of(*machine, start_findings(*machine)); !errors.empty()) {
     return std::unexpected(std::move(errors.front()));
   }
-  auto layer = supervisor::Supervisor::make(*machine, capability);
+  if (of.accepts) {
+    if (auto accepted = of.accepts(*machine); !accepted) {
+      return std::unexpected(std::move(accepted.error()));
+    }
+  }
+  auto layer = supervisor::Supervisor::make(*machine, of.capability);
   if (!layer) {
     return std::unexpected(std::move(layer.error()));
   }
@@ -39,7 +43,7 @@ kernel::outcome::Result<std::unique_ptr<Successor>> read_again(
       Successor{.machine = std::move(*machine),
                 .layer = std::move(*layer),
                 .kept = kept,
-                .text = writer != nullptr ? writer->hold(std::move(*text)) : 0});
+                .text = of.writer != nullptr ? of.writer->hold(std::move(*text)) : 0});
 }
 
 }  // namespace steadyrest::apps::cli::live

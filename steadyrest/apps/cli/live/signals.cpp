@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
+#include <csignal>
 #include <ctime>
 
 #include <unistd.h>
@@ -13,9 +14,13 @@ using steadyrest::live::Loop;
 
 std::atomic<Loop*> the_loop{nullptr};
 
-void on_signal(int /*signal*/) {
+/// A second one ends the process, whichever of them it is.
+void on_signal(int number) {
   if (Loop* const loop = the_loop.exchange(nullptr); loop != nullptr) {
     loop->ask_stop();
+  } else {
+    ::signal(number, SIG_DFL);
+    ::raise(number);
   }
 }
 

@@ -172,13 +172,17 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
   record::RecordWriter* const writer = record != nullptr ? &record->writer() : nullptr;
   return {
       .running = of.machine,
-      .make = [=, &hangup, &loop, capability = of.port.port->capability()](
+      .make = [&hangup, &loop,
+               reload = ReloadOf{.file = options.machine,
+                                 .capability = of.port.port->capability(),
+                                 .accepts = of.port.accepts,
+                                 .writer = writer}](
                   const auto& running) -> Result<std::unique_ptr<steadyrest::live::Successor>> {
         if (hangup.terminal_is_gone()) {
           loop.ask_stop();
           return refuse("the terminal has gone: the run ends", "start it as a service");
         }
-        return read_again(options.machine, running, capability, writer);
+        return read_again(reload, running);
       },
       .utc_now = record::utc_now,
       .on_begin = [&manager] { manager.tell(steadyrest::live::reloading()); },

@@ -20,16 +20,23 @@ std::string percent(const Json& status, const char* key) {
 
 /// Whether the layer knows where the control is on its program.
 std::string path_text(const Json& program) {
-  if (const Json words = program.value("words", Json()); words.is_string()) {
-    return "no path: " + words.get<std::string>();
-  }
   const std::string place = program.value("place", "");
   const std::string file = program.value("file", "");
-  return place == "on_path"      ? "on the path of " + file
-         : place == "off_path"   ? "off the planned path of " + file + " here"
-         : place == "searching"  ? "looking for the place on " + file
-         : place == "no_program" ? "no program runs; " + file + " is known"
-                                 : "no program is known";
+  const Json told = program.value("words", Json());
+  const std::string words = told.is_string() ? told.get<std::string>() : "";
+  if (place == "on_path") {
+    return "on the path of " + file;
+  }
+  if (place == "off_path") {
+    return "off the planned path of " + file + " here";
+  }
+  if (place == "searching" || place == "start_unseen") {
+    return "looking for the place on " + file + (words.empty() ? "" : ": " + words);
+  }
+  if (!words.empty()) {
+    return "no path: " + words;
+  }
+  return place == "no_program" ? "no program runs; " + file + " is known" : "no program is known";
 }
 
 std::string text_of(const Json& status) {

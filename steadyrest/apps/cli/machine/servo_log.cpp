@@ -185,6 +185,9 @@ Result<RecordedServos> from_table(const std::string& file, const Machine& machin
   while (!fault && std::getline(in, line)) {
     fault = rows.line(line);
   }
+  if (in.bad()) {
+    return refuse(file, "cannot be read to its end", "check the disk, or copy the file again");
+  }
   if (!fault) {
     fault = rows.finish();
   }
@@ -194,7 +197,7 @@ Result<RecordedServos> from_table(const std::string& file, const Machine& machin
   return RecordedServos{sink.take(), {}};
 }
 
-/// Time must rise; what has no number for a position was no motion.
+/// Time must rise, and every position must be a number.
 Result<void> fit_for_use(const std::string& file, const RecordedServos& servos) {
   for (const ServoLog& log : servos.logs) {
     if (log.time_s.size() < 2) {

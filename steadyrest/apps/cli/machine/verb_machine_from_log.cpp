@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +14,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/contour/offline/identify/servo_fit.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/edit/servo_edit.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -39,7 +39,6 @@ struct Options {
 constexpr double kSurely = 3.0;       // standard deviations of the lost motion
 constexpr double kLeastLost = 0.001;  // mm
 constexpr double kHardRatio = 3.0;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// Places in the machine of the axes to fit.
 Result<std::vector<std::size_t>> places_of(const Machine& machine, const Options& options) {
@@ -67,7 +66,7 @@ Result<std::vector<std::size_t>> places_of(const Machine& machine, const Options
 
 /// A length in µm, on a rotary axis in degrees.
 double shown_length(const ServoFit& fit, double au) {
-  return fit.rotary ? au * kDegrees : 1000.0 * au;
+  return fit.rotary ? kernel::units::deg_from_rad(au) : 1000.0 * au;
 }
 
 std::string with_unit(const ServoFit& fit, double au) {
@@ -79,8 +78,8 @@ std::vector<std::string> warnings_of(const ServoFits& fits, const std::vector<Ax
   std::vector<std::string> out;
   for (std::size_t i = 0; i < fits.axes.size(); ++i) {
     const ServoFit& fit = fits.axes[i];
-    const double least =
-        std::max(fit.rotary ? kLeastLost / kDegrees : kLeastLost, 2.0 * axes[i].encoder.count_au);
+    const double least = std::max(fit.rotary ? kernel::units::rad_from_deg(kLeastLost) : kLeastLost,
+                                  2.0 * axes[i].encoder.count_au);
     if (fit.reversals >= 3 && fit.lost_motion > least &&
         fit.lost_motion > kSurely * fit.lost_motion_sd) {
       out.push_back(fmt::format(

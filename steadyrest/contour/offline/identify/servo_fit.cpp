@@ -30,10 +30,9 @@ constexpr double kBesideTravel = 0.05;  // mm or rad
 constexpr double kMostGainSd = 0.03;    // of the gain
 constexpr double kMostForwardSd = 0.05;
 constexpr double kMostPerCycle = 1.0;  // k·h
-constexpr double kBelowZero = 0.05;    // of the feed-forward
-constexpr double kMostForward = 1.5;
-constexpr double kMostMisfit = 0.1;   // of the lag without feed-forward
-constexpr double kMostOfError = 0.3;  // of the following error
+constexpr double kBeside = 0.05;       // of 0 … 1, the feed-forward that the online model takes
+constexpr double kMostMisfit = 0.1;    // of the lag without feed-forward
+constexpr double kMostOfError = 0.3;   // of the following error
 constexpr double kHardRatio = 1.5;
 constexpr double kHalvesApart = 0.1;
 constexpr double kHalvesSd = 5.0;
@@ -58,7 +57,7 @@ std::string length(const Axis& axis, double au) {
 struct ServoMoves {
   std::size_t samples = 0;
   double error = 0.0;
-  double speed_s = 0.0;
+  double speed_au_s = 0.0;
 };
 
 ServoMoves servo_moves(const ServoLog& log, std::span<const ServoRun> runs, int shift,
@@ -70,13 +69,13 @@ ServoMoves servo_moves(const ServoLog& log, std::span<const ServoRun> runs, int 
       const double e = log.command[n - s] - log.actual[n];
       const double v = (log.command[n + 1 - s] - log.command[n - s]) / period_s;
       out.error += e * e;
-      out.speed_s += v * v;
+      out.speed_au_s += v * v;
       ++out.samples;
     }
   }
   const double n = std::max(1.0, static_cast<double>(out.samples));
   out.error = std::sqrt(out.error / n);
-  out.speed_s = std::sqrt(out.speed_s / n);
+  out.speed_au_s = std::sqrt(out.speed_au_s / n);
   return out;
 }
 
@@ -118,7 +117,7 @@ bool in_range(const StepFit& fit) {
   return fit.step.p > 0.0 && fit.step.p < 1.0;
 }
 
-Tried tried(const Subject& subject, std::span<const ServoRun> moving, int shift) {
+Tried try_shift(const Subject& subject, std::span<const ServoRun> moving, int shift) {
   Tried out;
   out.moving.assign(moving.begin(), moving.end());
   out.moves = servo_moves(subject.log, out.moving, shift, subject.period_s);
@@ -132,11 +131,11 @@ Tried tried(const Subject& subject, std::span<const ServoRun> moving, int shift)
 Result<Subject> subject_of(const Axis& axis, const ServoLog& log, double period_s) {
   std::size_t even = 0;
   std::size_t jumps = 0;
-  const double most_s = kJumps * axis.max_speed_au_s;
+  const double most_au_s = kJumps * axis.max_speed_au_s;
   for (std::size_t n = 1; n < log.time_s.size(); ++n) {
     const double step_s = log.time_s[n] - log.time_s[n - 1];
     even += std::abs(step_s - period_s) <= 0.1 * period_s ? 1 : 0;
-    jumps += std::abs(log.command[n] - log.command[n - 1]) > most_s * step_s ? 1 : 0;
+    jumps += std::abs(log.command[n] - log.command[n - 1]) > most_au_s * step_s ? 1 : 0;
   }
   const auto steps = static_cast<double>(std::max<std::size_t>(log.time_s.size(), 2) - 1);
   if (static_cast<double>(even) < kEvenShare * steps) {
@@ -161,11 +160,11 @@ Result<Subject> subject_of(const Axis& axis, const ServoLog& log, double period_
                                    length(axis, axis.min_au), length(axis, axis.max_au)),
                        "give the machine file of the machine that was recorded");
   }
-  return Subject{axis, log, period_s, unbroken(log, period_s, most_s)};
+  return Subject{axis, log, period_s, unbroken(log, period_s, most_au_s)};
 }
 
 /// What a fit needs before any is made.
-Result<void> enough(const Subject& subject, const Tried& tried) {
+Result<void> check_motion(const Subject& subject, const Tried& tried) {
   const Axis& axis = subject.axis;
   const auto others = fmt::format("{}; --axes fits the others alone", kRunTest);
   if (tried.moves.samples < kLeastInMotion) {
@@ -175,13 +174,15 @@ Result<void> enough(const Subject& subject, const Tried& tried) {
                     kLeastInMotion, static_cast<double>(kLeastInMotion) * subject.period_s),
         others);
   }
-  const double least = std::max(kLeastCounts * axis.encoder.count_au, kLeastError);
+  const double counts = kLeastCounts * axis.encoder.count_au;
+  const double least = std::max(counts, kLeastError);
   if (tried.moves.error < least) {
     return refuse_axis(
         axis,
-        fmt::format("follows its command to {}, RMS; at least {} of following error (3 counts) are "
-                    "needed to see a gain",
-                    length(axis, tried.moves.error), length(axis, least)),
+        fmt::format("follows its command to {}, RMS; at least {} of following error{} are needed "
+                    "to see a gain",
+                    length(axis, tried.moves.error), length(axis, least),
+                    counts > kLeastError ? " (3 counts)" : ""),
         "an axis without encoder feedback shows no lag: keep the machine file's gain, or record at "
         "higher feeds");
   }
@@ -189,7 +190,7 @@ Result<void> enough(const Subject& subject, const Tried& tried) {
 }
 
 /// Whether the fit tells anything at all.
-Result<void> determined(const Subject& subject, const Tried& tried) {
+Result<void> check_determined(const Subject& subject, const Tried& tried) {
   const Axis& axis = subject.axis;
   if (tried.fit && !in_range(*tried.fit)) {
     return refuse_axis(axis, "the actual position does not follow the command",
@@ -221,10 +222,10 @@ Result<void> determined(const Subject& subject, const Tried& tried) {
 }
 
 /// Whether the axis moves by the law.
-Result<void> agrees(const Subject& subject, const Tried& tried, const ServoMisfit& off) {
+Result<void> check_law(const Subject& subject, const Tried& tried, const ServoMisfit& off) {
   const Axis& axis = subject.axis;
   const double left = std::sqrt(tried.fit->left / static_cast<double>(tried.fit->samples));
-  if (left > kMostMisfit * tried.moves.speed_s / tried.gain_1_s ||
+  if (left > kMostMisfit * tried.moves.speed_au_s / tried.gain_1_s ||
       left > kMostOfError * tried.moves.error) {
     const bool saturated = off.hard_rms > kHardRatio * off.calm_rms;
     return refuse_axis(
@@ -240,12 +241,12 @@ Result<void> agrees(const Subject& subject, const Tried& tried, const ServoMisfi
   return {};
 }
 
-Result<void> allowed(const Axis& axis, const Tried& tried) {
-  if (tried.feed_forward < -kBelowZero || tried.feed_forward > kMostForward ||
-      tried.gain_1_s < 1.0 || tried.gain_1_s > 1000.0) {
+Result<void> check_range(const Axis& axis, const Tried& tried) {
+  if (tried.feed_forward < -kBeside || tried.feed_forward > 1.0 + kBeside || tried.gain_1_s < 1.0 ||
+      tried.gain_1_s > 1000.0) {
     return refuse_axis(axis,
-                       fmt::format("gain {:.4g} 1/s with feed-forward {:.3g} is beyond a machine "
-                                   "file; allowed: 1 … 1000 1/s, 0 … 1.5",
+                       fmt::format("gain {:.4g} 1/s with feed-forward {:.3g} is beyond what "
+                                   "the layer takes; allowed: 1 … 1000 1/s, 0 … 1",
                                    tried.gain_1_s, tried.feed_forward),
                        "check that commanded and actual positions are not swapped");
   }
@@ -253,18 +254,18 @@ Result<void> allowed(const Axis& axis, const Tried& tried) {
 }
 
 /// A gain that changed on the way is none.
-Result<void> halves_agree(const Subject& subject, const Tried& whole, int shift) {
+Result<void> check_halves(const Subject& subject, const Tried& whole, int shift) {
   std::array<std::vector<ServoRun>, 2> half;
   std::size_t seen = 0;
   for (const ServoRun& run : whole.moving) {
     half[seen < whole.moves.samples / 2 ? 0 : 1].push_back(run);
     seen += run.last - run.first;
   }
-  const Tried a = tried(subject, half[0], shift);
-  const Tried b = tried(subject, half[1], shift);
+  const Tried a = try_shift(subject, half[0], shift);
+  const Tried b = try_shift(subject, half[1], shift);
   for (const Tried* one : {&a, &b}) {
     // A half that tells nothing does not contradict.
-    if (!determined(subject, *one)) {
+    if (!check_determined(subject, *one)) {
       return {};
     }
   }
@@ -281,29 +282,29 @@ Result<void> halves_agree(const Subject& subject, const Tried& whole, int shift)
   return {};
 }
 
-Result<ServoFit> finished(const Subject& subject, const Tried& tried, int shift) {
+Result<ServoFit> make_fit(const Subject& subject, const Tried& tried, int shift) {
   // What spoils a fit leaves large deviations too, so that comes before them.
   ServoMisfit off;
   if (tried.fit && in_range(*tried.fit)) {
-    if (auto done = halves_agree(subject, tried, shift); !done) {
+    if (auto done = check_halves(subject, tried, shift); !done) {
       return std::unexpected(done.error());
     }
     off = misfit(subject.log, subject.runs, shift, tried.fit->step);
-    if (auto done = agrees(subject, tried, off); !done) {
+    if (auto done = check_law(subject, tried, off); !done) {
       return std::unexpected(done.error());
     }
   }
-  if (auto done = determined(subject, tried); !done) {
+  if (auto done = check_determined(subject, tried); !done) {
     return std::unexpected(done.error());
   }
-  if (auto done = allowed(subject.axis, tried); !done) {
+  if (auto done = check_range(subject.axis, tried); !done) {
     return std::unexpected(done.error());
   }
   return ServoFit{.axis = subject.axis.name,
                   .rotary = subject.axis.rotary,
                   .gain_1_s = tried.gain_1_s,
                   .gain_sd_1_s = tried.gain_sd_1_s,
-                  .feed_forward = std::max(0.0, tried.feed_forward),
+                  .feed_forward = std::clamp(tried.feed_forward, 0.0, 1.0),
                   .feed_forward_sd = tried.feed_forward_sd,
                   .rest_error = tried.fit->step.r / (1.0 - tried.fit->step.p),
                   .rms = off.rms,
@@ -365,9 +366,9 @@ Result<ServoFits> fit_servos(const std::vector<ServoLog>& logs, const std::vecto
     auto& tries = by_shift.emplace_back();
     for (const int shift : {0, 1}) {
       Tried& one = tries.at(static_cast<std::size_t>(shift));
-      one = tried(*subject, in_motion(logs[i], subject->runs, out.period_s, shift), shift);
+      one = try_shift(*subject, in_motion(logs[i], subject->runs, out.period_s, shift), shift);
       // With either shift: with the right one an axis may follow its command exactly.
-      if (auto done = enough(*subject, one); !done) {
+      if (auto done = check_motion(*subject, one); !done) {
         return std::unexpected(done.error());
       }
     }
@@ -377,7 +378,7 @@ Result<ServoFits> fit_servos(const std::vector<ServoLog>& logs, const std::vecto
   const std::size_t shift = against > kAtAll ? 1 : 0;
   out.shift_certain = std::abs(against) > kClearly;
   for (std::size_t i = 0; i < subjects.size(); ++i) {
-    auto fit = finished(subjects[i], by_shift[i].at(shift), static_cast<int>(shift));
+    auto fit = make_fit(subjects[i], by_shift[i].at(shift), static_cast<int>(shift));
     if (!fit) {
       return std::unexpected(fit.error());
     }

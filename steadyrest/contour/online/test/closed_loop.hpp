@@ -88,6 +88,7 @@ class ClosedLoop {
 
   bool with_layer = true;
   bool show_path = true;
+  bool offsets_act = false;  ///< for the governor alone: no axis is moved by one
   double panel = 1.0;
   double fixed_ratio = 1.0;
   std::function<void(Frame&)> disturb;
@@ -99,7 +100,8 @@ class ClosedLoop {
   FeedGovernor& governor() { return governor_; }
   /// The last ratio told to the override, as the envelope would hand it down.
   [[nodiscard]] kernel::signal::InForce in_force() const {
-    return {.feed = {.ratio = slewed_, .word_ratio = word_}, .written = true};
+    return {
+        .feed = {.ratio = slewed_, .word_ratio = word_}, .active = offsets_act, .written = true};
   }
 
   LoopSample step() {

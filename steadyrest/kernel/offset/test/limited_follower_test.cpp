@@ -21,7 +21,7 @@ TEST(LimitedFollower, FollowsWithinOneStepWhatItCanDo) {
     for (int i = 1; i < 5000; ++i) {
       const double next = 0.5 * std::sin(omega * kStep_s * i);
       follower.follow(next, kMost, kStep_s);
-      worst = i > 1500 ? std::max(worst, std::abs(follower.at - next)) : 0.0;
+      worst = i > 1500 ? std::max(worst, std::abs(follower.at_mm - next)) : 0.0;
     }
     EXPECT_LE(worst, 1.01 * 0.5 * omega * kStep_s) << omega;
   }
@@ -36,12 +36,12 @@ TEST(LimitedFollower, TakesAJumpInTheShortestTimeAndHardlyOvershoots) {
     double farthest = 0.0;
     int arrived = 0;
     for (int i = 1; i < 1000; ++i) {
-      const double speed = follower.speed;
+      const double speed = follower.speed_mm_s;
       follower.follow(jump, kMost, kStep_s);
-      most = std::max(most, std::abs(follower.speed - speed) / kStep_s);
-      farthest = std::max(farthest, follower.at / jump);
-      arrived = std::abs(follower.at - jump) > 0.05 * std::abs(jump) ? i : arrived;
-      before = follower.at;
+      most = std::max(most, std::abs(follower.speed_mm_s - speed) / kStep_s);
+      farthest = std::max(farthest, follower.at_mm / jump);
+      arrived = std::abs(follower.at_mm - jump) > 0.05 * std::abs(jump) ? i : arrived;
+      before = follower.at_mm;
     }
     EXPECT_LE(most, kMost * (1.0 + 1e-9));
     EXPECT_LE(farthest, 1.06) << jump;

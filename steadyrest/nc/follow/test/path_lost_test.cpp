@@ -186,6 +186,26 @@ TEST(PathLost, ARelativeProgramThatIsShownLateIsFollowedFromItsStart) {
   EXPECT_GE(told(steps).cycles + 40, told(steps).moving);
 }
 
+// A frame that is not finite does not show that the axes stand.
+TEST(PathLost, WhereTheAxesPassedInAnUnfitFrameTheyDidNotStand) {
+  const auto path = begun_at(0.0, 0.0, kRelative);
+  const Route route = marked(kRelative);
+  const auto machine = test::mill();
+  auto interpolator = plan::Interpolator::make(machine, plan::whole(path)).value();
+  PathLocator locator;
+  locator.follow(&route);
+  for (const double x : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}) {
+    Frame moving;
+    moving.program = kernel::signal::ProgramState::stopped;
+    moving.axis[0].command_mm = x;
+    (void)locator.update(moving);
+  }
+  for (std::size_t i = 0; i < 400; ++i) {
+    const auto seen = locator.update(test::frame_of(interpolator.update({}), i));
+    ASSERT_NE(seen.place, Place::on_path) << i;
+  }
+}
+
 // Its third leg runs along the first of the route: a place there would be wrong.
 TEST(PathLost, ARelativeProgramThatBeganElsewhereIsNot) {
   const auto steps = driven(begun_at(0.0, -20.0, kRelative), marked(kRelative));

@@ -190,33 +190,60 @@ void PieceMaker::set_speed(Piece& out, const Move& move) const {
   out.segment.feed_mm_s = p.per_revolution ? p.feed_mm_s * std::abs(spindle) : p.feed_mm_s;
 }
 
+bool PieceMaker::clips(const Piece& piece) const {
+  return machine_.control.clips_programmed_feed && !piece.plan.rapid && !piece.plan.per_revolution;
+}
+
 void PieceMaker::clip_feed(Piece& out) const {
-  if (machine_.control.clips_programmed_feed && !out.plan.rapid && !out.plan.per_revolution) {
+  if (clips(out)) {
     out.plan.feed_mm_s = clipped_feed(out);
     out.segment.feed_mm_s = out.plan.feed_mm_s;
   }
 }
 
 void PieceMaker::clip_corner_feed(Piece& arc, const Piece& before, const Piece& after) const {
-  if (machine_.control.clips_programmed_feed && !arc.plan.rapid && !arc.plan.per_revolution) {
+  if (clips(arc)) {
     arc.plan.feed_mm_s = std::max(clipped_feed(before), clipped_feed(after));
     arc.segment.feed_mm_s = arc.plan.feed_mm_s;
   }
 }
 
-/// What the speeds of the axes permit of F, whatever the curvature.
+/// What the axes permit of F.
 double PieceMaker::clipped_feed(const Piece& piece) const {
-  double feed = piece.plan.feed_mm_s;
-  if (!machine_.control.clips_programmed_feed || piece.plan.rapid || piece.plan.per_revolution) {
+  const double feed = piece.plan.feed_mm_s;
+  if (!clips(piece)) {
     return feed;
   }
-  if (piece.segment.geometry == Geometry::line) {
-    return std::min(feed, limits_.line(line_direction(piece.segment)).speed_mm_s);
+  const PathSegment& s = piece.segment;
+  return std::min(feed, s.geometry == Geometry::line ? limits_.line(line_direction(s)).speed_mm_s
+                                                     : fastest_arc(s));
+}
+
+/// The speed that LinuxCNC gives an arc (2.9, measured): around it that of the slowest axis of its
+/// plane, and what the least acceleration of these axes permits across the path at the tight end;
+/// along a helix the time that the other axes take.
+double PieceMaker::fastest_arc(const PathSegment& s) const {
+  double speed_mm_s = kernel::machine::kUnlimited;
+  double acceleration_mm_s2 = kernel::machine::kUnlimited;
+  double least_s = 0.0;
+  for (std::size_t i = 0; i < std::min(machine_.axes.size(), kMaxAxes); ++i) {
+    const auto& axis = machine_.axes[i];
+    if (i < 3 && std::abs(s.axis[i]) < 1.0 - 1e-9) {
+      speed_mm_s = std::min(speed_mm_s, axis.max_speed_au_s);
+      acceleration_mm_s2 = std::min(acceleration_mm_s2, axis.max_acceleration_au_s2);
+    }
+    const double travel =
+        i < 3 ? s.end_mm[i] - s.start_mm[i] : s.other_end[i - 3] - s.other_start[i - 3];
+    least_s = std::max(least_s, std::abs(travel) / axis.max_speed_au_s);
   }
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine_.axes.size()); ++i) {
-    feed = std::min(feed, machine_.axes[i].max_speed_au_s);
-  }
-  return feed;
+  const double wider_mm = s.radius_end_mm - s.radius_mm;
+  const double tight_mm = std::min(s.radius_mm, s.radius_end_mm);
+  const double radius_mm = std::hypot(tight_mm, wider_mm / s.sweep_rad);
+  const double across_mm_s =
+      std::sqrt(limits_.centripetal_share() * acceleration_mm_s2 * radius_mm);
+  const double around_mm = std::hypot(tight_mm * s.sweep_rad, wider_mm);
+  least_s = std::max(least_s, around_mm / std::min(speed_mm_s, across_mm_s));
+  return std::hypot(around_mm, s.rise_mm) / least_s;
 }
 
 void PieceMaker::limit(Piece& out) const {

@@ -57,7 +57,9 @@ class PieceMaker {
   [[nodiscard]] const PathLimits& limits() const noexcept { return limits_; }
 
  private:
+  [[nodiscard]] bool clips(const Piece& piece) const;
   [[nodiscard]] double clipped_feed(const Piece& piece) const;
+  [[nodiscard]] double fastest_arc(const kernel::signal::PathSegment& s) const;
   [[nodiscard]] kernel::signal::AxisValues machine_position(const interpret::Move& move,
                                                             const interpret::Axes& work) const;
   [[nodiscard]] double spindle_of(const kernel::signal::PathSegment& s,

@@ -23,9 +23,8 @@ namespace steadyrest::nc::plan {
     const std::string& file, const interpret::Config& config,
     const kernel::machine::Machine& machine);
 
-/// The same, with those segments marked (SegmentPlan::from_start) whose place follows from
-/// `config.start`: a run from elsewhere makes them otherwise. A relative program has them to its
-/// end.
+/// The same, with the segments marked (SegmentPlan::from_start) that depend on `config.start`: a
+/// run from another start places them elsewhere. In a relative program that is every segment.
 [[nodiscard]] kernel::outcome::Result<PlannedPath> plan_file_from_start(
     const std::string& file, const interpret::Config& config,
     const kernel::machine::Machine& machine);

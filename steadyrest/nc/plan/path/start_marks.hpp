@@ -23,8 +23,8 @@ class MovedAxes final : public interpret::Sink {
   std::array<bool, std::tuple_size_v<interpret::Axes>> moved_{};
 };
 
-/// The same start from elsewhere: in the axes that the program moves, and with probing moves that
-/// touch earlier. Where the others stand, they stay.
+/// The same configuration with another start: the axes that the program moves begin elsewhere, and
+/// probing moves touch earlier. The other axes keep their positions.
 [[nodiscard]] interpret::Config started_elsewhere(const interpret::Config& config,
                                                   const MovedAxes& moved);
 

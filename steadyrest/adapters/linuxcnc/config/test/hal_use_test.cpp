@@ -41,6 +41,12 @@ TEST_F(HalUseTest, SeesComponentsByNameAndNumber) {
   EXPECT_THAT(seen->loaded("limit2")->others, ElementsAre("count=[NO](WHERE)"));
 }
 
+TEST_F(HalUseTest, AValueThatNamesItsOwnKeyIsPutInOnce) {
+  const auto seen = use("loadrt comp [S]K [S](L)[S]N\n", "[S]\nK = x[S]K\nL = [S]L,\nN = 1\n");
+  ASSERT_TRUE(seen) << seen.error().what;
+  EXPECT_THAT(seen->loaded("comp")->others, ElementsAre("x[S]K", "[S]L,1"));
+}
+
 TEST_F(HalUseTest, SeesSignalsByEveryCommandThatConnects) {
   folder_.file("more.hal", "net s6 pin.6\n");
   const auto seen = use(

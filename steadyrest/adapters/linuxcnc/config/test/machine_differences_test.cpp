@@ -99,7 +99,22 @@ TEST(MachineDifferences, LimitsAlongThePathAreNamed) {
   const auto all = found(other);
   ASSERT_EQ(all.size(), 2U);
   EXPECT_THAT(all[0].what, AllOf(HasSubstr("3000 mm/s²"), HasSubstr("762")));
+  EXPECT_THAT(all[0].what, testing::StartsWith("the path acceleration 3000"));
   EXPECT_THAT(all[1].what, HasSubstr("[TRAJ] MAX_LINEAR_VELOCITY = 3"));
+}
+
+TEST(MachineDifferences, APathLimitThatTheMachineFileLacksIsNamedByItsKey) {
+  Machine other = machine();
+  other.control.max_path_acceleration_mm_s2 = kernel::machine::kUnlimited;
+  other.control.max_feed_mm_s = kernel::machine::kUnlimited;
+  const auto all = found(other);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].what,
+            "the machine file sets no max_path_acceleration_mm_s2; the control's is 762 mm/s² "
+            "([TRAJ] MAX_LINEAR_ACCELERATION = 30)");
+  EXPECT_EQ(all[0].to_do, "set max_path_acceleration_mm_s2 = 762, or less");
+  EXPECT_THAT(all[1].what, HasSubstr("sets no max_feed_mm_min; the control's is 76.2 mm/s"));
+  EXPECT_EQ(all[1].to_do, "set max_feed_mm_min = 4572, or less");
 }
 
 TEST(MachineDifferences, AFasterSpindleIsNamed) {
@@ -134,6 +149,28 @@ TEST(MachineDifferences, TighterLimitsAreNone) {
   other.axes[0].min_au = 0.0;
   other.axes[0].max_au = 100.0;
   EXPECT_THAT(found(other), IsEmpty());
+}
+
+TEST(MachineDifferences, WhatALayerTakesOverAtItsStartAloneIsNamed) {
+  const Machine running = machine();
+  EXPECT_FALSE(changed_since_start(running, running));
+  Machine other = running;
+  other.contour.limit_mm *= 2.0;
+  other.axes[0].servo_gain_1_s *= 2.0;
+  EXPECT_FALSE(changed_since_start(running, other));
+  std::vector<Machine> others(4, running);
+  others[0].envelope.offset_slew_mm_s *= 0.5;
+  others[1].control.corner_tolerance_mm = 0.5;
+  others[2].axes[2].max_speed_au_s *= 0.5;
+  others[3].axes[0].max_acceleration_au_s2 *= 0.5;
+  const std::vector<std::string> words = {"[envelope] offset_slew_um_s", "[control]", "an axis's",
+                                          "an axis's"};
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const auto changed = changed_since_start(running, others[i]);
+    ASSERT_TRUE(changed) << words[i];
+    EXPECT_THAT(changed->what, testing::StartsWith(words[i]));
+    EXPECT_EQ(changed->to_do, "stop the layer and start it with the new file");
+  }
 }
 
 }  // namespace

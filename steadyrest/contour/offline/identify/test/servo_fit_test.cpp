@@ -98,7 +98,7 @@ std::string refusal_of(const Servo& servo, const ServoLog& log) {
 }
 
 TEST(ServoFit, IsExactWithoutNoise) {
-  for (const double f : {0.0, 0.3, 0.9, 1.2}) {
+  for (const double f : {0.0, 0.3, 0.9, 0.99}) {
     const Servo servo{.feed_forward = f};
     const auto fits = fitted(servo, log_of(servo, 8.0));
     ASSERT_TRUE(fits) << fits.error().what;
@@ -228,6 +228,9 @@ TEST(ServoFit, RefusesAnAxisWithoutFollowingError) {
       log.actual[n] = log.command[n - behind];
     }
     EXPECT_THAT(refusal_of(servo, log), HasSubstr("follows its command")) << behind;
+    EXPECT_THAT(refusal_of(servo, log),
+                HasSubstr("at least 0.003 mm of following error (3 counts)"));
+    EXPECT_THAT(refusal_of({}, log), HasSubstr("at least 1e-07 mm of following error are"));
   }
 }
 
@@ -278,6 +281,16 @@ TEST(ServoFit, RefusesWhatTheMachineFileDoesNotAllow) {
   fits = fit_servos({log}, {axis});
   ASSERT_FALSE(fits);
   EXPECT_THAT(fits.error().what, HasSubstr("moves faster"));
+}
+
+// The layer's own model ends at 1; a fit that is above it by its uncertainty is 1.
+TEST(ServoFit, RefusesMoreFeedForwardThanTheLayerTakes) {
+  const Servo slightly{.feed_forward = 1.02};
+  const auto fits = fitted(slightly, log_of(slightly, 8.0));
+  ASSERT_TRUE(fits) << fits.error().what;
+  EXPECT_EQ(fits->axes[0].feed_forward, 1.0);
+  const Servo far{.feed_forward = 1.2};
+  EXPECT_THAT(refusal_of(far, log_of(far, 8.0)), HasSubstr("feed-forward 1.2"));
 }
 
 TEST(ServoFit, RefusesAnUnevenCycle) {

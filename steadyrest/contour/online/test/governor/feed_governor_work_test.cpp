@@ -43,9 +43,12 @@ Machine slow_to_foresee(double slowest_gain_1_s, double slew_1_s) {
   return machine;
 }
 
-std::size_t most_steps_of_a_decision(const Machine& machine, double seconds) {
+std::size_t most_steps_of_a_decision(const Machine& machine, const FeedGovernor::Config& config,
+                                     double seconds) {
   const auto path = pocket(60.0);
   ClosedLoop loop(machine, path);
+  loop.governor() = FeedGovernor::make(config).value();
+  loop.offsets_act = true;
   std::uint32_t most = 0;
   for (double t = 0.0; t < seconds && !loop.done(); t += machine.control.interpolator_period_s) {
     most = std::max(most, loop.step().output.forecast_steps);
@@ -62,10 +65,40 @@ RC_GTEST_PROP(FeedGovernorWork, IsBoundedOnAnyMachineByAnyStrategy, ()) {
   machine.contour.strategy = *rc::gen::element(
       ContourStrategy::contour_priority, ContourStrategy::feed_priority, ContourStrategy::combined);
   machine.control.interpolator_period_s = *rc::gen::element(0.0001, 0.001, 0.004);
-  const std::size_t bound = FeedGovernor::make(machine).value().most_forecast_steps();
-  const std::size_t most = most_steps_of_a_decision(machine, 0.2);
+  machine.envelope.max_path_offset_mm = *rc::gen::element(0.0, 1.0);
+  FeedGovernor::Config config = FeedGovernor::Config::of(machine);
+  config.path_offset_acceleration_mm_s2 = *rc::gen::element(0.0, 400.0);
+  config.forecast_step_s = *rc::gen::element(0.0, 1e-4);
+  const std::size_t bound = FeedGovernor::make(config).value().most_forecast_steps();
+  const std::size_t most = most_steps_of_a_decision(machine, config, 0.2);
   RC_ASSERT(most > 0U);
   RC_ASSERT(most <= bound);
+}
+
+// Two forecasts of 0.25 s, in steps of 2.4 ms at 50 1/s, say whether slow offsets follow; in steps
+// of 0.1 ms they end at the most that a forecast has.
+TEST(FeedGovernorWork, CountsTheForecastsOfSlowOffsets) {
+  Machine machine = test::mill(50.0);
+  machine.control.interpolator_period_s = 0.001;
+  machine.envelope.max_path_offset_mm = 1.0;
+  const auto path = PathMaker({0, 0, 0}, 20.0).line_to({100, 0, 0}).limited(2000.0, 1.0);
+  const auto steps = [&](double acceleration_mm_s2, double step_s) {
+    FeedGovernor::Config config = FeedGovernor::Config::of(machine);
+    config.path_offset_acceleration_mm_s2 = acceleration_mm_s2;
+    config.forecast_step_s = step_s;
+    config.feed_override.dead_time_s = 0.0;
+    ClosedLoop loop(machine, path);
+    loop.governor() = FeedGovernor::make(config).value();
+    loop.offsets_act = true;
+    FeedGovernor::Output output;
+    while (!output.decided || loop.step().time_s < 1.0) {
+      const auto now = loop.step().output;
+      output = now.decided ? now : output;
+    }
+    return output.forecast_steps;
+  };
+  EXPECT_EQ(steps(400.0, 0.0) - steps(0.0, 0.0), 2U * 104U);
+  EXPECT_EQ(steps(400.0, 1e-4) - steps(0.0, 1e-4), 2U * 512U);
 }
 
 // 10 % of 1 ms at 100 ns each are 1000 steps; a forecast has 512 at most.
@@ -75,6 +108,10 @@ TEST(FeedGovernorWork, OfAMillisecondCycleIsAThousandForecastStepsAndFiveForecas
   EXPECT_EQ(FeedGovernor::make(machine).value().most_forecast_steps(), 1000U + 4U * 512U);
   machine.contour.strategy = ContourStrategy::combined;
   EXPECT_EQ(FeedGovernor::make(machine).value().most_forecast_steps(), 2000U + 5U * 512U);
+  FeedGovernor::Config config = FeedGovernor::Config::of(machine);
+  config.path_offset_acceleration_mm_s2 = 400.0;
+  EXPECT_EQ(FeedGovernor::make(config).value().most_forecast_steps(), 2000U + 7U * 512U)
+      << "and two for offsets that are slow";
 }
 
 // With a tenth of the share the search must be interrupted and resumed, and must find a step as

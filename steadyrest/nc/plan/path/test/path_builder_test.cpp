@@ -70,6 +70,31 @@ TEST(PathBuilder, AnFBeyondTheAxesIsClippedAsLinuxCncClipsIt) {
   }
 }
 
+// LinuxCNC 2.9 with X and Y of 200 mm/s and 2000 mm/s², Z of 30 mm/s, F9000: its requested-vel is
+// 41.618 mm/s on a half circle of R 1, 93.060 mm/s on one of R 5, 150 mm/s on one of R 20 and
+// 38.147 mm/s on one of R 1 that goes down by 4 mm.
+TEST(PathBuilder, AnFBeyondTheAxesIsClippedOnArcsAsLinuxCncClipsIt) {
+  auto machine = mill();
+  machine.control.clips_programmed_feed = true;
+  machine.control.centripetal_share = std::sqrt(0.75);
+  for (auto& axis : machine.axes) {
+    axis.max_speed_au_s = 200.0;
+    axis.max_acceleration_au_s2 = 2000.0;
+  }
+  machine.axes[2].max_speed_au_s = 30.0;
+  Program p;
+  p.arc(2, 0, 1, 0, -1, 150);
+  p.arc(12, 0, 7, 0, -1, 150);
+  p.arc(52, 0, 32, 0, -1, 150);
+  p.arc(54, 0, 53, 0, -1, 150, -4.0);
+  const auto path = plan_of(machine, p);
+  ASSERT_EQ(path.segments.size(), 4U);
+  const double expected[] = {41.618, 93.060, 150.0, 38.147};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(path.plans[i].feed_mm_s, expected[i], 0.001) << i;
+  }
+}
+
 TEST(PathBuilder, ASpiralEndsAtItsOtherRadius) {
   Program p;
   p.at = {10, 0, 0};
