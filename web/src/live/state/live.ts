@@ -95,8 +95,9 @@ export class Live {
     const { row, trail } = this;
     const error = Math.abs(row.error_um);
     this.worst = Number.isNaN(this.worst) || error > this.worst ? error : this.worst;
-    const moved = Math.hypot(row.x - trail.newest('x'), row.y - trail.newest('y'), row.z - trail.newest('z'));
-    if (!(moved < TRAIL_STEP_MM)) {
+    // A machine of two axes has no z: NaN, which counts as no way.
+    const way = (name: 'x' | 'y' | 'z') => row[name] - trail.newest(name) || 0;
+    if (trail.size === 0 || Math.hypot(way('x'), way('y'), way('z')) >= TRAIL_STEP_MM) {
       trail.push({ x: row.x, y: row.y, z: row.z, error_um: this.worst });
       this.worst = NaN;
     }

@@ -253,4 +253,10 @@ export const de: Texts = {
   show_whole: 'Das ganze Diagramm zeigen',
   save_picture: 'Als Bild speichern',
   save_values: 'Die Werte speichern',
+  peak: 'Größter, letzte {seconds} s',
+  minutes: '{value} min',
+  seconds: '{value} s',
+  hours: '{value} h',
+  stale: 'Daten von vor dem Verbindungsabbruch.',
+  last_read: 'Zuletzt gelesen',
 };

@@ -264,4 +264,10 @@ export const en = {
   show_whole: 'Show the whole plot',
   save_picture: 'Save as a picture',
   save_values: 'Save the values',
+  peak: 'Largest, last {seconds} s',
+  minutes: '{value} min',
+  seconds: '{value} s',
+  hours: '{value} h',
+  stale: 'Data from before the connection was lost.',
+  last_read: 'Last read',
 } as const;

@@ -253,4 +253,10 @@ export const ru: Texts = {
   show_whole: 'Показать весь график',
   save_picture: 'Сохранить как рисунок',
   save_values: 'Сохранить значения',
+  peak: 'Наибольшая за {seconds} с',
+  minutes: '{value} мин',
+  seconds: '{value} с',
+  hours: '{value} ч',
+  stale: 'Данные до потери связи.',
+  last_read: 'Прочитан',
 };

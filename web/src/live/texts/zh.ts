@@ -253,4 +253,10 @@ export const zh: Texts = {
   show_whole: '显示整个图表',
   save_picture: '保存为图片',
   save_values: '保存数值',
+  peak: '最近 {seconds} s 最大值',
+  minutes: '{value} 分钟',
+  seconds: '{value} 秒',
+  hours: '{value} 小时',
+  stale: '断线之前的数据。',
+  last_read: '最近读取',
 };
