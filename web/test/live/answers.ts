@@ -62,7 +62,7 @@ export function lobes(): Lobes {
   const speed_rpm = Array.from({ length: 81 }, (_, i) => 3000 + 100 * i);
   const depth_mm = Array.from({ length: 41 }, (_, i) => 0.1 * i);
   const border = (rpm: number) => 0.9 + 2.4 * Math.abs(Math.sin((Math.PI * 922 * 60) / (2 * rpm))) ** 8;
-  return { map: { speed_rpm, depth_mm, log_radius: depth_mm.flatMap((d) => speed_rpm.map((n) => 0.35 * (d - border(n)))) }, border: { speed_rpm, depth_mm: speed_rpm.map(border) }, depth_mm: 1.2 };
+  return { map: { speed_rpm, depth_mm, log_radius: speed_rpm.flatMap((n) => depth_mm.map((d) => 0.35 * (d - border(n)))) }, border: { speed_rpm, depth_mm: speed_rpm.map(border) }, depth_mm: 1.2 };
 }
 
 export function thermal(): Thermal {

@@ -259,4 +259,5 @@ export const de: Texts = {
   hours: '{value} h',
   stale: 'Daten von vor dem Verbindungsabbruch.',
   last_read: 'Zuletzt gelesen',
+  course: 'Verlauf',
 };

@@ -270,4 +270,5 @@ export const en = {
   hours: '{value} h',
   stale: 'Data from before the connection was lost.',
   last_read: 'Last read',
+  course: 'Course',
 } as const;

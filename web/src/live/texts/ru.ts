@@ -259,4 +259,5 @@ export const ru: Texts = {
   hours: '{value} ч',
   stale: 'Данные до потери связи.',
   last_read: 'Прочитан',
+  course: 'Ход процесса',
 };

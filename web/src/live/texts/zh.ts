@@ -259,4 +259,5 @@ export const zh: Texts = {
   hours: '{value} 小时',
   stale: '断线之前的数据。',
   last_read: '最近读取',
+  course: '过程曲线',
 };

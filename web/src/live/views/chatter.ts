@@ -10,7 +10,7 @@ import { bar } from './bars';
 import { lobesPart } from './lobes';
 import { modulationPart } from './modulation';
 import { chatterWords } from './now/chatter';
-import { type Part, together } from './part';
+import { type Part, columns } from './part';
 
 function vibrationPart({ live }: Context): Part {
   const picture: SpectrumPicture = new SpectrumPicture(live, 'chatter-spectrum', () => picture.draw(themeNow()));
@@ -42,4 +42,4 @@ function vibrationPart({ live }: Context): Part {
   };
 }
 
-export const chatterView: MakeView = (context) => together('chatter-view', [lobesPart(context), modulationPart(context), vibrationPart(context)]);
+export const chatterView: MakeView = (context) => columns('chatter-view', [lobesPart(context)], [modulationPart(context), vibrationPart(context)]);

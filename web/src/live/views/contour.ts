@@ -77,7 +77,7 @@ function stepsPart({ live }: Context): Part {
     }
   };
   return {
-    root: panel(t('steps'), 'steps', h('p', { class: 'hint' }, t('steps_hint')), none, list),
+    root: panel(t('steps'), 'step-panel', h('p', { class: 'hint' }, t('steps_hint')), none, list),
     update: (_, figures) => figures && show(),
   };
 }

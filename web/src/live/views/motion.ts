@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The axes as estimated from the encoders, with their bounds, and how the control cycle keeps time.
-import { fixed } from '../../frame/numbers';
+import { fixed, plain } from '../../frame/numbers';
+import { curveColour, theme as themeNow } from '../../frame/theme';
+import { ink } from '../../plot/key';
 import type { AxisNow } from '../api/types';
+import { Strip } from '../paint/strip';
+import type { SampleColumn } from '../state/live';
 import type { Context, MakeView } from '../shell/context';
 import { h, panel, setText } from '../shell/h';
 import { figure, units } from '../state/units';
@@ -20,13 +24,21 @@ function columns(): Column[] {
     head: `${name}, ${unit.name}`,
     text: (axis, rotary) => (rotary ? `${fixed(value(axis), 3)} ${degrees}` : figure(unit, value(axis))),
   });
+  // A bound may be far below the last decimal of what it bounds.
+  const bound = (unit: typeof length, value: (a: AxisNow) => number | null, degrees: string): Column => ({
+    head: `${t('bound')}, ${unit.name}`,
+    text: (axis, rotary) => {
+      const now = value(axis);
+      return now === null ? '–' : rotary ? `${plain(now, 2)} ${degrees}` : plain(unit.of(now), 2);
+    },
+  });
   return [
     of(length, t('position'), (a) => a.position_mm, '°'),
     of(small, t('following_error'), (a) => a.following_um, 'm°'),
     of(feed, t('velocity'), (a) => a.velocity_mm_min, '°/min'),
-    of(feed, t('bound'), (a) => a.velocity_bound_mm_min, '°/min'),
+    bound(feed, (a) => a.velocity_bound_mm_min, '°/min'),
     of(acceleration, t('acceleration'), (a) => a.acceleration_mm_s2, '°/s²'),
-    of(acceleration, t('bound'), (a) => a.acceleration_bound_mm_s2, '°/s²'),
+    bound(acceleration, (a) => a.acceleration_bound_mm_s2, '°/s²'),
   ];
 }
 
@@ -64,4 +76,35 @@ function loopPart({ live }: Context): Part {
   };
 }
 
-export const motionView: MakeView = (context) => together('motion-view', [axesPart(context), loopPart(context)]);
+const FOLLOWING: readonly SampleColumn[] = ['following_0', 'following_1', 'following_2'];
+const SECONDS = 10;
+
+function followingPart({ live }: Context): Part {
+  const { small } = units();
+  const strip: Strip = new Strip(
+    live,
+    { name: 'following-strip', label: t('following_error'), seconds: SECONDS, unit: small, curves: FOLLOWING.map((column, i) => ({ column, colour: (theme) => curveColour(theme, 2 * i) })) },
+    () => strip.draw(themeNow()),
+  );
+  const key = h('p', { class: 'strip-key axes-key' });
+  let named = '';
+  const nameAxes = () => {
+    const axes = (live.hello?.machine.axes ?? []).slice(0, FOLLOWING.length).map((a) => a.name);
+    if (named !== axes.join()) {
+      named = axes.join();
+      key.replaceChildren(...axes.map((name, i) => h('span', {}, h('i', { 'data-ink': curveColour(themeNow(), 2 * i) }), name)));
+      ink(key);
+    }
+  };
+  return {
+    root: panel(t('following_error'), 'following', h('p', { class: 'under' }, `${small.name} · ${t('last_seconds', { seconds: SECONDS })}`), strip.canvas.element, key),
+    update: (theme) => {
+      nameAxes();
+      strip.draw(theme);
+    },
+    redraw: (theme) => strip.draw(theme),
+    close: () => strip.canvas.close(),
+  };
+}
+
+export const motionView: MakeView = (context) => together('motion-view', [axesPart(context), followingPart(context), loopPart(context)]);

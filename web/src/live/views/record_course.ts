@@ -140,7 +140,7 @@ export function recordCourse({ api }: Context, name: string): Part {
   quantity.id = 'quantity';
   void load().then((data) => data && slider.start(data.t_s.at(-1) ?? 0));
   return {
-    root: panel(t('run'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, h('div', { class: 'actions exports' }, h('span', {}, t('export')), ...links.map((l) => l.link), h('span', { class: 'hint' }, t('export_range')))),
+    root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, h('div', { class: 'actions exports' }, h('span', {}, t('export')), ...links.map((l) => l.link), h('span', { class: 'hint' }, t('export_range')))),
     redraw: (theme) => void drawn.redraw(theme),
     close: () => {
       window.clearTimeout(timer);

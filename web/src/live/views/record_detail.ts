@@ -8,7 +8,7 @@ import { problem, problemText } from '../shell/problem';
 import { addressOf } from '../shell/route';
 import { t } from '../texts/texts';
 import { recordCourse } from './record_course';
-import { type Part, together } from './part';
+import { type Part, columns } from './part';
 
 function valueOf(value: unknown): string {
   if (typeof value === 'number') {
@@ -86,13 +86,11 @@ export function recordDetail(context: Context, name: string): LiveView {
       .catch((error: unknown) => run.replaceChildren(problem(error, load)));
   };
   load();
-  const view = together('record-detail', [
-    course,
-    { root: panel(t('events'), 'events-panel', events) },
-    { root: panel(t('run'), 'run-panel', run) },
-    { root: panel(t('totals'), 'totals-panel', totals) },
-    replayPart(context, name),
-  ]);
+  const view = columns(
+    'record-detail',
+    [course, { root: panel(t('events'), 'events-panel', events) }],
+    [{ root: panel(t('run'), 'run-panel', run) }, { root: panel(t('totals'), 'totals-panel', totals) }, replayPart(context, name)],
+  );
   view.root.prepend(h('div', { class: 'back-line' }, h('a', { class: 'button', href: addressOf('record') }, `← ${t('all_records')}`), h('h2', { class: 'record-name' }, name)));
   return view;
 }

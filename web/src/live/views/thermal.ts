@@ -12,8 +12,8 @@ import { problem } from '../shell/problem';
 import { figure, small, units } from '../state/units';
 import { reasonText, t } from '../texts/texts';
 import { measuredPart } from './measured';
-import { nextWords, thermalPart } from './now/thermal';
-import { type Part, every, together } from './part';
+import { thermalPart } from './now/thermal';
+import { type Part, columns, every } from './part';
 import { Plotted } from './plotted';
 
 const ASK_MS = 10_000;
@@ -27,6 +27,7 @@ export function historyPlot(axis: ThermalHistory, t_s: readonly number[], theme:
   const edge = (sign: number) => axis.displacement_um.map((d, i) => (d === null ? null : of(d + sign * BAND_SD * (axis.sd_um[i] ?? 0))));
   const [low, high] = [edge(-1), edge(1)];
   const offset = shown(axis.offset_um);
+  const left = axis.displacement_um.map((d, i) => (d === null ? null : of(d + (axis.offset_um[i] ?? 0))));
   return {
     title: t('history_axis', { axis: axis.name, unit: name }),
     x: { name: t('time_h'), min: Math.min(x[0] ?? -1, -0.05), max: 0 },
@@ -36,11 +37,12 @@ export function historyPlot(axis: ThermalHistory, t_s: readonly number[], theme:
       { kind: 'band', name: t('band'), x, low, high, colour: theme.run.with, opacity: 0.2 },
       { kind: 'line', name: t('forecast'), x, y: shown(axis.displacement_um), colour: theme.run.with, width: 2 },
       { kind: 'line', name: t('offset_done'), x, y: offset, colour: theme.run.without, width: 1.6, step: true },
+      { kind: 'line', name: t('remaining'), x, y: left, colour: theme.text, width: 1.6 },
     ],
   };
 }
 
-function facts({ share_k, passports, next, readings = [] }: Thermal): HTMLElement {
+function facts({ share_k, passports, readings = [] }: Thermal): HTMLElement {
   const unit = units().small.name;
   const rows = passports.flatMap(({ axis, modes }) => modes.map((m) => h('tr', {}, h('th', { scope: 'row' }, axis), h('td', { class: 'n' }, figure(units().small, m.amplitude_um)), h('td', { class: 'n' }, digits(m.time_constant_min, 3)))));
   const head = h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, t('axis')), h('th', { scope: 'col', class: 'n' }, t('amplitude', { unit })), h('th', { scope: 'col', class: 'n' }, t('time_constant'))));
@@ -48,14 +50,14 @@ function facts({ share_k, passports, next, readings = [] }: Thermal): HTMLElemen
   return h(
     'div',
     {},
-    h('dl', { class: 'facts-list' }, h('dt', {}, t('next_correction')), h('dd', { id: 'next-words' }, nextWords(next)), h('dt', {}, t('share_k')), h('dd', {}, digits(share_k, 3))),
-    rows.length === 0 ? null : h('div', {}, h('h3', {}, t('passport')), h('table', { class: 'data few' }, head, h('tbody', {}, ...rows))),
+    h('dl', { class: 'facts-list' }, h('dt', {}, t('share_k')), h('dd', {}, digits(share_k, 3))),
+    rows.length === 0 ? null : h('table', { class: 'data few' }, head, h('tbody', {}, ...rows)),
     said.length === 0 ? null : h('div', {}, h('h3', {}, t('readings')), h('ul', { class: 'said' }, ...said)),
   );
 }
 
 /** Asks every 10 s for the plots of all axes and the facts. */
-function historyParts(context: Context): Part[] {
+function historyParts(context: Context): [Part, Part] {
   const plots = new Map<string, Plotted>();
   const place = h('div', { class: 'histories' }, h('p', { class: 'none' }, t('loading')));
   const about = h('div', {});
@@ -90,8 +92,11 @@ function historyParts(context: Context): Part[] {
         plots.forEach((p) => p.close());
       },
     },
-    { root: panel(t('next_correction'), 'thermal-facts', about) },
+    { root: panel(t('passport'), 'thermal-facts', about) },
   ];
 }
 
-export const thermalView: MakeView = (context) => together('thermal-view', [...historyParts(context), thermalPart(context), measuredPart(context)]);
+export const thermalView: MakeView = (context) => {
+  const [history, modes] = historyParts(context);
+  return columns('thermal-view', [history], [thermalPart(context, t('displacement')), measuredPart(context), modes]);
+};

@@ -6,22 +6,22 @@ import { h, panel, setText } from '../../shell/h';
 import { feed } from '../../state/units';
 import { t } from '../../texts/texts';
 import { type Bar, bar } from '../bars';
-import { type Part, readout } from '../part';
+import type { Part } from '../part';
 
 const LEAST_WHOLE_PERCENT = 120;
 
 const percent = (value: number | undefined) => measure(value === undefined || Number.isNaN(value) ? null : value, 0, '%');
 
 export function overridePart({ live }: Context): Part {
-  const speed = readout(t('path_speed'), 'path-speed');
-  const rpm = readout(t('spindle'), 'spindle-rpm');
+  const speed = h('span', { class: 'value', id: 'path-speed', title: t('path_speed') }, '–');
+  const rpm = h('span', { class: 'value', id: 'spindle-rpm' }, '–');
   const feeds = { asked: bar(t('asked'), 'asked'), allowed: bar(t('allowed'), 'allowed'), actual: bar(t('actual'), 'actual'), panel: bar(t('panel'), 'switch') };
   const spindle = { allowed: bar(t('allowed'), 'allowed'), actual: bar(t('actual'), 'actual') };
   const root = panel(
     `${t('feed')} · ${t('spindle')}`,
     'override',
-    h('div', { class: 'override-group' }, h('div', { class: 'group-head' }, h('h3', {}, t('feed')), speed.root), ...Object.values(feeds).map((b) => b.root)),
-    h('div', { class: 'override-group' }, h('div', { class: 'group-head' }, h('h3', {}, t('spindle')), rpm.root), ...Object.values(spindle).map((b) => b.root)),
+    h('div', { class: 'override-group' }, h('div', { class: 'group-head' }, h('h3', {}, t('feed')), speed), ...Object.values(feeds).map((b) => b.root)),
+    h('div', { class: 'override-group' }, h('div', { class: 'group-head' }, h('h3', {}, t('spindle')), rpm), ...Object.values(spindle).map((b) => b.root)),
   );
   const set = (which: Bar, value: number, whole: number, figures: boolean) => which.set(value / whole, figures ? percent(value) : undefined);
   return {
@@ -42,8 +42,8 @@ export function overridePart({ live }: Context): Part {
         b.mark(100 / whole);
       }
       if (figures) {
-        setText(speed.value, feed(samples.newest('speed_mm_min')));
-        setText(rpm.value, measure(samples.newest('rpm'), 0, 'rpm'));
+        setText(speed, feed(samples.newest('speed_mm_min')));
+        setText(rpm, measure(samples.newest('rpm'), 0, 'rpm'));
       }
     },
   };

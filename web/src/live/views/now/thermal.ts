@@ -48,7 +48,7 @@ function row(name: string): Row {
   };
 }
 
-export function thermalPart({ live, api }: Context): Part {
+export function thermalPart({ live, api }: Context, title = t('thermal')): Part {
   const rows = h('div', { class: 'thermal-rows' }, h('p', { class: 'none' }, t('waiting')));
   const next = h('p', { class: 'next', id: 'next-correction' });
   const made = new Map<string, Row>();
@@ -72,7 +72,7 @@ export function thermalPart({ live, api }: Context): Part {
     axes.forEach((a) => made.get(a.name)?.set(a, reach));
   };
   return {
-    root: panel(t('thermal'), 'thermal', rows, next),
+    root: panel(title, 'thermal', rows, next),
     update: (_, figures) => {
       if (!figures || !live.frame) {
         return;
