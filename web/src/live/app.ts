@@ -21,6 +21,8 @@ import { chooseLanguage, t } from './texts/texts';
 import { VIEWS } from './views/views';
 
 const FRAME_MS = 1000 / 30;
+/** Where the server has not said how to log in. */
+const NO_SESSION: SessionAnswer = { session: null, accounts: true, key_login: true };
 /** Figures change this often: faster cannot be read. */
 const FIGURES_MS = 200;
 
@@ -45,9 +47,15 @@ export class App {
     this.host.replaceChildren(h('div', { class: 'wait' }, h('p', { class: 'product' }, 'Steadyrest'), h('p', {}, t('loading'))));
     document.body.append(this.toast.root);
     this.api.onLoggedOut = () => this.loggedOut(t('logged_out'));
-    window.addEventListener('hashchange', () => this.openView());
+    window.addEventListener('hashchange', () => (keyOf(window.location.hash) === undefined ? this.openView() : void this.identify()));
     window.addEventListener('resize', () => this.view?.redraw?.(theme()));
     window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.changeSettings(this.settings));
+    await this.identify();
+    window.requestAnimationFrame(this.tick);
+  }
+
+  /** By the key in the address, or by the session that this browser has. */
+  private async identify(): Promise<void> {
     const key = keyOf(window.location.hash);
     if (key !== undefined) {
       // Out of the address before anything else: it must not end up in a history or on a screenshot.
@@ -59,7 +67,6 @@ export class App {
     } catch (error) {
       this.askLogIn(error);
     }
-    window.requestAnimationFrame(this.tick);
   }
 
   private useSettings(): void {
@@ -87,9 +94,8 @@ export class App {
   }
 
   private askLogIn(error: unknown): void {
-    const answer = { session: null, accounts: true, key_login: true };
-    // A wrong or used key, or a server that is not there.
-    this.showLogIn(answer, error instanceof ApiError ? error.message : t('no_connection'));
+    // A wrong key, or a server that is not there.
+    this.showLogIn(NO_SESSION, error instanceof ApiError ? error.message : t('no_connection'));
   }
 
   private showLogIn(answer: SessionAnswer, why = ''): void {
@@ -104,14 +110,17 @@ export class App {
   }
 
   private loggedOut(why: string): void {
+    if (!this.context) {
+      // Said already: several answers may say so at once.
+      return;
+    }
     this.stream?.close();
     this.closeView();
-    const accounts = this.context !== undefined;
     this.context = this.head = undefined;
     void this.api
       .session()
       .then((answer) => this.showLogIn(answer, why))
-      .catch(() => this.showLogIn({ session: null, accounts, key_login: true }, why));
+      .catch(() => this.showLogIn(NO_SESSION, why));
   }
 
   private begin(session: Session): void {

@@ -36,7 +36,7 @@ describe('the texts', () => {
     }
   });
   it('name times as people do', () => {
-    expect([44.6, 840, 7560].map(span)).toEqual(['45 s', '14 min', '2.1 h']);
+    expect([44.6, 840, 7560].map(span)).toEqual(['45\u00a0s', '14\u00a0min', '2.1\u00a0h']);
   });
   it('name sizes and figures', () => {
     expect([bytesText(3_300_000), bytesText(1234), bytesText(2e9)]).toEqual(['3.3\u00a0MB', '1.2\u00a0kB', '2.0\u00a0GB']);

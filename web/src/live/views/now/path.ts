@@ -5,7 +5,7 @@ import { ink, scaleLine } from '../../../plot/key';
 import { PathPicture } from '../../paint/path';
 import type { Context } from '../../shell/context';
 import { h, panel, setText } from '../../shell/h';
-import { figure, length, units } from '../../state/units';
+import { length, units } from '../../state/units';
 import { t } from '../../texts/texts';
 import type { Part } from '../part';
 
@@ -35,14 +35,12 @@ export function pathPart({ live }: Context): Part {
   const figures = () => {
     const axes = (live.frame?.axes ?? []).slice(0, AXES_SHOWN);
     if (positions.childElementCount !== axes.length) {
-      positions.replaceChildren(...axes.map((a) => h('div', { class: 'position' }, h('b', {}, a.name), h('span', { class: 'value' }), h('small', {}))));
+      positions.replaceChildren(...axes.map((a) => h('div', { class: 'position' }, h('b', {}, a.name), h('span', { class: 'value' }))));
     }
     const rotary = new Set(live.hello?.machine.axes.filter((a) => a.rotary).map((a) => a.name));
     axes.forEach((axis, i) => {
-      const [, value, following] = (positions.children[i] as HTMLElement).children;
-      const turns = rotary.has(axis.name);
-      setText(value as HTMLElement, turns ? `${fixed(axis.position_mm, 3)}°` : length(axis.position_mm));
-      setText(following as HTMLElement, turns ? '' : `${t('following_error')} ${figure(units().small, axis.following_um)} ${units().small.name}`);
+      const value = positions.children[i]?.lastElementChild as HTMLElement;
+      setText(value, rotary.has(axis.name) ? `${fixed(axis.position_mm, 3)}°` : length(axis.position_mm));
     });
     const { status } = live;
     const words = status ? [t(status.cutting ? 'cutting' : 'not_cutting'), `${t('program_line')} ${status.program_line}`] : [];
