@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import '../frame/style.css';
+import '../frame/table.css';
+import '../plot/plot.css';
+import './style/look.css';
+import './style/shell.css';
+import './style/dialogs.css';
+import './style/views.css';
+import './style/now.css';
+import './style/forms.css';
+import { App } from './app';
+import { element } from '../frame/dom';
 
-document.title = 'Steadyrest';
+void new App(element('app')).start();

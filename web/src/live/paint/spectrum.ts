@@ -8,6 +8,13 @@ import { t } from '../texts/texts';
 import { type Area, Canvas, overColour } from './canvas';
 import { type Scale, drawFrame, inner, scale } from './frame';
 
+/** A frequency that has a name. */
+interface Mark {
+  hz: Maybe;
+  name: string;
+  colour: string;
+}
+
 export class SpectrumPicture {
   readonly canvas: Canvas;
   /** Falls slowly, so that the scale does not flicker. */
@@ -40,33 +47,48 @@ export class SpectrumPicture {
     const x = scale(0, spectrum.hz.at(-1) ?? 1, place.left, place.right);
     const y = scale(0, niceAbove(1.1 * this.top), place.bottom, place.top);
     drawFrame(area, theme, x, y, (value, text) => (value === 0 ? '0 Hz' : text));
-    this.mark(area, theme.faint, x, spectrum.tooth_hz, t('tooth_hz'), 0);
-    this.mark(area, overColour(theme), x, spectrum.chatter_hz, t('chatter_hz'), 1);
+    const marks = [
+      { hz: spectrum.tooth_hz, name: t('tooth_hz'), colour: theme.faint },
+      { hz: spectrum.chatter_hz, name: t('chatter_hz'), colour: overColour(theme) },
+    ];
+    marks.forEach((m) => this.rule(area, m, x));
     const { pen } = area;
     pen.strokeStyle = theme.run.with;
     pen.lineWidth = 1.5;
     pen.beginPath();
     spectrum.hz.forEach((hz, i) => pen.lineTo(x.at(hz), y.at(spectrum.amplitude[i] ?? 0)));
     pen.stroke();
+    marks.forEach((m, row) => this.label(area, theme, m, x, row));
   }
 
-  private mark({ pen, width, height }: Area, colour: string, x: Scale, hz: Maybe, name: string, row: number): void {
+  private rule({ pen, width, height }: Area, { hz, colour }: Mark, x: Scale): void {
     if (hz === null || hz > x.high) {
       return;
     }
     const { top, bottom } = inner({ pen, width, height });
-    const at = x.at(hz);
-    pen.strokeStyle = pen.fillStyle = colour;
+    pen.strokeStyle = colour;
     pen.lineWidth = 1.2;
     pen.setLineDash([4, 3]);
     pen.beginPath();
-    pen.moveTo(at, top);
-    pen.lineTo(at, bottom);
+    pen.moveTo(x.at(hz), top);
+    pen.lineTo(x.at(hz), bottom);
     pen.stroke();
     pen.setLineDash([]);
-    const label = `${name} ${fixed(hz, 0)} Hz`;
+  }
+
+  private label({ pen, width, height }: Area, theme: Theme, { hz, name, colour }: Mark, x: Scale, row: number): void {
+    if (hz === null || hz > x.high) {
+      return;
+    }
+    const { top } = inner({ pen, width, height });
+    const text = `${name} ${fixed(hz, 0)} Hz`;
+    const wide = pen.measureText(text).width;
+    const left = x.at(hz) + wide + 10 > width ? x.at(hz) - wide - 5 : x.at(hz) + 5;
+    pen.fillStyle = theme.paper;
+    pen.fillRect(left - 2, top + 15 * row, wide + 4, 14);
+    pen.fillStyle = colour;
+    pen.textAlign = 'left';
     pen.textBaseline = 'top';
-    pen.textAlign = at + pen.measureText(label).width + 8 > width ? 'right' : 'left';
-    pen.fillText(label, at + (pen.textAlign === 'left' ? 5 : -5), top + 14 * row);
+    pen.fillText(text, left, top + 15 * row + 1);
   }
 }

@@ -8,12 +8,11 @@ import { Ring } from './ring';
 const SAMPLES = 16_384;
 /** A longer distance between two samples, in cycles, is missing data. */
 const GAP_CYCLES = 1.5;
-const AXES = 3;
 /** The tool's trail: points this far apart, mm. */
 const TRAIL = 4096;
 const TRAIL_STEP_MM = 0.25;
 
-const COLUMNS = ['t_s', 'error_um', 'asked', 'allowed', 'effective', 'panel', 'speed_mm_min', 'rpm', 'x', 'y', 'z'] as const;
+const COLUMNS = ['t_s', 'error_um', 'asked', 'allowed', 'effective', 'panel', 'speed_mm_min', 'rpm', 'x', 'y', 'z', 'following_0', 'following_1', 'following_2'] as const;
 export type SampleColumn = (typeof COLUMNS)[number];
 
 const value = (v: Maybe | undefined) => v ?? NaN;
@@ -83,8 +82,9 @@ export class Live {
       row.panel = value(samples.panel_percent[i]);
       row.speed_mm_min = value(samples.path_speed_mm_min[i]);
       row.rpm = value(samples.spindle_rpm[i]);
-      const at = samples.position_mm[i] ?? [];
-      [row.x, row.y, row.z] = Array.from({ length: AXES }, (_, k) => value(at[k])) as [number, number, number];
+      const [at, following] = [samples.position_mm[i], samples.following_um[i]];
+      [row.x, row.y, row.z] = [value(at?.[0]), value(at?.[1]), value(at?.[2])];
+      [row.following_0, row.following_1, row.following_2] = [value(following?.[0]), value(following?.[1]), value(following?.[2])];
       this.samples.push(row);
       this.leaveTrail();
     }
@@ -95,8 +95,9 @@ export class Live {
     const { row, trail } = this;
     const error = Math.abs(row.error_um);
     this.worst = Number.isNaN(this.worst) || error > this.worst ? error : this.worst;
-    const moved = Math.hypot(row.x - trail.newest('x'), row.y - trail.newest('y'), row.z - trail.newest('z'));
-    if (!(moved < TRAIL_STEP_MM)) {
+    // A machine of two axes has no z: NaN, which counts as no way.
+    const way = (name: 'x' | 'y' | 'z') => row[name] - trail.newest(name) || 0;
+    if (trail.size === 0 || Math.hypot(way('x'), way('y'), way('z')) >= TRAIL_STEP_MM) {
       trail.push({ x: row.x, y: row.y, z: row.z, error_um: this.worst });
       this.worst = NaN;
     }

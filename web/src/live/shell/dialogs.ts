@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+import { t } from '../texts/texts';
+import { button, h } from './h';
+
+let numbered = 0;
+
+export interface Dialog {
+  root: HTMLDialogElement;
+  close: () => void;
+}
+
+/** Opens a dialog over the page. Escape, its × and a press beside it close it. */
+export function openDialog(title: string, name: string, ...content: (Node | null)[]): Dialog {
+  const id = `dialog-${++numbered}`;
+  const root = h('dialog', { class: name, 'aria-labelledby': id });
+  const close = () => root.close();
+  root.append(h('div', { class: 'dialog-head' }, h('h2', { id }, title), button('×', close, { class: 'close', 'aria-label': t('close') })), ...content.filter((c) => c !== null));
+  root.addEventListener('close', () => root.remove());
+  root.addEventListener('click', (event) => event.target === root && close());
+  document.body.append(root);
+  root.showModal();
+  return { root, close };
+}
+
+/** Asks before something that matters; `yes` is what the button says. */
+export function confirmed(title: string, what: string, yes: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    let answer = false;
+    const no = button(t('cancel'), () => dialog.close(), { autofocus: true });
+    const go = button(yes, () => {
+      answer = true;
+      dialog.close();
+    }, { class: 'strong' });
+    const dialog = openDialog(title, 'confirm', h('p', {}, what), h('div', { class: 'actions' }, no, go));
+    dialog.root.addEventListener('close', () => resolve(answer));
+  });
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the cut is on the stability lobes, the modulation of the spindle speed, and what it has done.
+import { twoDigits } from '../../frame/numbers';
+import { theme as themeNow } from '../../frame/theme';
+import { SpectrumPicture } from '../paint/spectrum';
+import type { Context, MakeView } from '../shell/context';
+import { h, panel, setText } from '../shell/h';
+import { t } from '../texts/texts';
+import { bar } from './bars';
+import { lobesPart } from './lobes';
+import { modulationPart } from './modulation';
+import { chatterWords } from './now/chatter';
+import { type Part, columns } from './part';
+
+function vibrationPart({ live }: Context): Part {
+  const picture: SpectrumPicture = new SpectrumPicture(live, 'chatter-spectrum', () => picture.draw(themeNow()));
+  const state = h('p', { class: 'state-line', id: 'chatter-now' }, t('waiting'));
+  const before = bar(t('level_before'), 'before');
+  const now = bar(t('level_now'), 'level');
+  const levels = h('div', { class: 'override-group' }, h('h3', {}, t('before_after')), before.root, now.root);
+  const show = () => {
+    const { chatter } = live.frame ?? {};
+    setText(state, chatterWords(chatter, live.spectrum));
+    state.classList.toggle('over', chatter?.chatter === true);
+    levels.hidden = chatter?.level == null;
+    const whole = 1.1 * Math.max(chatter?.before ?? 0, chatter?.level ?? 0, 1.2 * (chatter?.threshold ?? 0)) || 1;
+    for (const [which, value] of [[before, chatter?.before], [now, chatter?.level]] as const) {
+      which.set(value == null ? null : value / whole, value == null ? '–' : twoDigits(value));
+      which.mark(chatter?.threshold == null ? null : chatter.threshold / whole);
+    }
+  };
+  return {
+    root: panel(t('level'), 'vibration', state, levels, picture.canvas.element),
+    update: (theme, figures) => {
+      picture.draw(theme);
+      if (figures && live.frame) {
+        show();
+      }
+    },
+    redraw: (theme) => picture.draw(theme),
+    close: () => picture.canvas.close(),
+  };
+}
+
+export const chatterView: MakeView = (context) => columns('chatter-view', [lobesPart(context)], [modulationPart(context), vibrationPart(context)]);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Entry of a measured size: it re-zeroes the thermal model.
+import type { Verdict } from '../api/types';
+import { type Context, gate } from '../shell/context';
+import { field, h, panel, select, setText } from '../shell/h';
+import { problemText } from '../shell/problem';
+import { units } from '../state/units';
+import { reasonText, t } from '../texts/texts';
+import type { Part } from './part';
+
+const number = (text: string) => Number(text.trim().replace(',', '.').replace('−', '-') || NaN);
+
+function verdictWords({ taken, reason, sentence }: Verdict): string {
+  if (reason !== undefined) {
+    return reasonText(reason, sentence ?? reason);
+  }
+  return t(taken === false ? 'reading_rejected' : 'reading_taken');
+}
+
+function form(context: Context, axes: readonly string[]): HTMLElement {
+  const unit = units().small;
+  const value = h('input', { id: 'measured-value', inputmode: 'decimal', autocomplete: 'off', required: true });
+  const sd = h('input', { id: 'measured-sd', inputmode: 'decimal', autocomplete: 'off', value: unit.of(1).toFixed(unit.decimals) });
+  let axis = axes[0] ?? 'Z';
+  const which = select(axes.map((a) => [a, a]), axis, (chosen) => (axis = chosen));
+  which.id = 'measured-axis';
+  const fault = h('p', { class: 'fault', role: 'alert' });
+  const verdict = h('p', { class: 'said', role: 'status', id: 'verdict-of-reading' });
+  const made = h('form', { class: 'fields', id: 'measured' }, field(t('axis'), which), field(t('measured_value', { unit: unit.name }), value), field(t('measured_sd', { unit: unit.name }), sd), h('button', { type: 'submit', class: 'strong' }, t('enter')));
+  made.addEventListener('submit', (event) => {
+    event.preventDefault();
+    const [displacement_um, sd_um] = [unit.back(number(value.value)), unit.back(number(sd.value))];
+    const why = !Number.isFinite(displacement_um) ? t('bad_number') : sd_um > 0 ? '' : t('bad_sd');
+    setText(fault, why);
+    if (why === '') {
+      context.api
+        .post<{ verdict: Verdict }>('thermal/measured', { axis, displacement_um, sd_um })
+        .then((answer) => {
+          setText(verdict, verdictWords(answer.verdict));
+          value.value = '';
+        })
+        .catch((error: unknown) => setText(fault, problemText(error)));
+    }
+  });
+  return gate(context.session, 'operator', h('div', {}, made, fault, verdict));
+}
+
+export function measuredPart(context: Context): Part {
+  const { live } = context;
+  const body = h('div', {});
+  let shown = '';
+  return {
+    root: panel(t('measured'), 'measured-panel', h('p', { class: 'hint' }, t('measured_hint')), body),
+    update: () => {
+      const axes = live.frame?.thermal?.axes.map((a) => a.name) ?? [];
+      if (axes.join() !== shown) {
+        shown = axes.join();
+        body.replaceChildren(form(context, axes));
+      }
+    },
+  };
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The modulator's panel: law, bounds and frequency, as an operator thinks of them.
+import { plain } from '../../frame/numbers';
+import type { Law, Modulation } from '../api/types';
+import { type Context, gate } from '../shell/context';
+import { field, h, panel, select, setText } from '../shell/h';
+import { problemText } from '../shell/problem';
+import { t } from '../texts/texts';
+import type { Part } from './part';
+
+export const LAWS: readonly Law[] = ['constant', 'square', 'pulse', 'triangle', 'sine', 'random', 'stop'];
+
+export interface Bounds {
+  lower_percent: number;
+  upper_percent: number;
+  frequency_hz: number;
+}
+
+/** RVA is the amplitude as a share of the mean: bounds = mean·(1 ± RVA). */
+export function boundsOf({ amplitude_ratio, mean_ratio, period_s }: Modulation): Bounds {
+  return { lower_percent: 100 * mean_ratio * (1 - amplitude_ratio), upper_percent: 100 * mean_ratio * (1 + amplitude_ratio), frequency_hz: 1 / period_s };
+}
+
+export function modulationOf(law: Law, { lower_percent, upper_percent, frequency_hz }: Bounds): Modulation {
+  const sum = upper_percent + lower_percent;
+  return { law, amplitude_ratio: (upper_percent - lower_percent) / sum, mean_ratio: sum / 200, period_s: 1 / frequency_hz };
+}
+
+/** Why these bounds make no modulation; empty if they do. */
+export function boundsFault({ lower_percent, upper_percent, frequency_hz }: Bounds): string {
+  if (!(lower_percent > 0) || !(upper_percent >= lower_percent)) {
+    return t('bad_bounds');
+  }
+  return frequency_hz > 0 ? '' : t('bad_frequency');
+}
+
+const number = (input: HTMLInputElement) => Number(input.value.trim().replace(',', '.') || NaN);
+const input = (name: string, value: number) => h('input', { id: name, value: plain(value, 4).replace('−', '-'), inputmode: 'decimal', autocomplete: 'off' });
+
+function form(context: Context, now: Modulation, set: (m: Modulation) => void): HTMLElement {
+  const at = boundsOf(now);
+  let { law } = now;
+  const [lower, upper, hz] = [input('lower', at.lower_percent), input('upper', at.upper_percent), input('frequency', at.frequency_hz)];
+  const laws = select(LAWS.map((l) => [l, t(`law_${l}`)]), law, (value) => (law = value as Law));
+  laws.id = 'law';
+  const words = h('p', { class: 'hint', id: 'modulation-is' });
+  const fault = h('p', { class: 'fault', role: 'alert' });
+  const bounds = (): Bounds => ({ lower_percent: number(lower), upper_percent: number(upper), frequency_hz: number(hz) });
+  const tell = () => {
+    const why = boundsFault(bounds());
+    setText(fault, why);
+    if (why === '') {
+      const m = modulationOf(law, bounds());
+      setText(words, t('modulation_is', { mean: plain(100 * m.mean_ratio, 4), amplitude: plain(100 * m.amplitude_ratio, 3), period: plain(m.period_s, 3) }));
+    }
+  };
+  [lower, upper, hz].forEach((i) => i.addEventListener('input', tell));
+  const made = h('form', { class: 'fields', id: 'modulation' }, field(t('law'), laws), field(t('lower_bound'), lower), field(t('upper_bound'), upper), field(t('modulation_hz'), hz), h('button', { type: 'submit', class: 'strong' }, t('set')));
+  made.addEventListener('submit', (event) => {
+    event.preventDefault();
+    const why = boundsFault(bounds());
+    setText(fault, why);
+    if (why === '') {
+      context.api
+        .post<{ modulation: Modulation }>('modulation', modulationOf(law, bounds()))
+        .then(({ modulation }) => set(modulation))
+        .catch((error: unknown) => setText(fault, problemText(error)));
+    }
+  });
+  tell();
+  return gate(context.session, 'operator', h('div', {}, made, words, fault));
+}
+
+export function modulationPart(context: Context): Part {
+  const { live } = context;
+  const body = h('div', {}, h('p', { class: 'none' }, t('waiting')));
+  let shown: string | undefined;
+  const show = (modulation: Modulation | null) => {
+    shown = JSON.stringify(modulation);
+    body.replaceChildren(
+      modulation
+        ? form(context, modulation, (m) => {
+            if (live.hello) {
+              live.hello = { ...live.hello, modulation: m };
+            }
+            show(m);
+            context.say(t('modulation_set'));
+          })
+        : h('p', { class: 'none', id: 'modulation-none' }, t('modulation_none')),
+    );
+  };
+  return {
+    root: panel(t('modulation'), 'modulation-panel', body),
+    update: () => {
+      const { hello } = live;
+      // What somebody is typing stays.
+      if (hello && JSON.stringify(hello.modulation) !== shown && !body.contains(document.activeElement)) {
+        show(hello.modulation);
+      }
+    },
+  };
+}

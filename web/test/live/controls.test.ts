@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every control used, as each role.
+import { readFile } from 'node:fs/promises';
+import type { Page } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+import type { Role } from '../../src/live/api/types';
+import { type Open, closeBrowser, open } from './browser';
+import { accessibilityFaults, beyond, show, tooSmall, until as untilIn } from './look';
+import { Mock } from './mock';
+
+const mock = new Mock();
+let address = '';
+let opened: Open;
+let page: Page;
+
+beforeAll(async () => {
+  address = await mock.start();
+});
+afterAll(async () => {
+  await closeBrowser();
+  await mock.stop();
+});
+beforeEach(() => {
+  mock.asked.length = 0;
+  mock.layer.wanted = 'observe';
+});
+afterEach(async () => {
+  const { complaints } = opened;
+  await opened.context.close();
+  expect(complaints.filter((c) => !/status of 4\d\d/.test(c))).toEqual([]);
+});
+
+async function as(role: Role, view = 'now', width = 1440): Promise<void> {
+  mock.logIn(role);
+  opened = await open(address, `/#/${view}`, { width });
+  page = opened.page;
+  await page.waitForFunction(() => document.querySelector('#mode-badge')?.textContent !== '–');
+}
+
+const last = () => mock.asked.at(-1);
+const until = (expression: string) => untilIn(page, expression);
+const text = (selector: string) => page.textContent(selector);
+
+describe('the mode', () => {
+  it('changes to advise at once, to act only when confirmed', async () => {
+    await as('operator');
+    await page.click('[data-mode=advise]:not(.badge)');
+    await until(`document.querySelector('#mode-badge').textContent === 'Advise'`);
+    await page.click('[data-mode=act]:not(.badge)');
+    expect(await text('dialog h2')).toBe('Let the layer act?');
+    expect(await text('dialog')).toContain('VMC with SINUMERIK 840D');
+    expect(await accessibilityFaults(page)).toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(mock.asked.map((a) => a.body)).toEqual([{ mode: 'advise' }]);
+    await page.click('[data-mode=act]:not(.badge)');
+    await page.click('dialog .strong');
+    await until(`document.querySelector('#mode-badge').textContent === 'Act'`);
+    expect(last()?.body).toEqual({ mode: 'act', confirm: true });
+    await until(`document.querySelector('#say').textContent === 'The layer has the say'`);
+    expect(await text('.toasts')).toContain('The mode is now Act.');
+  });
+  it.each(['viewer', 'operator', 'engineer'] as const)('is handed back in one press by a %s', async (role) => {
+    mock.layer.wanted = 'act';
+    await as(role, 'machine', 390);
+    await page.click('#hand-back');
+    await until(`document.querySelector('#mode-badge').textContent === 'Observe'`);
+    expect(mock.asked).toEqual([{ method: 'POST', path: 'hand-back', body: {} }]);
+    expect(await text('#say')).toBe('The operator has the say');
+  });
+  it('is handed back from the keyboard', async () => {
+    mock.layer.wanted = 'act';
+    await as('viewer');
+    await page.focus('#hand-back');
+    await page.keyboard.press('Enter');
+    await until(`document.querySelector('#mode-badge').textContent === 'Observe'`);
+  });
+});
+
+describe('a role that is too low', () => {
+  it('leaves a viewer the sight of everything, and says why', async () => {
+    await as('viewer');
+    expect(await page.isDisabled('[data-mode=act]:not(.badge)')).toBe(true);
+    expect(await text('.modes .why')).toBe('Needs the role operator. You are logged in as viewer.');
+    await show(page, 'chatter');
+    expect(await page.isDisabled('#modulation button')).toBe(true);
+    expect(await text('.modulation-panel .why')).toContain('Needs the role operator');
+    await show(page, 'thermal');
+    expect(await page.isDisabled('#measured button')).toBe(true);
+    await show(page, 'record/circle-r10.sqlite');
+    expect(await page.isDisabled('#replay')).toBe(true);
+    expect(await text('.replay-panel .why')).toContain('Needs the role engineer');
+    for (const width of [390, 1024]) {
+      await page.setViewportSize({ width, height: 768 });
+      await page.waitForTimeout(500);
+      expect(await beyond(page)).toEqual([]);
+    }
+  });
+  it('lets an operator stage and look, not apply', async () => {
+    await as('operator', 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '12');
+    await page.click('#review');
+    await page.waitForSelector('dialog .diff');
+    expect(await page.isDisabled('#apply')).toBe(true);
+    expect(await text('dialog .why')).toBe('Needs the role engineer. You are logged in as operator.');
+    expect(await page.isDisabled('dialog .actions button:first-child')).toBe(false);
+  });
+});
+
+describe('staged changes', () => {
+  it('are shown as a difference, then applied', async () => {
+    await as('engineer', 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '12,5');
+    await page.selectOption('[data-key="contour.strategy"] select', 'balanced');
+    expect(await text('#staged p')).toBe('2 changes staged');
+    expect(await text('[data-key="contour.limit_um"] .before')).toBe('in force 10');
+    await show(page, 'machine');
+    expect(await page.inputValue('[data-key="contour.limit_um"] input')).toBe('12.5');
+    await page.click('#review');
+    await page.waitForSelector('dialog .diff .plus');
+    expect(await text('dialog .diff')).toContain('+limit_um = 12.5');
+    expect(await text('dialog .findings')).toContain('Raise contour.limit_um');
+    expect(await tooSmall(page)).toEqual([]);
+    expect(await accessibilityFaults(page)).toEqual([]);
+    await page.click('#apply');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(last()?.path).toBe('machine/apply');
+    expect(last()?.body).toMatchObject({ changes: { 'contour.limit_um': 12.5, 'contour.strategy': 'balanced' }, sha256_before: expect.any(String) as string });
+    await until(`document.querySelector('#staged').hidden`);
+  });
+  it('that are refused say where and why', async () => {
+    await as('engineer', 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '5000');
+    await page.click('#review');
+    expect(await page.waitForSelector('dialog .refusals').then((e) => e.textContent())).toContain('line 7: contour.limit_um is 5000');
+    expect(await page.isDisabled('#apply')).toBe(true);
+  });
+  it('that need a restart say so', async () => {
+    await as('engineer', 'machine');
+    await page.click('[data-section=envelope] summary');
+    await page.selectOption('[data-key="envelope.layer_may_exceed_panel"] select', 'true');
+    await page.click('#review');
+    expect(await page.waitForSelector('dialog .fault').then((e) => e.textContent())).toContain('takes effect after a restart');
+  });
+  it('are looked at again when the file has changed meanwhile', async () => {
+    await as('engineer', 'contour');
+    mock.changedMeanwhile = true;
+    await page.fill('[data-key="contour.limit_um"] input', '11');
+    await page.click('#review');
+    await page.click('#apply');
+    expect(await page.waitForSelector('dialog .fault').then((e) => e.textContent())).toContain('changed meanwhile');
+    await page.click('#apply');
+    await page.waitForSelector('dialog', { state: 'detached' });
+  });
+  it('are dropped with one press, and what is no number is not staged', async () => {
+    await as('engineer', 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '11');
+    await page.click('#discard');
+    expect(await page.isHidden('#staged')).toBe(true);
+    expect(await page.inputValue('[data-key="contour.limit_um"] input')).toBe('10');
+    await page.fill('[data-key="contour.limit_um"] input', 'ten');
+    expect(await page.getAttribute('[data-key="contour.limit_um"] input', 'aria-invalid')).toBe('true');
+    expect(await page.isHidden('#staged')).toBe(true);
+  });
+  it('may be the whole text', async () => {
+    await as('engineer', 'machine');
+    await page.click('#machine-as [data-value=text]');
+    await page.fill('#whole-text', 'name = "other"\n');
+    await page.waitForSelector('#staged:not([hidden])');
+    await page.click('#review');
+    await page.waitForSelector('dialog .diff');
+    expect(last()).toMatchObject({ path: 'machine/check', body: { text: 'name = "other"\n' } });
+  });
+});
+
+describe('chatter', () => {
+  it('takes bounds and frequency as an operator thinks of them', async () => {
+    await as('operator', 'chatter');
+    await page.waitForSelector('#modulation');
+    await page.selectOption('#law', 'sine');
+    await page.fill('#lower', '80');
+    await page.fill('#upper', '120');
+    await page.fill('#frequency', '0.5');
+    expect(await text('#modulation-is')).toBe('Mean 100 %, amplitude ±20 % of it (RVA), period 2 s.');
+    await page.click('#modulation button');
+    await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
+    expect(last()?.body).toEqual({ law: 'sine', amplitude_ratio: 0.2, mean_ratio: 1, period_s: 2 });
+  });
+  it('tells what is refused, here and by the server', async () => {
+    await as('operator', 'chatter');
+    await page.fill('#lower', '130');
+    expect(await text('.modulation-panel .fault')).toContain('The lower bound');
+    await page.click('#modulation button');
+    expect(mock.asked).toEqual([]);
+    await page.fill('#lower', '20');
+    await page.click('#modulation button');
+    await until(`document.querySelector('.modulation-panel .fault').textContent.includes('The drive cannot follow this. Choose a narrower swing.')`);
+  });
+  it('does without a map', async () => {
+    mock.withLobes = false;
+    await as('operator', 'chatter');
+    await until(`document.querySelector('.lobes-panel').textContent.includes('Start with --process FILE.')`);
+    mock.withLobes = true;
+  });
+});
+
+describe('a measured size', () => {
+  it('is entered in the units shown, and judged', async () => {
+    await as('operator', 'thermal');
+    await page.waitForSelector('#measured');
+    await page.selectOption('#measured-axis', 'Z');
+    await page.fill('#measured-value', '−4,2');
+    await page.click('#measured button');
+    await until(`document.querySelector('#verdict-of-reading').textContent === 'A probe reading re-zeroed the thermal model.'`);
+    expect(last()?.body).toEqual({ axis: 'Z', displacement_um: -4.2, sd_um: 1 });
+    await page.fill('#measured-value', '99');
+    await page.click('#measured button');
+    await until(`document.querySelector('#verdict-of-reading').textContent.includes('rejected')`);
+    await page.fill('#measured-value', 'much');
+    await page.click('#measured button');
+    expect(await text('.measured-panel .fault')).toBe('Enter a number.');
+  });
+});
+
+describe('records', () => {
+  it('are found, sorted and opened', async () => {
+    await as('engineer', 'record');
+    await page.waitForSelector('#records');
+    expect(await page.locator('#records tbody tr').count()).toBe(3);
+    expect(await text('#records')).toContain('slot <test>.sqlite');
+    await page.click('#records thead th:nth-child(5) button');
+    expect(await text('#records tbody tr:first-child th')).toContain('rib-pocket');
+    await page.fill('#search', 'circle');
+    await until(`document.querySelectorAll('#records tbody tr').length === 1`);
+    await page.click('#records a');
+    await until(`document.querySelector('.record-name')?.textContent === 'circle-r10.sqlite'`);
+    expect(await text('#events')).toBeDefined();
+  });
+  it('are played through, exported and decided again', async () => {
+    await as('engineer', 'record/rib-pocket-2026-01-02.sqlite');
+    await until(`document.querySelector('#time-shown').textContent === '0.0 … 1834.0 s'`);
+    expect(await page.isDisabled('#time-slider')).toBe(true);
+    await page.selectOption('#time-window', '60');
+    await page.click('#later');
+    expect(await text('#time-shown')).toBe('30.0 … 90.0 s');
+    await page.focus('#time-slider');
+    await page.keyboard.press('End');
+    expect(await text('#time-shown')).toBe('1774.0 … 1834.0 s');
+    await page.click('#earlier');
+    await page.selectOption('#quantity', 'feed_percent');
+    await until(`document.querySelector('#course-name').textContent === 'Feed override, %'`);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export-csv')]);
+    expect(download.url()).toContain('export?format=csv&from_s=1744&to_s=1804');
+    expect((await readFile(await download.path())).length).toBeGreaterThan(0);
+    await page.click('#replay');
+    await until(`document.querySelector('#replayed').textContent.includes('all the same')`);
+  });
+});
+
+describe('settings', () => {
+  it('switch language, look and units at once, and last', async () => {
+    await as('engineer');
+    await page.click('#settings');
+    await page.selectOption('#set-language', 'de');
+    expect(await text('nav a[data-view=now]')).toBe('Jetzt');
+    expect(await page.getAttribute('html', 'lang')).toBe('de');
+    await page.click('#settings');
+    await page.selectOption('#set-units', 'inch');
+    await until(`document.querySelector('#error-limit').textContent === '0.394\u00a0mil'`);
+    await page.click('#settings');
+    await page.selectOption('#set-look', 'contrast');
+    expect(await page.evaluate('getComputedStyle(document.body).backgroundColor')).toBe('rgb(0, 0, 0)');
+    await page.reload();
+    await page.waitForSelector('nav');
+    expect(await text('nav a[data-view=motion]')).toBe('Achsen');
+    expect(await page.getAttribute('html', 'data-look')).toBe('contrast');
+    await show(page, 'contour');
+    await until(`document.querySelector('#reasons, .limits h2').textContent.includes('Grenzen')`);
+  });
+  it('let go of the session', async () => {
+    await as('engineer');
+    await page.click('#settings');
+    expect(await text('dialog')).toContain('anna, engineer');
+    await page.click('#log-out');
+    await page.waitForSelector('#by-password');
+    expect(await text('.log-in .fault')).toBe('You have been logged out.');
+  });
+});
