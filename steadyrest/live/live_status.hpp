@@ -45,6 +45,7 @@ struct LiveStatus {
   double path_speed_mm_s = 0.0;
   double spindle_rev_s = 0.0;
   double predicted_error_mm = 0.0;  ///< the largest ahead with the step that was chosen
+  double predicted_at_mm = 0.0;     ///< path length where
   double limit_used_mm = 0.0;       ///< by the last decision: the limit less margin and reserve
   bool path_known = false;
   bool chatter_on = false;  ///< the chatter room is on

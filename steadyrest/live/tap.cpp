@@ -32,6 +32,8 @@ void look_ahead(const Frame& frame, PathAhead& into) noexcept {
   const double sight_mm =
       std::clamp(kSight_s * frame.programmed_feed_mm_s, kShortest_mm, kLongest_mm);
   const double step_mm = sight_mm / static_cast<double>(PathAhead::kMost);
+  into.from_mm = frame.path_position_mm;
+  into.step_mm = step_mm;
   const std::size_t last = std::min(frame.path.size() - 1, frame.path_index + 8 * PathAhead::kMost);
   std::size_t place = frame.path_index;
   for (std::size_t i = 0; i < PathAhead::kMost; ++i) {

@@ -35,6 +35,8 @@ struct TapSample {
 struct PathAhead {
   static constexpr std::size_t kMost = 64;
   std::size_t count = 0;
+  double from_mm = 0.0;  ///< path length of the first point
+  double step_mm = 0.0;
   std::array<kernel::signal::Point, kMost> point_mm{};
 };
 

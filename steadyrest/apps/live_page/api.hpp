@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <steadyrest/apps/live_page/desk.hpp>
+#include <steadyrest/apps/live_page/heat_history.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
 #include <steadyrest/apps/live_page/stream.hpp>
 #include <steadyrest/web/server.hpp>
@@ -33,6 +34,8 @@ class Api {
   /// A stream for whoever is logged in.
   [[nodiscard]] std::variant<web::Server::Admitted, web::Response> admit(
       const web::Request& request);
+  /// Every now and then, whether somebody watches or not.
+  void look() { heat_.update(now_s_()); }
   [[nodiscard]] const std::string& key() const noexcept { return login_.key(); }
 
   /// All of them; `/api/v1/openapi.json` describes the same.
@@ -53,6 +56,7 @@ class Api {
   const Desk& desk_;
   Login login_;
   StreamText stream_;
+  HeatHistory heat_;
   std::function<double()> now_s_;
 };
 

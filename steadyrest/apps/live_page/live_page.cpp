@@ -95,6 +95,7 @@ class Page final : public LivePage {
       if (watched) {
         server_->publish(std::make_shared<const std::string>(frames_.frame()));
       }
+      api_.look();
       next = std::max(next + kFrame, std::chrono::steady_clock::now());
       std::this_thread::sleep_until(next);
     }

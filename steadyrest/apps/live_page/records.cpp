@@ -90,22 +90,23 @@ web::Response details(const std::string& file, const std::string& name) {
   for (const record::Event& event : reader->events()) {
     // The whole machine file is long, and it is not what people look for here.
     const bool reload = event.kind == record::EventKind::reload;
-    events.push_back({{"time_s", event.time_s},
+    events.push_back({{"t_s", event.time_s},
                       {"kind", record::word(event.kind)},
                       {"text", reload ? "another machine file took over" : event.text}});
   }
-  return answer({{"record",
+  return answer({{"run",
                   {{"name", name},
                    {"start_utc", run.start_utc},
                    {"version", run.version},
                    {"machine", run.machine},
                    {"program", run.program},
-                   {"cycle_s", run.cycle_s},
-                   {"samples", totals.samples},
+                   {"cycle_s", run.cycle_s}}},
+                 {"totals",
+                  {{"samples", totals.samples},
                    {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
                    {"dropped", totals.dropped},
-                   {"closed", totals.closed},
-                   {"events", std::move(events)}}}});
+                   {"closed", totals.closed}}},
+                 {"events", std::move(events)}});
 }
 
 web::Response data(const std::string& file, const web::Request& request) {
@@ -117,8 +118,8 @@ web::Response data(const std::string& file, const web::Request& request) {
   return course ? answer(std::move(*course)) : unreadable(course.error());
 }
 
-/// A copy that the answer may remove once it is sent: the record itself, whole, is what other
-/// programs and `steadyrest record export` read.
+/// A copy that the answer may remove once it is sent: the record itself, whole, which `steadyrest
+/// record export` turns into CSV and HDF5.
 web::Response download(const std::string& file, const std::string& name) {
   std::string copy = fs::temp_directory_path() / "steadyrest-record-XXXXXX";
   const int descriptor = ::mkstemp(copy.data());

@@ -62,15 +62,24 @@ Json samples_json(const std::vector<TapSample>& samples) {
   return out;
 }
 
-Json ahead_json(const PathAhead& ahead) {
+/// The error is known where the last decision expects the largest one.
+Json ahead_json(const PathAhead& ahead, const LiveStatus& status) {
   if (ahead.count == 0) {
     return nullptr;
   }
   Json points = Json::array();
+  Json errors = Json::array();
+  Json places = Json::array();
   for (std::size_t i = 0; i < ahead.count; ++i) {
+    const double at_mm = ahead.from_mm + ahead.step_mm * static_cast<double>(i);
+    const bool here = std::abs(at_mm - status.predicted_at_mm) <= 0.5 * ahead.step_mm;
     points.push_back(point_json(ahead.point_mm[i]));
+    errors.push_back(here ? micrometres(status.predicted_error_mm) : Json());
+    places.push_back(rounded(at_mm, 1e-3));
   }
-  return {{"points_mm", std::move(points)}};
+  return {{"points_mm", std::move(points)},
+          {"error_um", std::move(errors)},
+          {"at_mm", std::move(places)}};
 }
 
 Json axes_json(const LiveStatus& status, const kernel::machine::Machine& machine) {
@@ -123,7 +132,8 @@ Json chatter_json(const LiveStatus& status) {
   if (!status.chatter_on) {
     return nullptr;
   }
-  return {{"active", status.modulates},
+  return {{"chatter", false},  // nothing listens here
+          {"modulating", status.modulates},
           {"goal_percent", rounded(kPercent * status.modulation_goal_ratio, 0.1)},
           {"phase", rounded(status.modulation_phase, 1e-3)},
           {"feed_per_tooth_percent", rounded(kPercent * status.feed_per_tooth_ratio, 0.1)}};
@@ -182,7 +192,7 @@ std::string StreamText::frame() {
                     {"limit_used_um", micrometres(status.limit_used_mm)},
                     {"path_known", status.path_known},
                     {"samples", samples_json(samples_)},
-                    {"ahead", ahead_json(desk_.tap.ahead())},
+                    {"ahead", ahead_json(desk_.tap.ahead(), status)},
                     {"steps", nullptr},
                     {"chatter", chatter_json(status)},
                     {"thermal", heat_json(status, desk_.machine)},
