@@ -181,7 +181,7 @@ web::Response show_machine(const Desk& desk) {
                    {"name", machine ? machine->name : desk.machine.name},
                    {"sha256", web::digest(*text)},
                    {"text", *text},
-                   {"sections", sections_json(*text)},
+                   {"sections", machine ? sections_json(*text, *machine) : Json::array()},
                    {"findings", machine ? json_of(desk.findings(*machine)) : Json::array()},
                    {"reload", desk.asked.reloader != nullptr
                                   ? steadyrest::live::reload_json(desk.asked.reloader->status())

@@ -45,9 +45,17 @@ TEST_F(MachineOnPage, IsShownWithItsKeys) {
   for (const Json& section : machine["sections"]) {
     for (const Json& key : section["keys"]) {
       EXPECT_FALSE(key["explanation"].get<std::string>().empty()) << key;
-      if (key["key"] == "limit_um") {
+      if (key["key"] == "contour.limit_um") {
         EXPECT_EQ(key["value"], 10);
         EXPECT_EQ(key["unit"], "µm");
+        EXPECT_FALSE(key["default"]);
+      }
+      if (key["key"] == "contour.strategy") {
+        EXPECT_EQ(key["range"], "contour_priority | feed_priority | combined");
+      }
+      if (key["key"] == "contour.weight_feed") {
+        EXPECT_EQ(key["value"], 0.75);
+        EXPECT_TRUE(key["default"]);
       }
     }
   }

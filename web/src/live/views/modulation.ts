@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modulator's panel: law, bounds and frequency, as an operator thinks of them.
 import { plain } from '../../frame/numbers';
-import type { Law, Modulation } from '../api/types';
+import type { KeyValue, Law, Modulation } from '../api/types';
 import { type Context, gate } from '../shell/context';
 import { field, h, panel, select, setText } from '../shell/h';
-import { problemText } from '../shell/problem';
 import { t } from '../texts/texts';
 import type { Part } from './part';
 
@@ -24,6 +23,17 @@ export function boundsOf({ amplitude_ratio, mean_ratio, period_s }: Modulation):
 export function modulationOf(law: Law, { lower_percent, upper_percent, frequency_hz }: Bounds): Modulation {
   const sum = upper_percent + lower_percent;
   return { law, amplitude_ratio: (upper_percent - lower_percent) / sum, mean_ratio: sum / 200, period_s: 1 / frequency_hz };
+}
+
+/** As the machine file has it: a change is staged like any other of its values. */
+export function keysOf({ law, amplitude_ratio, period_s, mean_ratio }: Modulation): Record<string, KeyValue> {
+  const figure = (value: number) => Number(value.toPrecision(6));
+  return {
+    'chatter.law': law,
+    'chatter.amplitude_percent': figure(100 * amplitude_ratio),
+    'chatter.period_s': figure(period_s),
+    'chatter.mean_percent': figure(100 * mean_ratio),
+  };
 }
 
 /** Why these bounds make no modulation; empty if they do. */
@@ -61,14 +71,11 @@ function form(context: Context, now: Modulation, set: (m: Modulation) => void): 
     const why = boundsFault(bounds());
     setText(fault, why);
     if (why === '') {
-      context.api
-        .post<{ modulation: Modulation }>('modulation', modulationOf(law, bounds()))
-        .then(({ modulation }) => set(modulation))
-        .catch((error: unknown) => setText(fault, problemText(error)));
+      set(modulationOf(law, bounds()));
     }
   });
   tell();
-  return gate(context.session, 'operator', h('div', {}, made, words, fault));
+  return gate(context.session, 'engineer', h('div', {}, made, words, fault));
 }
 
 export function modulationPart(context: Context): Part {
@@ -80,11 +87,9 @@ export function modulationPart(context: Context): Part {
     body.replaceChildren(
       modulation
         ? form(context, modulation, (m) => {
-            if (live.hello) {
-              live.hello = { ...live.hello, modulation: m };
+            for (const [key, value] of Object.entries(keysOf(m))) {
+              context.staged.set(key, value, keysOf(modulation)[key] ?? null);
             }
-            show(m);
-            context.say(t('modulation_set'));
           })
         : h('p', { class: 'none', id: 'modulation-none' }, t('modulation_none')),
     );
