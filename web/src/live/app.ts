@@ -116,6 +116,7 @@ export class App {
     }
     this.stream?.close();
     this.closeView();
+    document.querySelectorAll('dialog').forEach((d) => d.close());
     this.context = this.head = undefined;
     void this.api
       .session()

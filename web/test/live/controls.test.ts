@@ -68,6 +68,27 @@ describe('the mode', () => {
     expect(mock.asked).toEqual([{ method: 'POST', path: 'hand-back', body: {} }]);
     expect(await text('#say')).toBe('The operator has the say');
   });
+  it.each(['the act dialog', 'the settings', 'the review'])('is handed back in one press while %s is open', async (dialog) => {
+    await as('engineer', 'contour', 390);
+    if (dialog === 'the review') {
+      await page.fill('[data-key="contour.limit_um"] input', '12');
+      await page.click('#review');
+      await page.waitForSelector('dialog .diff');
+    } else {
+      await page.click(dialog === 'the settings' ? '#settings' : '[data-mode=act]:not(.badge)');
+    }
+    expect(await beyond(page)).toEqual([]);
+    expect(await tooSmall(page)).toEqual([]);
+    await page.click('dialog .hand-back');
+    await expect.poll(() => last()?.path).toBe('hand-back');
+  });
+  it('says what to do when handing back does not get through', async () => {
+    await as('viewer');
+    await page.route('**/api/v1/hand-back', (route) => route.abort());
+    await page.click('#hand-back');
+    await until(`document.querySelector('.toasts [role=alert]').textContent.includes('Use the machine’s own panel.')`);
+    opened.complaints.length = 0;
+  });
   it('is handed back from the keyboard', async () => {
     mock.layer.wanted = 'act';
     await as('viewer');
@@ -254,6 +275,24 @@ describe('records', () => {
     expect((await readFile(await download.path())).length).toBeGreaterThan(0);
     await page.click('#replay');
     await until(`document.querySelector('#replayed').textContent.includes('all the same')`);
+  });
+});
+
+describe('the plots of the reports', () => {
+  it.each(['chatter', 'thermal', 'record/rib-pocket-2026-01-02.sqlite'])('zoom and save on %s', async (view) => {
+    await as('viewer', view);
+    const figure = page.locator('figure').first();
+    await figure.locator('canvas').waitFor();
+    const names = [];
+    for (const tool of ['in', 'out', 'whole']) {
+      await figure.locator(`[data-tool=${tool}]`).click();
+    }
+    for (const tool of ['png', 'csv']) {
+      const [download] = await Promise.all([page.waitForEvent('download'), figure.locator(`[data-tool=${tool}]`).click()]);
+      names.push(download.suggestedFilename());
+      expect((await readFile(await download.path())).length).toBeGreaterThan(100);
+    }
+    expect(names).toEqual([expect.stringMatching(/\.png$/), expect.stringMatching(/\.csv$/)]);
   });
 });
 

@@ -74,7 +74,7 @@ export function colours(page: Page): Promise<Record<string, number>> {
 export async function show(page: Page, view: string): Promise<void> {
   await page.evaluate((to) => (window.location.hash = `#/${to}`), view);
   await page.waitForFunction(() => document.querySelector('#view .panel') !== null);
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(500);
 }
 
 const PATIENCE_MS = 10_000;

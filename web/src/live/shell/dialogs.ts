@@ -4,6 +4,13 @@ import { button, h } from './h';
 
 let numbered = 0;
 
+/** While a dialog is open nothing beside it can be pressed, so each has its own button that hands back. */
+let handBack: (() => void) | undefined;
+
+export function everyDialogHandsBack(by: (() => void) | undefined): void {
+  handBack = by;
+}
+
 export interface Dialog {
   root: HTMLDialogElement;
   close: () => void;
@@ -14,7 +21,7 @@ export function openDialog(title: string, name: string, ...content: (Node | null
   const id = `dialog-${++numbered}`;
   const root = h('dialog', { class: name, 'aria-labelledby': id });
   const close = () => root.close();
-  root.append(h('div', { class: 'dialog-head' }, h('h2', { id }, title), button('×', close, { class: 'close', 'aria-label': t('close') })), ...content.filter((c) => c !== null));
+  root.append(h('div', { class: 'dialog-head' }, h('h2', { id }, title), handBack && button(t('hand_back'), handBack, { class: 'hand-back', title: t('hand_back_what') }), button('×', close, { class: 'close', 'aria-label': t('close') })), ...content.filter((c) => c !== null));
   root.addEventListener('close', () => root.remove());
   root.addEventListener('click', (event) => event.target === root && close());
   document.body.append(root);

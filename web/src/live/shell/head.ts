@@ -3,7 +3,7 @@
 import type { Mode, Status } from '../api/types';
 import { t } from '../texts/texts';
 import { type Context, gate, whyNot } from './context';
-import { confirmed } from './dialogs';
+import { confirmed, everyDialogHandsBack } from './dialogs';
 import { button, h, setText } from './h';
 import { problemText } from './problem';
 
@@ -17,7 +17,7 @@ const SAME_UM = 0.01;
 export function layerHasTheSay(status: Status): boolean {
   const differs = (a: number, b: number) => Math.abs(a - b) > SAME_PERCENT;
   const offset = [...status.offset_um, ...status.path_offset_um].some((v) => Math.abs(v) > SAME_UM);
-  return status.mode === 'act' && (differs(status.feed_percent, status.feed_panel_percent) || differs(status.spindle_percent, 100) || offset);
+  return status.mode === 'act' && (differs(status.feed_percent, status.feed_panel_percent ?? 100) || differs(status.spindle_percent, 100) || offset);
 }
 
 export class Head {
@@ -31,6 +31,7 @@ export class Head {
   private readonly modeButtons: Record<Mode, HTMLButtonElement>;
 
   constructor(private readonly context: Context) {
+    everyDialogHandsBack(() => void this.handBack());
     const back = button(t('hand_back'), () => void this.handBack(), { class: 'hand-back', id: 'hand-back', title: t('hand_back_what') });
     this.missing.addEventListener('click', () => this.context.say(this.missing.title));
     this.root = h(
@@ -61,6 +62,11 @@ export class Head {
     setText(this.badge, t(`mode_${status.mode}`));
     this.badge.dataset['mode'] = status.mode;
     const layer = layerHasTheSay(status);
+    if (connection.state === 'down') {
+      setText(this.say, t('say_unknown'));
+      this.say.dataset['who'] = 'unknown';
+      return;
+    }
     setText(this.say, coming ? t('mode_coming', { mode: t(`mode_${status.mode_wanted}`) }) : t(layer ? 'say_layer' : 'say_operator'));
     this.say.dataset['who'] = layer ? 'layer' : 'operator';
     for (const mode of MODES) {
@@ -85,7 +91,7 @@ export class Head {
       await this.context.api.post('hand-back');
       this.context.say(t('handed_back'));
     } catch (error) {
-      this.context.say(t('failed', { what: problemText(error) }), true);
+      this.context.say(t('hand_back_failed', { what: problemText(error) }), true);
     }
   }
 

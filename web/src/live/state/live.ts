@@ -15,6 +15,9 @@ const TRAIL_STEP_MM = 0.25;
 const COLUMNS = ['t_s', 'error_um', 'asked', 'allowed', 'effective', 'panel', 'speed_mm_min', 'rpm', 'x', 'y', 'z', 'following_0', 'following_1', 'following_2'] as const;
 export type SampleColumn = (typeof COLUMNS)[number];
 
+/** Ends a stretch of the trail: where the tool went meanwhile is unknown. */
+const NOWHERE = { x: NaN, y: NaN, z: NaN, error_um: NaN };
+
 const value = (v: Maybe | undefined) => v ?? NaN;
 
 /** How much of the stream did not arrive since the page was opened. */
@@ -73,6 +76,7 @@ export class Live {
         this.trail.clear();
       } else if (t - before > GAP_CYCLES * cycle_s) {
         this.missing.seconds += t - before - cycle_s;
+        this.trail.push(NOWHERE);
       }
       row.t_s = t;
       row.error_um = value(samples.contour_error_um[i]);
@@ -97,7 +101,7 @@ export class Live {
     this.worst = Number.isNaN(this.worst) || error > this.worst ? error : this.worst;
     // A machine of two axes has no z: NaN, which counts as no way.
     const way = (name: 'x' | 'y' | 'z') => row[name] - trail.newest(name) || 0;
-    if (trail.size === 0 || Math.hypot(way('x'), way('y'), way('z')) >= TRAIL_STEP_MM) {
+    if (trail.size === 0 || Number.isNaN(trail.newest('x')) || Math.hypot(way('x'), way('y'), way('z')) >= TRAIL_STEP_MM) {
       trail.push({ x: row.x, y: row.y, z: row.z, error_um: this.worst });
       this.worst = NaN;
     }

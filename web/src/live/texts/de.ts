@@ -253,4 +253,6 @@ export const de: Texts = {
   hours: '{value} h',
   last_read: 'Zuletzt gelesen',
   course: 'Verlauf',
+  hand_back_failed: 'Die Rückgabe hat die Korrekturschicht nicht erreicht: {what} Nutzen Sie die Bedientafel der Maschine.',
+  say_unknown: 'Zustand unbekannt',
 };

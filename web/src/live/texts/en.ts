@@ -264,4 +264,6 @@ export const en = {
   hours: '{value} h',
   last_read: 'Last read',
   course: 'Course',
+  hand_back_failed: 'Handing back did not reach the layer: {what} Use the machine’s own panel.',
+  say_unknown: 'State unknown',
 } as const;

@@ -253,4 +253,6 @@ export const ru: Texts = {
   hours: '{value} ч',
   last_read: 'Прочитан',
   course: 'Ход процесса',
+  hand_back_failed: 'Команда возврата не дошла до слоя: {what} Используйте пульт станка.',
+  say_unknown: 'Состояние неизвестно',
 };

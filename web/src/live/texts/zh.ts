@@ -253,4 +253,6 @@ export const zh: Texts = {
   hours: '{value} 小时',
   last_read: '最近读取',
   course: '过程曲线',
+  hand_back_failed: '交还指令未到达校正层：{what} 请使用机床自身的面板。',
+  say_unknown: '状态未知',
 };

@@ -70,7 +70,7 @@ export const machineView: MakeView = (context) => {
     };
     const choice = h('div', {});
     choice.innerHTML = buttons('machine-as', t('machine'), [['sections', t('sections')], ['text', t('whole_text')]], whole ? 'text' : 'sections');
-    root.replaceChildren(panel(t('machine'), 'file-panel', choice, place), h('div', { class: 'column narrow' }, panel(t('findings'), 'findings-panel', findingList(machine.findings)), panel(t('file'), 'about-panel', about(machine))));
+    root.replaceChildren(panel(t('machine'), 'file-panel', choice, place), h('div', { class: 'column narrow' }, panel(t('findings'), 'findings-panel', findingList(machine.findings ?? [])), panel(t('file'), 'about-panel', about(machine))));
     fill();
     onChoice('machine-as', (value) => {
       whole = value === 'text';

@@ -79,9 +79,9 @@ export function recordDetail(context: Context, name: string): LiveView {
     context.api
       .get<{ record: RecordDetail }>(`records/${encodeURIComponent(name)}`)
       .then(({ record }) => {
-        run.replaceChildren(list(record.run));
-        events.replaceChildren(eventTable(record.events));
-        totals.replaceChildren(list(record.totals));
+        run.replaceChildren(list(record.run ?? {}));
+        events.replaceChildren(eventTable(record.events ?? []));
+        totals.replaceChildren(list(record.totals ?? {}));
       })
       .catch((error: unknown) => run.replaceChildren(problem(error, load)));
   };

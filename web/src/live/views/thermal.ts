@@ -42,7 +42,7 @@ export function historyPlot(axis: ThermalHistory, t_s: readonly number[], theme:
   };
 }
 
-function facts({ share_k, passports, readings = [] }: Thermal): HTMLElement {
+function facts({ share_k, passports = [], readings = [] }: Thermal): HTMLElement {
   const unit = units().small.name;
   const rows = passports.flatMap(({ axis, modes }) => modes.map((m) => h('tr', {}, h('th', { scope: 'row' }, axis), h('td', { class: 'n' }, figure(units().small, m.amplitude_um)), h('td', { class: 'n' }, digits(m.time_constant_min, 3)))));
   const head = h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, t('axis')), h('th', { scope: 'col', class: 'n' }, t('amplitude', { unit })), h('th', { scope: 'col', class: 'n' }, t('time_constant'))));
