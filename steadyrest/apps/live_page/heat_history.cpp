@@ -78,11 +78,12 @@ web::Response HeatHistory::show() const {
     axes.push_back(std::move(one));
   }
   const bool has_share = thermal.level < thermal.share.size();
-  return answer({{"share_k", has_share ? Json(thermal.share[thermal.level]) : Json()},
-                 {"passports", std::move(passports)},
-                 {"history", {{"t_s", std::move(times)}, {"axes", std::move(axes)}}},
-                 {"next", nullptr},
-                 {"readings", Json::array()}});
+  Json thermal_json = {{"share_k", has_share ? Json(thermal.share[thermal.level]) : Json()},
+                       {"passports", std::move(passports)},
+                       {"history", {{"t_s", std::move(times)}, {"axes", std::move(axes)}}},
+                       {"next", nullptr},
+                       {"readings", Json::array()}};
+  return answer({{"thermal", std::move(thermal_json)}});
 }
 
 }  // namespace steadyrest::apps::live_page

@@ -104,9 +104,9 @@ Result<Json> course_of(const CourseAsked& asked) {
     return std::unexpected(first_s ? reader.error() : first_s.error());
   }
   const double whole_s = static_cast<double>(reader->totals().samples) * reader->run().cycle_s;
-  const double from_s = std::max(asked.from_s, *first_s);
+  const double from_s = *first_s + std::max(asked.from_s, 0.0);
   const double to_s =
-      std::max(from_s + reader->run().cycle_s, std::min(asked.to_s, *first_s + whole_s));
+      std::max(from_s + reader->run().cycle_s, *first_s + std::min(asked.to_s, whole_s));
   const std::size_t points = std::clamp<std::size_t>(asked.points, 1, kMostPoints);
   const double step_s = (to_s - from_s) / static_cast<double>(points);
   Interval none{};
@@ -134,7 +134,7 @@ Result<Json> course_of(const CourseAsked& asked) {
       interval.most[c] = std::max(interval.most[c], value);
     }
   }
-  return json_of(intervals, from_s, step_s);
+  return json_of(intervals, from_s - *first_s, step_s);
 }
 
 }  // namespace steadyrest::apps::live_page

@@ -10,7 +10,7 @@
 namespace steadyrest::apps::live_page {
 
 /// A stretch of a record, thinned: the least and the largest value of each column in `points` equal
-/// intervals of time.
+/// intervals of time. Times count from the record's first sample.
 struct CourseAsked {
   std::string file;
   double from_s = 0.0;

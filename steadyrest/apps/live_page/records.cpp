@@ -200,15 +200,15 @@ web::Response replay_record(const Desk& desk, const std::string& name) {
     return unreadable(replayed.error());
   }
   Json first;
+  Json fields = Json::array();
   if (const auto& difference = replayed->first_difference) {
-    first = {{"cycle", difference->cycle},
-             {"time_s", difference->time_s},
-             {"line", difference->line},
-             {"fields", difference->fields}};
+    first = difference->cycle;
+    fields = difference->fields;
   }
   return answer({{"cycles", replayed->cycles},
                  {"different", replayed->different},
-                 {"first_difference", first}});
+                 {"first_difference", first},
+                 {"fields", std::move(fields)}});
 }
 
 }  // namespace steadyrest::apps::live_page

@@ -14,7 +14,8 @@ namespace steadyrest::apps::live_page {
 /// `/api/v1/records/NAME`, and what comes behind it: `data`, `export`.
 [[nodiscard]] web::Response show_record(const Desk& desk, const web::Request& request,
                                         const std::string& rest);
-/// Decides a recorded run again: `cycles`, `first_difference` (null: none).
+/// Decides a recorded run again: `cycles`, `first_difference` (the cycle; null: none), its
+/// `fields`.
 [[nodiscard]] web::Response replay_record(const Desk& desk, const std::string& name);
 
 }  // namespace steadyrest::apps::live_page

@@ -172,7 +172,9 @@ std::string StreamText::hello() const {
                     {"steps_percent", std::move(steps)}}},
                   {"modulation", modulation},
                   {"thermal", machine.thermal.enabled},
-                  {"listening", false}});
+                  {"listening", false},
+                  {"lobes", false},
+                  {"measures", false}});
 }
 
 std::string StreamText::frame() {

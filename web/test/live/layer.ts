@@ -91,6 +91,8 @@ export class Layer {
       modulation: this.modulation,
       thermal: true,
       listening: true,
+      lobes: true,
+      measures: true,
     };
   }
 

@@ -227,11 +227,6 @@ export class Mock {
         if (body['mode'] === 'act' && body['confirm'] !== true) throw new Refusal(422, 'refused', 'act needs confirm.');
         this.layer.wanted = body['mode'] as 'act';
         return { mode_wanted: body['mode'] };
-      case 'modulation':
-        this.need('operator');
-        if (Number(body['amplitude_ratio']) > 0.5) throw new Refusal(422, 'refused', 'The drive cannot follow this.', 'Choose a narrower swing.');
-        this.layer.modulation = body as unknown as Layer['modulation'];
-        return { modulation: body };
       case 'thermal/measured':
         this.need('operator');
         return { verdict: Math.abs(Number(body['displacement_um'])) > 30 ? { taken: false, reason: 'thermal_reading_outlier', sentence: 'A probe reading too far from the forecast was rejected.' } : { taken: true, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' } };

@@ -62,6 +62,9 @@ export interface Hello {
   modulation: Modulation | null;
   thermal: boolean;
   listening: boolean;
+  /** The server has a map of stability; it takes measured sizes. */
+  lobes: boolean;
+  measures: boolean;
 }
 
 type Column = Maybe[];
@@ -79,6 +82,7 @@ export interface Samples {
 }
 export interface Ahead {
   points_mm: number[][];
+  /** Known where the layer expects the largest one. */
   error_um: Maybe[];
   at_mm: number[];
 }

@@ -68,10 +68,16 @@ export function lobesPart({ api, live }: Context): Part {
       })
       .catch((error: unknown) => body.replaceChildren(h('p', { class: 'none' }, t('lobes_none')), problem(error)));
   };
-  load();
+  const root = panel(t('lobes'), 'lobes-panel', h('p', { class: 'hint' }, t('lobes_hint')), body);
+  let asked = false;
   return {
-    root: panel(t('lobes'), 'lobes-panel', h('p', { class: 'hint' }, t('lobes_hint')), body),
+    root,
     update: (_, figures) => {
+      root.hidden = live.hello?.lobes !== true;
+      if (!asked && !root.hidden) {
+        asked = true;
+        load();
+      }
       const rpm = live.samples.newest('rpm');
       const range = lobes ? (lobes.map.speed_rpm.at(-1) ?? 1) - (lobes.map.speed_rpm[0] ?? 0) : Infinity;
       if (figures && lobes && performance.now() - when > REDRAW_MS && !(Math.abs(rpm - at) < MOVED * range)) {

@@ -52,6 +52,7 @@ export function measuredPart(context: Context): Part {
   return {
     root: panel(t('measured'), 'measured-panel', h('p', { class: 'hint' }, t('measured_hint')), body),
     update: () => {
+      body.parentElement?.toggleAttribute('hidden', live.hello?.measures !== true);
       const axes = live.frame?.thermal?.axes.map((a) => a.name) ?? [];
       if (axes.join() !== shown) {
         shown = axes.join();

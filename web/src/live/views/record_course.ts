@@ -16,14 +16,14 @@ import { span } from './times';
 
 const POINTS = 1200;
 const WINDOWS_S = [600, 60, 10, 1];
-const COLUMNS = ['contour_error_um', 'feed_percent', 'path_speed_mm_min', 'spindle_rpm'] as const;
+const COLUMNS = ['following_um', 'feed_percent', 'path_speed_mm_min', 'spindle_rpm'] as const;
 type ColumnName = (typeof COLUMNS)[number];
 
 function about(column: ColumnName): { name: string; unit: Unit } {
   const as = (name: string): Unit => ({ name, decimals: 0, of: (v) => v, back: (v) => v });
   switch (column) {
-    case 'contour_error_um':
-      return { name: t('contour_error'), unit: units().small };
+    case 'following_um':
+      return { name: t('following_error'), unit: units().small };
     case 'feed_percent':
       return { name: t('feed_history'), unit: as('%') };
     case 'path_speed_mm_min':
@@ -111,7 +111,7 @@ export function recordCourse({ api }: Context, name: string): Part {
   let column: ColumnName = COLUMNS[0];
   let asked = 0;
   let timer = 0;
-  const links = (['csv', 'h5'] as const).map((format) => ({ format, link: h('a', { class: 'button', download: '', id: `export-${format}` }, format === 'csv' ? 'CSV' : 'HDF5') }));
+  const link = h('a', { class: 'button', download: '', id: 'export', href: `/api/v1/${base}/export` }, 'SQLite');
   const load = async (range?: Range) => {
     const mine = ++asked;
     const part = range ? `from_s=${range.from}&to_s=${range.to}&` : '';
@@ -129,7 +129,6 @@ export function recordCourse({ api }: Context, name: string): Part {
     }
   };
   const slider = new Slider((range) => {
-    links.forEach(({ format, link }) => link.setAttribute('href', `/api/v1/${base}/export?format=${format}&from_s=${range.from}&to_s=${range.to}`));
     window.clearTimeout(timer);
     timer = window.setTimeout(() => void load(range), SLIDING_MS);
   });
@@ -140,7 +139,7 @@ export function recordCourse({ api }: Context, name: string): Part {
   quantity.id = 'quantity';
   void load().then((data) => data && slider.start(data.t_s.at(-1) ?? 0));
   return {
-    root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, h('div', { class: 'actions exports' }, h('span', {}, t('export')), ...links.map((l) => l.link), h('span', { class: 'hint' }, t('export_range')))),
+    root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, h('div', { class: 'actions exports' }, h('span', {}, t('export')), link, h('span', { class: 'hint' }, t('export_range')))),
     redraw: (theme) => void drawn.redraw(theme),
     close: () => {
       window.clearTimeout(timer);
