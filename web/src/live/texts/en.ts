@@ -216,7 +216,7 @@ export const en = {
   from: 'From',
   quantity: 'Quantity',
   export: 'Export',
-  export_range: 'the whole record; `steadyrest record export` makes CSV and HDF5 of it',
+  export_range: 'The whole record. `steadyrest record export` turns it into CSV or HDF5.',
   replay: 'Replay',
   replay_hint: 'Decides every cycle again from the recorded inputs and compares.',
   replay_same: '{cycles} cycles decided again: all the same.',
