@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modulator's panel: law, bounds and frequency, as an operator thinks of them.
-import { plain } from '../../frame/numbers';
-import type { Law, Modulation } from '../api/types';
-import { type Context, gate } from '../shell/context';
-import { field, h, panel, select, setText } from '../shell/h';
-import { problemText } from '../shell/problem';
-import { t } from '../texts/texts';
-import type { Part } from './part';
+import { plain } from '../../../frame/numbers';
+import type { Law, Modulation } from '../../api/types';
+import { type Context, gate } from '../../shell/context';
+import { field, h, panel, select, setText } from '../../shell/h';
+import { problemText } from '../../shell/problem';
+import { t } from '../../texts/texts';
+import type { Part } from '../part';
 
 export const LAWS: readonly Law[] = ['constant', 'square', 'pulse', 'triangle', 'sine', 'random', 'stop'];
 
