@@ -12,9 +12,9 @@ import { REASONS_RU } from '../../src/live/texts/reasons_ru';
 import { REASONS_ZH } from '../../src/live/texts/reasons_zh';
 import { ALL, type TextKey } from '../../src/live/texts/texts';
 import { parsed, wordsOf } from '../../src/live/views/keys';
-import { boundsFault, boundsOf, modulationOf } from '../../src/live/views/modulation';
-import { bytesText } from '../../src/live/views/record';
-import { nameText } from '../../src/live/views/record_detail';
+import { boundsFault, boundsOf, modulationOf } from '../../src/live/views/chatter/modulation';
+import { bytesText } from '../../src/live/views/record/list';
+import { nameText } from '../../src/live/views/record/detail';
 import { span } from '../../src/live/views/times';
 import { Layer } from '../live/layer';
 

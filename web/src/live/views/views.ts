@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { MakeView } from '../shell/context';
 import type { ViewName } from '../shell/route';
-import { chatterView } from './chatter';
+import { chatterView } from './chatter/chatter';
 import { contourView } from './contour';
 import { machineView } from './machine';
 import { motionView } from './motion';
 import { nowView } from './now/now';
-import { recordView } from './record';
+import { recordView } from './record/list';
 import { thermalView } from './thermal';
 
 export const VIEWS: Record<ViewName, MakeView> = {

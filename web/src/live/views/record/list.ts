@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Past runs: the list with its search, or one of them.
-import { escapeHtml } from '../../frame/html';
-import { fixed } from '../../frame/numbers';
-import { type Cell, numeric, onSort, table } from '../../frame/table';
-import type { RecordRow } from '../api/types';
-import type { Context, LiveView, MakeView } from '../shell/context';
-import { field, h, panel } from '../shell/h';
-import { problem } from '../shell/problem';
-import { addressOf } from '../shell/route';
-import { t } from '../texts/texts';
-import { recordDetail } from './record_detail';
-import { localTime, span } from './times';
+import { escapeHtml } from '../../../frame/html';
+import { fixed } from '../../../frame/numbers';
+import { type Cell, numeric, onSort, table } from '../../../frame/table';
+import type { RecordRow } from '../../api/types';
+import type { Context, LiveView, MakeView } from '../../shell/context';
+import { field, h, panel } from '../../shell/h';
+import { problem } from '../../shell/problem';
+import { addressOf } from '../../shell/route';
+import { t } from '../../texts/texts';
+import { recordDetail } from './detail';
+import { localTime, span } from '../times';
 
 const TYPING_MS = 250;
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stability lobes with the cut as it is now.
-import { type Level, classRaster, radiusLevels } from '../../chatter/raster';
-import { measure, plain } from '../../frame/numbers';
-import { type Theme, theme as themeNow } from '../../frame/theme';
-import type { ColourScale } from '../../plot/key';
-import type { Plot } from '../../plot/drawn';
-import { type Layer, rules } from '../../plot/layers';
-import type { Lobes } from '../api/types';
-import type { Context } from '../shell/context';
-import { h, panel } from '../shell/h';
-import { problem } from '../shell/problem';
-import { units } from '../state/units';
-import { t } from '../texts/texts';
-import type { Part } from './part';
-import { Plotted } from './plotted';
+import { type Level, classRaster, radiusLevels } from '../../../chatter/raster';
+import { measure, plain } from '../../../frame/numbers';
+import { type Theme, theme as themeNow } from '../../../frame/theme';
+import type { ColourScale } from '../../../plot/key';
+import type { Plot } from '../../../plot/drawn';
+import { type Layer, rules } from '../../../plot/layers';
+import type { Lobes } from '../../api/types';
+import type { Context } from '../../shell/context';
+import { h, panel } from '../../shell/h';
+import { problem } from '../../shell/problem';
+import { units } from '../../state/units';
+import { t } from '../../texts/texts';
+import type { Part } from '../part';
+import { Plotted } from '../plotted';
 
 /** A speed that has moved less than this share of the map is not drawn anew. */
 const MOVED = 0.005;

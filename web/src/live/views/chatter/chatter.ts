@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the cut is on the stability lobes, the modulation of the spindle speed, and what it has done.
-import { twoDigits } from '../../frame/numbers';
-import { theme as themeNow } from '../../frame/theme';
-import { SpectrumPicture } from '../paint/spectrum';
-import type { Context, MakeView } from '../shell/context';
-import { h, panel, setText } from '../shell/h';
-import { t } from '../texts/texts';
-import { bar } from './bars';
+import { twoDigits } from '../../../frame/numbers';
+import { theme as themeNow } from '../../../frame/theme';
+import { SpectrumPicture } from '../../paint/spectrum';
+import type { Context, MakeView } from '../../shell/context';
+import { h, panel, setText } from '../../shell/h';
+import { t } from '../../texts/texts';
+import { bar } from '../bars';
 import { lobesPart } from './lobes';
 import { modulationPart } from './modulation';
-import { chatterWords } from './now/chatter';
-import { type Part, columns } from './part';
+import { chatterWords } from '../now/chatter';
+import { type Part, columns } from '../part';
 
 function vibrationPart({ live }: Context): Part {
   const picture: SpectrumPicture = new SpectrumPicture(live, 'chatter-spectrum', () => picture.draw(themeNow()));

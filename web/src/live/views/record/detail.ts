@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // One past run: what it was, what happened, its course, export and replay.
-import { fixed } from '../../frame/numbers';
-import type { RecordDetail } from '../api/types';
-import { type Context, type LiveView, gate } from '../shell/context';
-import { button, h, panel, setText } from '../shell/h';
-import { problem, problemText } from '../shell/problem';
-import { addressOf } from '../shell/route';
-import { t } from '../texts/texts';
-import { recordCourse } from './record_course';
-import { type Part, columns } from './part';
+import { fixed } from '../../../frame/numbers';
+import type { RecordDetail } from '../../api/types';
+import { type Context, type LiveView, gate } from '../../shell/context';
+import { button, h, panel, setText } from '../../shell/h';
+import { problem, problemText } from '../../shell/problem';
+import { addressOf } from '../../shell/route';
+import { t } from '../../texts/texts';
+import { recordCourse } from './course';
+import { type Part, columns } from '../part';
 
 function valueOf(value: unknown): string {
   if (typeof value === 'number') {

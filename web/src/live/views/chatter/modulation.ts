@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modulator's panel: law, bounds and frequency, as an operator thinks of them.
-import { plain } from '../../frame/numbers';
-import type { KeyValue, Law, Modulation } from '../api/types';
-import { type Context, gate } from '../shell/context';
-import { field, h, panel, select, setText } from '../shell/h';
-import { t } from '../texts/texts';
-import type { Part } from './part';
+import { plain } from '../../../frame/numbers';
+import type { KeyValue, Law, Modulation } from '../../api/types';
+import { type Context, gate } from '../../shell/context';
+import { field, h, panel, select, setText } from '../../shell/h';
+import { t } from '../../texts/texts';
+import type { Part } from '../part';
 
 export const LAWS: readonly Law[] = ['constant', 'square', 'pulse', 'triangle', 'sine', 'random', 'stop'];
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The course of a past run: one quantity over time, with a slider, and the export of what is shown.
-import type { Theme } from '../../frame/theme';
-import { axisFor } from '../../plot/axes';
-import type { Plot } from '../../plot/drawn';
-import type { RecordData } from '../api/types';
-import type { Context } from '../shell/context';
-import { button, field, h, panel, select, setText } from '../shell/h';
-import { problem } from '../shell/problem';
-import { fixed } from '../../frame/numbers';
-import { type Unit, units } from '../state/units';
-import { t } from '../texts/texts';
-import type { Part } from './part';
-import { Plotted } from './plotted';
-import { span } from './times';
+import type { Theme } from '../../../frame/theme';
+import { axisFor } from '../../../plot/axes';
+import type { Plot } from '../../../plot/drawn';
+import type { RecordData } from '../../api/types';
+import type { Context } from '../../shell/context';
+import { button, field, h, panel, select, setText } from '../../shell/h';
+import { problem } from '../../shell/problem';
+import { fixed } from '../../../frame/numbers';
+import { type Unit, units } from '../../state/units';
+import { t } from '../../texts/texts';
+import type { Part } from '../part';
+import { Plotted } from '../plotted';
+import { span } from '../times';
 
 const POINTS = 1200;
 const WINDOWS_S = [600, 60, 10, 1];
