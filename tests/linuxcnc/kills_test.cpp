@@ -41,6 +41,7 @@ constexpr double kAcceleration_mm_s = 2.0;  ///< a servo cycle: 2000 mm/s²
 /// LinuxCNC eases to 0.6 µm a cycle. A jump of the 50 µm would show as 2.5 µm.
 constexpr double kOffsetStep_mm = 1e-3;
 constexpr double kOffsetBefore_mm = 0.05;
+constexpr double kCount_mm = 1e-4 + 1e-9;  ///< of LinuxCNC's offsets, as decimals give it
 
 unsigned long number_from(const char* name, unsigned long otherwise) {
   const char* const text = std::getenv(name);
@@ -164,8 +165,8 @@ void expect_no_jump(const std::vector<ServoRow>& log) {
   // From here on the circle is cut and a layer is there.
   const At first = std::ranges::find(log, 1.0, &ServoRow::alive);
   ASSERT_NE(first, log.end());
-  EXPECT_NEAR(first->z_mm, kOffsetBefore_mm, 1e-4);
-  EXPECT_NEAR(log.back().z_mm, 0.0, 1e-4);
+  EXPECT_NEAR(first->z_mm, kOffsetBefore_mm, kCount_mm);
+  EXPECT_NEAR(log.back().z_mm, 0.0, kCount_mm);
   const double up = largest_step(log, first, &ServoRow::ratio, 1.0);
   const double speed = largest_step(log, first, &ServoRow::speed_mm_s, 0.0);
   const double offset = largest_step(log, first, &ServoRow::z_mm, 0.0);
