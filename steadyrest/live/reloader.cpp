@@ -75,6 +75,11 @@ ReloadStatus Reloader::status() const {
   return status_;
 }
 
+kernel::machine::Machine Reloader::running() const {
+  const std::scoped_lock lock(mutex_);
+  return config_.running;
+}
+
 void Reloader::work() {
   // Others hold it back, so that it is handled here.
   if (config_.signal != 0) {
@@ -103,7 +108,7 @@ void Reloader::reload() {
   if (config_.on_begin) {
     config_.on_begin();
   }
-  auto made = config_.make(present_ ? present_->machine : config_.running);
+  auto made = config_.make(config_.running);
   ReloadStatus now{.number = number, .utc = {}, .taken = false, .words = {}};
   if (!made) {
     now.words = kernel::outcome::text(made.error());
@@ -118,6 +123,9 @@ void Reloader::reload() {
   {
     const std::scoped_lock lock(mutex_);
     status_ = now;
+    if (now.taken) {
+      config_.running = present_->machine;
+    }
   }
   if (config_.on_end) {
     config_.on_end(now);

@@ -33,7 +33,7 @@ class Reloader {
       const kernel::machine::Machine& running)>;
 
   struct Config {
-    kernel::machine::Machine running;  ///< that the loop begins with
+    kernel::machine::Machine running;  ///< that the loop begins with, and each that took over
     Make make;
     // NOLINTBEGIN(readability-redundant-member-init)
     std::function<std::string()> utc_now = {};
@@ -56,6 +56,8 @@ class Reloader {
   /// From any thread: its number. Requests that come while one is at work make one.
   std::uint64_t ask();
   [[nodiscard]] ReloadStatus status() const;
+  /// What the loop runs by.
+  [[nodiscard]] kernel::machine::Machine running() const;
 
  private:
   void work();

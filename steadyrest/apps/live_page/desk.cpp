@@ -3,6 +3,10 @@
 
 namespace steadyrest::apps::live_page {
 
+kernel::machine::Machine machine_in_force(const Desk& desk) {
+  return desk.asked.reloader != nullptr ? desk.asked.reloader->running() : desk.machine;
+}
+
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

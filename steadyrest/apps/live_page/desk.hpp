@@ -34,6 +34,9 @@ struct Desk {
   double cycle_s = 0.001;
 };
 
+/// What the loop runs by: another file may have taken over.
+[[nodiscard]] kernel::machine::Machine machine_in_force(const Desk& desk);
+
 /// An answer with `version` and these keys.
 [[nodiscard]] web::Response answer(Json keys, unsigned status = 200);
 /// One JSON line, whatever bytes its texts have.

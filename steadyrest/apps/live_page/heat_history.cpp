@@ -51,7 +51,7 @@ void HeatHistory::update(double now_s) {
 }
 
 web::Response HeatHistory::show() const {
-  const Machine& machine = desk_.machine;
+  const Machine machine = machine_in_force(desk_);
   const auto& thermal = machine.thermal;
   Json passports = Json::array();
   Json axes = Json::array();

@@ -87,6 +87,18 @@ class Page final : public LivePage {
   }
 
  private:
+  /// Another machine file took over: what the streams were told at their begin is told again.
+  void tell_machine() {
+    if (desk_.asked.reloader == nullptr) {
+      return;
+    }
+    const auto reload = desk_.asked.reloader->status();
+    if (reload.taken && reload.number != told_) {
+      told_ = reload.number;
+      server_->announce(std::make_shared<const std::string>(frames_.hello()));
+    }
+  }
+
   void send() {
     auto next = std::chrono::steady_clock::now();
     while (!ends_.load()) {
@@ -96,6 +108,7 @@ class Page final : public LivePage {
         server_->publish(std::make_shared<const std::string>(frames_.frame()));
       }
       api_.look();
+      tell_machine();
       next = std::max(next + kFrame, std::chrono::steady_clock::now());
       std::this_thread::sleep_until(next);
     }
@@ -108,6 +121,7 @@ class Page final : public LivePage {
   StreamText frames_;
   std::unique_ptr<web::Server> server_;
   std::atomic<bool> ends_{false};
+  std::uint64_t told_ = 0;
   std::thread thread_;
 };
 

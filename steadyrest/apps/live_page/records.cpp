@@ -94,19 +94,20 @@ web::Response details(const std::string& file, const std::string& name) {
                       {"kind", record::word(event.kind)},
                       {"text", reload ? "another machine file took over" : event.text}});
   }
-  return answer({{"run",
-                  {{"name", name},
-                   {"start_utc", run.start_utc},
-                   {"version", run.version},
-                   {"machine", run.machine},
-                   {"program", run.program},
-                   {"cycle_s", run.cycle_s}}},
-                 {"totals",
-                  {{"samples", totals.samples},
-                   {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
-                   {"dropped", totals.dropped},
-                   {"closed", totals.closed}}},
-                 {"events", std::move(events)}});
+  return answer({{"record",
+                  {{"run",
+                    {{"name", name},
+                     {"start_utc", run.start_utc},
+                     {"version", run.version},
+                     {"machine", run.machine},
+                     {"program", run.program},
+                     {"cycle_s", run.cycle_s}}},
+                   {"totals",
+                    {{"samples", totals.samples},
+                     {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
+                     {"dropped", totals.dropped},
+                     {"closed", totals.closed}}},
+                   {"events", std::move(events)}}}});
 }
 
 web::Response data(const std::string& file, const web::Request& request) {

@@ -142,7 +142,7 @@ Json chatter_json(const LiveStatus& status) {
 }  // namespace
 
 std::string StreamText::hello() const {
-  const kernel::machine::Machine& machine = desk_.machine;
+  const kernel::machine::Machine machine = machine_in_force(desk_);
   Json axes = Json::array();
   for (const kernel::machine::Axis& axis : machine.axes) {
     if (axis.present) {

@@ -36,7 +36,7 @@ TEST_F(RecordsOnPage, AreListedAndSearched) {
 }
 
 TEST_F(RecordsOnPage, AreShownWithTheirEventsAndCourse) {
-  const Json record = desk.json("GET", "/api/v1/records/circle-start.sqlite");
+  const Json record = desk.json("GET", "/api/v1/records/circle-start.sqlite")["record"];
   EXPECT_GT(record["totals"]["samples"], 100);
   EXPECT_EQ(record["events"][0]["kind"], "mode");
   auto request = PageDesk::request("GET", "/api/v1/records/circle-start.sqlite/data");
