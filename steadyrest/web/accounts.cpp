@@ -26,7 +26,7 @@ using kernel::outcome::Result;
 
 constexpr int kVersion = 1;
 constexpr std::size_t kLongestName = 32;
-constexpr const char* kAdd = "make it with `steadyrest page user add`";
+constexpr const char* kAdd = "make it with `steadyrest page add-user`";
 
 bool is_name(std::string_view name) {
   constexpr std::string_view kAllowed =

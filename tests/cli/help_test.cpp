@@ -59,15 +59,19 @@ TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
 // The examples of --help are run as they are written: a reader copies them.
 TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
   const LiveLayer layer;  // for the verbs that ask a running one
+  const Scratch own;      // for the accounts
+  ::setenv("XDG_CONFIG_HOME", own.at("").c_str(), 1);
+  const std::string password = own.file("password", "correct horse\n");
   for (const Words& verb : verbs()) {
     const Words commands = examples(help_of(verb));
     EXPECT_FALSE(commands.empty()) << verb.back();
     for (const std::string& command : kernel::testing::cases(commands)) {
-      const Finished finished = run_line(command);
+      const Finished finished = run_line_on(command, password);
       EXPECT_EQ(finished.code, 0) << command << "\n" << finished.err;
       EXPECT_FALSE(finished.out.empty()) << command;
     }
   }
+  ::unsetenv("XDG_CONFIG_HOME");
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ Result<void> LivePage::check(const Config& config) {
   const bool reached = !is_loopback(config.address) || !config.outer_origin.empty();
   if (reached && config.accounts_file.empty()) {
     return refuse("the page would be open to others without accounts",
-                  "make accounts with `steadyrest page user add` and give --users FILE");
+                  "make accounts with `steadyrest page add-user` and give --users FILE");
   }
   if (!is_loopback(config.address) && config.certificate.empty() && config.outer_origin.empty()) {
     return refuse("passwords would go over the network unencrypted",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -72,6 +73,16 @@ Result<std::string> password() {
   return first;
 }
 
+/// `users.json` in the user's configuration folder.
+std::string usual_file() {
+  const char* const config = std::getenv("XDG_CONFIG_HOME");
+  const char* const home = std::getenv("HOME");
+  const std::string folder = config != nullptr && *config != '\0' ? config
+                             : home != nullptr                    ? std::string(home) + "/.config"
+                                                                  : "/etc";
+  return folder + "/steadyrest/users.json";
+}
+
 /// The accounts so far; none where the file is not there yet.
 Result<Accounts> accounts_of(const std::string& file) {
   std::error_code fault;
@@ -79,6 +90,8 @@ Result<Accounts> accounts_of(const std::string& file) {
 }
 
 Outcome written(const Accounts& accounts, const Options& options, std::string text, Json json) {
+  std::error_code fault;  // shows when the file is written
+  std::filesystem::create_directories(std::filesystem::path(options.file).parent_path(), fault);
   if (auto done = accounts.write(options.file); !done) {
     return refused(done.error());
   }
@@ -159,8 +172,10 @@ std::shared_ptr<Options> options_of(Verb& verb, bool names, bool has_role) {
     verb.add_option("NAME", options->name, "1 … 32 letters, digits, dots, dashes, underscores")
         ->required();
   }
-  verb.add_option("--users", options->file, "File of the accounts; its owner's alone")
-      ->required()
+  options->file = usual_file();
+  verb.add_option("--users", options->file,
+                  "File of the accounts, its owner's alone; default: steadyrest/users.json in "
+                  "$XDG_CONFIG_HOME, or in ~/.config")
       ->type_name("FILE");
   if (has_role) {
     verb.add_option("--role", options->role,
