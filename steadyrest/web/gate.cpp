@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include <arpa/inet.h>
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,14 @@ std::string without_port(const std::string& host) {
   return has_port ? host.substr(0, colon) : host;
 }
 
+/// `192.168.1.7`, `[fe80::1]`.
+bool is_number(const std::string& host) {
+  in6_addr address{};
+  const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+  return bracketed ? ::inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &address) == 1
+                   : ::inet_pton(AF_INET, host.c_str(), &address) == 1;
+}
+
 }  // namespace
 
 Response error(unsigned status, const std::string& code, const std::string& what,
@@ -46,6 +55,9 @@ Response error(unsigned status, const std::string& code, const std::string& what
 }
 
 bool Gate::knows_host(const std::string& host) const {
+  if (config_.any_number && is_number(without_port(host))) {
+    return true;
+  }
   return std::ranges::find(config_.hosts, without_port(small(host))) != config_.hosts.end();
 }
 

@@ -19,9 +19,15 @@ namespace steadyrest::web {
 class Gate {
  public:
   struct Config {
-    std::vector<std::string> hosts;  ///< names of this server, without port, in small letters
-    std::string outer_origin;        ///< as the browser sees it through a proxy; empty: no proxy
-    RateLimit::Config rate;
+    // Designated initialisers may leave these out.
+    // NOLINTBEGIN(readability-redundant-member-init)
+    std::vector<std::string> hosts = {};  ///< names of this server, without port, in small letters
+    /// Also the addresses of this computer as numbers: a name that leads here by somebody else's
+    /// hand is none of these.
+    bool any_number = false;
+    std::string outer_origin = {};  ///< as the browser sees it through a proxy; empty: no proxy
+    RateLimit::Config rate = {};
+    // NOLINTEND(readability-redundant-member-init)
   };
 
   explicit Gate(Config config) : config_(std::move(config)), rate_(config_.rate) {}

@@ -35,6 +35,7 @@ std::string in_address(const std::string& address) {
 web::Gate::Config gate_of(const LivePage::Config& config) {
   web::Gate::Config gate;
   gate.hosts = {in_address(config.address), "localhost", "127.0.0.1", "[::1]"};
+  gate.any_number = config.address == "0.0.0.0" || config.address == "::";
   gate.outer_origin = config.outer_origin;
   if (const std::size_t at = config.outer_origin.find("://"); at != std::string::npos) {
     gate.hosts.push_back(config.outer_origin.substr(at + 3));

@@ -27,7 +27,7 @@ Request from(const std::string& host, const std::string& origin = {}) {
 }
 
 TEST(Gate, KnowsItsOwnNames) {
-  Gate gate({.hosts = {"127.0.0.1", "localhost", "[::1]"}, .outer_origin = {}, .rate = {}});
+  Gate gate({.hosts = {"127.0.0.1", "localhost", "[::1]"}});
   for (const char* const own :
        {"127.0.0.1:8080", "localhost", "LOCALHOST:1", "[::1]:8080", "[::1]"}) {
     EXPECT_EQ(status_of(gate, from(own), false), 200U) << own;
@@ -37,8 +37,19 @@ TEST(Gate, KnowsItsOwnNames) {
   }
 }
 
+TEST(Gate, OnAllAddressesIsAskedByAnyNumberButByNoOtherName) {
+  Gate gate({.hosts = {"localhost"}, .any_number = true});
+  for (const char* const own : {"192.168.1.7:8443", "10.0.0.1", "[fe80::1]:80", "localhost"}) {
+    EXPECT_EQ(status_of(gate, from(own), false), 200U) << own;
+  }
+  for (const char* const other :
+       {"mill.example", "192.168.1.7.evil.example", "[::1", "1.2.3", ""}) {
+    EXPECT_EQ(status_of(gate, from(other), false), 421U) << other;
+  }
+}
+
 TEST(Gate, LetsOnlyItsOwnPagesWrite) {
-  Gate gate({.hosts = {"localhost"}, .outer_origin = "https://mill.example", .rate = {}});
+  Gate gate({.hosts = {"localhost"}, .outer_origin = "https://mill.example"});
   EXPECT_EQ(status_of(gate, from("localhost:80", "http://localhost:80"), true), 200U);
   EXPECT_EQ(status_of(gate, from("localhost:80"), true), 200U) << "a script";
   EXPECT_EQ(status_of(gate, from("localhost:80", "https://mill.example"), true), 200U);
@@ -49,7 +60,7 @@ TEST(Gate, LetsOnlyItsOwnPagesWrite) {
 }
 
 TEST(Gate, RefusesTooManyOfOneAddress) {
-  Gate gate({.hosts = {"localhost"}, .outer_origin = {}, .rate = {.per_s = 0.5, .burst = 2.0}});
+  Gate gate({.hosts = {"localhost"}, .rate = {.per_s = 0.5, .burst = 2.0}});
   EXPECT_EQ(status_of(gate, from("localhost"), false), 200U);
   EXPECT_EQ(status_of(gate, from("localhost"), false), 200U);
   const auto refused = gate.refuse(from("localhost"), false, 0.0);
