@@ -10,7 +10,7 @@ REPORT ?= out/$(basename $(notdir $(PROGRAM)))
 
 help:
 	@echo "make run     cut $(PROGRAM) on the simulated machine, without and with the layer"
-	@echo "make demo    the page of a layer at work on the simulated machine; PORT=linuxcnc on LinuxCNC's simulator"
+	@echo "make demo    the page of a layer at work on the simulated machine"
 	@echo "make fast    the fast tests (under two minutes once built)"
 	@echo "make test    everything: format, house, both compilers, sanitizers, clang-tidy, web, all tests"
 	@echo "make bench   the benchmarks"
