@@ -20,7 +20,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 PROBE = os.path.join(HERE, "probe")
 HEAD = "G21 G90 G94 G17 G64\nM52 P1 F3000\n"
 ABSOLUTE = HEAD + "G0 X0 Y0 Z0\no1 repeat [3]\nG1 X%d\nY8\nX0\nY0\no1 endrepeat\nM2\n"
-RELATIVE = HEAD + "G91\no1 repeat [20]\nG1 X12\nY8\nX-12\nY-8\no1 endrepeat\nM2\n"
+RELATIVE = HEAD + "G91\no1 repeat [500]\nG1 X12\nY8\nX-12\nY-8\no1 endrepeat\nM2\n"
 KEPT = HEAD + "G1 X#31 Y1 Z1\nM2\n"
 
 
