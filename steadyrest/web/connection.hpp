@@ -97,8 +97,6 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
       write(error(413, "too_large", "the body is too large", "send at most 256 KiB"));
     } else if (fault == http::error::header_limit) {
       write(error(431, "too_large", "the head is too large", "send at most 16 KiB"));
-    } else if (fault == beast::error::timeout && parser_->got_some()) {
-      close();
     } else if (fault.category() == http::make_error_code(http::error::bad_method).category() &&
                fault != http::error::end_of_stream && fault != http::error::partial_message) {
       write(error(400, "bad_request", "this is no HTTP request", "speak HTTP/1.1"));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include <steadyrest/web/message.hpp>
@@ -8,18 +7,26 @@
 namespace steadyrest::web {
 namespace {
 
+/// The hexadecimal digit at a place; nothing where there is none.
+std::optional<unsigned> digit(std::string_view text, std::size_t at) {
+  constexpr std::string_view kDigits = "0123456789abcdef0123456789ABCDEF";
+  const std::size_t found = at < text.size() ? kDigits.find(text[at]) : std::string_view::npos;
+  return found == std::string_view::npos ? std::nullopt
+                                         : std::optional(static_cast<unsigned>(found % 16));
+}
+
 /// `%41` → `A`; nothing where an escape is none, or is a control character.
 std::optional<std::string> decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned value = static_cast<unsigned char>(text[i]);
     if (text[i] == '%') {
-      const std::string_view digits = text.substr(i + 1, 2);
-      const char* const end = digits.data() + digits.size();
-      const auto read = std::from_chars(digits.data(), end, value, 16);
-      if (digits.size() != 2 || read.ptr != end || read.ec != std::errc()) {
+      const auto high = digit(text, i + 1);
+      const auto low = digit(text, i + 2);
+      if (!high || !low) {
         return std::nullopt;
       }
+      value = 16 * *high + *low;
       i += 2;
     }
     if (value < 0x20 || value == 0x7f) {

@@ -49,15 +49,15 @@ class BeastServer final : public Server {
                     "give --listen ADDRESS:PORT, the address as numbers");
     }
     const tcp::endpoint endpoint(address, config.port);
-    acceptor_.open(endpoint.protocol(), fault);
+    fault = acceptor_.open(endpoint.protocol(), fault);
     if (!fault) {
-      acceptor_.set_option(asio::socket_base::reuse_address(true), fault);
+      fault = acceptor_.set_option(asio::socket_base::reuse_address(true), fault);
     }
     if (!fault) {
-      acceptor_.bind(endpoint, fault);
+      fault = acceptor_.bind(endpoint, fault);
     }
     if (!fault) {
-      acceptor_.listen(asio::socket_base::max_listen_connections, fault);
+      fault = acceptor_.listen(asio::socket_base::max_listen_connections, fault);
     }
     if (fault) {
       return refuse(fmt::format("{} port {}: {}", config.address, config.port, fault.message()),
@@ -103,12 +103,12 @@ class BeastServer final : public Server {
     tls_.emplace(asio::ssl::context::tls_server);
     ::SSL_CTX_set_min_proto_version(tls_->native_handle(), TLS1_2_VERSION);
     beast::error_code fault;
-    tls_->use_certificate_chain_file(config.certificate, fault);
+    fault = tls_->use_certificate_chain_file(config.certificate, fault);
     if (fault) {
       return refuse(config.certificate, "is no certificate that can be used: " + fault.message(),
                     "give --tls-certificate a PEM file, the server's own certificate first");
     }
-    tls_->use_private_key_file(config.key, asio::ssl::context::pem, fault);
+    fault = tls_->use_private_key_file(config.key, asio::ssl::context::pem, fault);
     if (fault) {
       return refuse(config.key, "is no key of this certificate: " + fault.message(),
                     "give --tls-key the PEM file of its key, without a password");
@@ -139,7 +139,7 @@ class BeastServer final : public Server {
     if (fault || traffic_.connections >= traffic_.config.most_connections) {
       return;  // it is closed
     }
-    socket.set_option(tcp::no_delay(true), fault);
+    fault = socket.set_option(tcp::no_delay(true), fault);  // else a frame may come late
     const std::string address = from.address().to_string();
     if (tls_) {
       std::make_shared<Connection<TlsTransport>>(

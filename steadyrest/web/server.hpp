@@ -35,8 +35,8 @@ class Server {
     // NOLINTEND(readability-redundant-member-init)
     std::size_t most_connections = 64;
     std::size_t most_streams = 32;
-    std::size_t most_head = 16 * 1024;
-    std::size_t most_body = 256 * 1024;
+    std::size_t most_head = 16'384;
+    std::size_t most_body = 262'144;
     double patience_s = 15.0;  ///< for a whole request, or the next one
   };
   /// A stream may begin: its first message, and whether it may still go on, asked every second.

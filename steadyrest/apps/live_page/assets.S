@@ -2,15 +2,15 @@
 // The built live page and its description, byte for byte. The paths are given by CMake.
         .section .rodata
         .macro file name, path
-        .global steadyrest_live_\name\()_begin
-        .global steadyrest_live_\name\()_end
-steadyrest_live_\name\()_begin:
+        .global kSteadyrestLive\name\()Begin
+        .global kSteadyrestLive\name\()End
+kSteadyrestLive\name\()Begin:
         .incbin "\path"
-steadyrest_live_\name\()_end:
+kSteadyrestLive\name\()End:
         .byte 0
         .endm
-        file html, STEADYREST_LIVE_HTML
-        file script, STEADYREST_LIVE_SCRIPT
-        file style, STEADYREST_LIVE_STYLE
-        file openapi, STEADYREST_LIVE_OPENAPI
+        file Html, STEADYREST_LIVE_HTML
+        file Script, STEADYREST_LIVE_SCRIPT
+        file Style, STEADYREST_LIVE_STYLE
+        file Openapi, STEADYREST_LIVE_OPENAPI
         .section .note.GNU-stack, "", %progbits

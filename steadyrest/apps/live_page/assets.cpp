@@ -5,30 +5,30 @@
 #include <steadyrest/apps/live_page/assets.hpp>
 
 extern "C" {
-extern const char steadyrest_live_html_begin[];
-extern const char steadyrest_live_html_end[];
-extern const char steadyrest_live_script_begin[];
-extern const char steadyrest_live_script_end[];
-extern const char steadyrest_live_style_begin[];
-extern const char steadyrest_live_style_end[];
-extern const char steadyrest_live_openapi_begin[];
-extern const char steadyrest_live_openapi_end[];
+extern const char kSteadyrestLiveHtmlBegin[];
+extern const char kSteadyrestLiveHtmlEnd[];
+extern const char kSteadyrestLiveScriptBegin[];
+extern const char kSteadyrestLiveScriptEnd[];
+extern const char kSteadyrestLiveStyleBegin[];
+extern const char kSteadyrestLiveStyleEnd[];
+extern const char kSteadyrestLiveOpenapiBegin[];
+extern const char kSteadyrestLiveOpenapiEnd[];
 }
 
 namespace steadyrest::apps::live_page {
 namespace {
 
 const std::array<Asset, 3>& assets() noexcept {
-  static const std::array<Asset, 3> all = {{
-      {"/", "text/html; charset=utf-8", {steadyrest_live_html_begin, steadyrest_live_html_end}},
+  static const std::array<Asset, 3> kAll = {{
+      {"/", "text/html; charset=utf-8", {kSteadyrestLiveHtmlBegin, kSteadyrestLiveHtmlEnd}},
       {"/live.js",
        "text/javascript; charset=utf-8",
-       {steadyrest_live_script_begin, steadyrest_live_script_end}},
+       {kSteadyrestLiveScriptBegin, kSteadyrestLiveScriptEnd}},
       {"/live.css",
        "text/css; charset=utf-8",
-       {steadyrest_live_style_begin, steadyrest_live_style_end}},
+       {kSteadyrestLiveStyleBegin, kSteadyrestLiveStyleEnd}},
   }};
-  return all;
+  return kAll;
 }
 
 }  // namespace
@@ -39,9 +39,9 @@ const Asset* find_asset(std::string_view path) noexcept {
 }
 
 const Asset& openapi() noexcept {
-  static const Asset description = {
-      "", "application/json", {steadyrest_live_openapi_begin, steadyrest_live_openapi_end}};
-  return description;
+  static const Asset kDescription = {
+      "", "application/json", {kSteadyrestLiveOpenapiBegin, kSteadyrestLiveOpenapiEnd}};
+  return kDescription;
 }
 
 web::Response response_of(const Asset& asset) {

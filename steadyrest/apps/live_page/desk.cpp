@@ -11,7 +11,7 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-web::Response answer(Json keys, unsigned status) {
+web::Response answer(const Json& keys, unsigned status) {
   Json all = {{"version", steadyrest::live::kProtocol}};
   all.update(keys);
   web::Response out;

@@ -38,7 +38,7 @@ struct Desk {
 [[nodiscard]] kernel::machine::Machine machine_in_force(const Desk& desk);
 
 /// An answer with `version` and these keys.
-[[nodiscard]] web::Response answer(Json keys, unsigned status = 200);
+[[nodiscard]] web::Response answer(const Json& keys, unsigned status = 200);
 /// One JSON line, whatever bytes its texts have.
 [[nodiscard]] std::string text_of(const Json& json);
 

@@ -14,7 +14,7 @@ using kernel::machine::ThermalAxis;
 using kernel::units::um_from_mm;
 
 constexpr double kEvery_s = 10.0;
-constexpr std::size_t kMost = 12 * 360;
+constexpr std::size_t kMost = 4320;  ///< of twelve hours
 
 Json modes_json(const ThermalAxis& axis) {
   Json out = Json::array();

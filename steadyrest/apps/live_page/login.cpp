@@ -34,12 +34,18 @@ Login::Login(const Config& config)
       key_(config.accounts_file.empty() ? web::new_secret() : ""),
       failures_(kFailures) {}
 
-std::optional<Login::Who> Login::who(const web::Request& request, double now_s) {
+std::optional<web::Caller> Login::of_token(const web::Request& request) const {
   const std::string_view authorization = request.authorization;
-  if (authorization.starts_with(kBearer)) {
-    const auto accounts = web::Accounts::read(config_.accounts_file);
-    const auto caller = accounts ? accounts->of_token(authorization.substr(kBearer.size()))
-                                 : std::optional<web::Caller>();
+  if (!authorization.starts_with(kBearer)) {
+    return std::nullopt;
+  }
+  const auto accounts = web::Accounts::read(config_.accounts_file);
+  return accounts ? accounts->of_token(authorization.substr(kBearer.size())) : std::nullopt;
+}
+
+std::optional<Login::Who> Login::who(const web::Request& request, double now_s) {
+  if (!request.authorization.empty()) {
+    const auto caller = of_token(request);
     return caller ? std::optional(Who{.caller = *caller, .csrf = std::nullopt}) : std::nullopt;
   }
   const auto session = sessions_.find(web::cookie(request, kCookie), now_s);
@@ -48,7 +54,8 @@ std::optional<Login::Who> Login::who(const web::Request& request, double now_s) 
 }
 
 bool Login::goes_on(const web::Request& request, double now_s) const {
-  return !request.authorization.empty() || sessions_.lives(web::cookie(request, kCookie), now_s);
+  return request.authorization.empty() ? sessions_.lives(web::cookie(request, kCookie), now_s)
+                                       : of_token(request).has_value();
 }
 
 web::Response Login::show(const web::Request& request, double now_s) {

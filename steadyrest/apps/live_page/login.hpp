@@ -32,7 +32,8 @@ class Login {
   [[nodiscard]] const std::string& key() const noexcept { return key_; }
 
   [[nodiscard]] std::optional<Who> who(const web::Request& request, double now_s);
-  /// Whether the session of a stream goes on; a token's does while the process lives.
+  /// Whether whoever began a stream may still watch: logged in, or with a token that is still
+  /// there.
   [[nodiscard]] bool goes_on(const web::Request& request, double now_s) const;
 
   [[nodiscard]] web::Response show(const web::Request& request, double now_s);
@@ -40,6 +41,8 @@ class Login {
   [[nodiscard]] web::Response end(const web::Request& request);
 
  private:
+  /// By the token of a script.
+  [[nodiscard]] std::optional<web::Caller> of_token(const web::Request& request) const;
   [[nodiscard]] std::optional<web::Caller> check(const std::string& name,
                                                  const std::string& password,
                                                  const std::string& key) const;

@@ -13,6 +13,7 @@
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/machine_keys.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/edit/key_edit.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -159,7 +160,7 @@ std::optional<ReloadStatus> outcome_of(const steadyrest::live::Reloader& reloade
                                        std::uint64_t number) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
   while (std::chrono::steady_clock::now() < until) {
-    const ReloadStatus status = reloader.status();
+    ReloadStatus status = reloader.status();
     if (status.number >= number) {
       return status;
     }
@@ -212,7 +213,7 @@ web::Response apply_machine(const Desk& desk, const Json& asked, const std::stri
         {"code", "refused"},
         {"what", checked->why_not.empty() ? "the machine file would be refused" : checked->why_not},
         {"to_do", "mend what is named"}};
-    return answer(std::move(keys), 422);
+    return answer(keys, 422);
   }
   if (auto written = kernel::file::write_file(desk.machine_file, checked->after); !written) {
     return failed(written.error());

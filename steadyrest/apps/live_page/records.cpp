@@ -116,7 +116,7 @@ web::Response data(const std::string& file, const web::Request& request) {
                            .from_s = number(request, "from_s", -1e18),
                            .to_s = number(request, "to_s", 1e18),
                            .points = static_cast<std::size_t>(points)});
-  return course ? answer(std::move(*course)) : unreadable(course.error());
+  return course ? answer(*course) : unreadable(course.error());
 }
 
 /// A copy that the answer may remove once it is sent: the record itself, whole, which `steadyrest

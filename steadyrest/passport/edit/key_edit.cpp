@@ -13,7 +13,6 @@
 namespace steadyrest::passport {
 namespace {
 
-using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 

@@ -102,6 +102,15 @@ TEST_F(PageApi, LetsAScriptInByItsToken) {
   EXPECT_EQ(desk.api().answer(request).status, 403U) << "an operator's token";
   request.authorization = "Bearer " + token.substr(1) + "x";
   EXPECT_EQ(desk.api().answer(request).status, 401U);
+  request.authorization = "Bearer " + token;
+  auto stream = desk.api().admit(request);
+  ASSERT_TRUE(std::holds_alternative<web::Server::Admitted>(stream));
+  EXPECT_TRUE(std::get<web::Server::Admitted>(stream).goes_on());
+  auto accounts = web::Accounts::read(file).value();
+  accounts.remove_token("script");
+  ASSERT_TRUE(accounts.write(file));
+  EXPECT_FALSE(std::get<web::Server::Admitted>(stream).goes_on());
+  EXPECT_EQ(desk.api().answer(request).status, 401U);
 }
 
 TEST_F(PageApi, ActTakesAConfirmationAndHandingBackNone) {
