@@ -25,8 +25,8 @@ class LivePage {
     // NOLINTEND(readability-redundant-member-init)
   };
 
-  /// Refused: an address that others reach without accounts or without TLS, unless a proxy stands
-  /// before it; accounts, certificate or key that cannot be used.
+  /// Refused: an address that others reach without accounts or without TLS, unless it is
+  /// behind a proxy; accounts, certificate or key that cannot be used.
   [[nodiscard]] static kernel::outcome::Result<void> check(const Config& config);
   /// `desk` outlives the page. Refused: as check(), and an address that cannot be had.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<LivePage>> open(const Config& config,

@@ -13,8 +13,8 @@ namespace steadyrest::apps::live_page {
 
 /// Who is at the other end: by a session's cookie or a script's token.
 ///
-/// Without a file of accounts the process has a key of its own, of the role engineer: whoever may
-/// see what `run` prints may use it.
+/// Without an accounts file the process makes a key with the role engineer: anyone who can see what
+/// `run` prints can use it.
 class Login {
  public:
   struct Config {

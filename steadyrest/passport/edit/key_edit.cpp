@@ -35,7 +35,7 @@ class Editor {
   Editor(std::string_view text, const toml::table& tree)
       : text_(text), tree_(tree), places_(text) {}
 
-  /// False: the section has no lines of its own.
+  /// False: the section is not written as a table with a key in each line.
   bool set(const NewValue& value) {
     const toml::node* const section = tree_.at_path(value.section).node();
     const std::string line = value.key + " = " + value.value + "\n";
@@ -124,7 +124,8 @@ Result<std::string> with_keys(std::string_view text, const std::string& file,
                     "give a number, true, false, a word or a list");
     }
     if (!editor.set(value)) {
-      return refuse(file, fmt::format("[{}] has no lines of its own", value.section),
+      return refuse(file,
+                    fmt::format("[{}] is not a section with a key in each line", value.section),
                     fmt::format("write it as a section [{}], a key in each line", value.section));
     }
   }

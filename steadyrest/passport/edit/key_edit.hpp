@@ -19,7 +19,7 @@ struct NewValue {
 /// The text with these values; a missing key is added at the top of its section, a missing section
 /// at the end. Comments and every other byte stay, and the result is read back. Whether a value is
 /// allowed is for the reader (parse()). Refused: a text that is no TOML, a section in a form
-/// without lines of its own (inline table, dotted keys), a value that is none.
+/// that is not one key in each line (inline table, dotted keys), an invalid value.
 [[nodiscard]] kernel::outcome::Result<std::string> with_keys(std::string_view text,
                                                              const std::string& file,
                                                              const std::vector<NewValue>& values);

@@ -38,7 +38,7 @@ class PageDesk {
     return out;
   }
 
-  /// Logs in; what is asked from here on is asked by this session.
+  /// Logs in; later requests belong to this log-in.
   void log_in(const std::string& body) {
     const web::Response got = api_.answer(request("POST", "/api/v1/session", body));
     for (const auto& [name, value] : got.head) {

@@ -59,7 +59,7 @@ TEST(KeyEdit, RefusesWhatIsNoValueOrHasNoPlace) {
   EXPECT_THAT(changed({{"contour", "limit_um", "]"}}), HasSubstr("no value"));
   EXPECT_THAT(changed({{"contour", "limit_um", "1 # x\n"}}), HasSubstr("no value"));
   EXPECT_THAT(changed({{"contour", "limit_um", "1"}}, "contour = { limit_um = 2 }\n"),
-              HasSubstr("no lines of its own"));
+              HasSubstr("not a section with a key in each line"));
   EXPECT_THAT(changed({{"contour", "margin", "1"}}, "contour.limit_um = 2\n"),
               HasSubstr("refused"));
   EXPECT_THAT(changed({{"contour", "limit_um", "1"}}, "[contour\n"), HasSubstr("no TOML"));
