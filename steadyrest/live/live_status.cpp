@@ -31,6 +31,9 @@ void look_at(const supervisor::Supervisor& layer, LiveStatus& into) noexcept {
   const kernel::signal::Frame& frame = layer.frame();
   const auto in_force = layer.in_force();
   look_at_rooms(layer.estimates(), into);
+  if (const auto* const modulation = layer.modulation()) {
+    into.modulation = *modulation;
+  }
   into.time_s = frame.time_s;
   into.mode_in_force = layer.mode_in_force();
   into.motion = frame.motion;

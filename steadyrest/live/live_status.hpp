@@ -50,6 +50,7 @@ struct LiveStatus {
   bool path_known = false;
   bool chatter_on = false;  ///< the chatter room is on
   bool modulates = false;
+  chatter::online::Modulation modulation;  ///< in force, where the room is on
   double modulation_goal_ratio = 1.0;  ///< of the modulator, before drive and steps
   double modulation_phase = 0.0;       ///< in periods, [0, 1)
   double feed_per_tooth_ratio = 1.0;

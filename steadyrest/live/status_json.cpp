@@ -17,6 +17,7 @@ using kernel::units::um_from_mm;
 constexpr std::array<std::string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr double kPercent = 100.0;
 constexpr double kUs_s = 1e6;
+constexpr std::size_t kMostShown = 40;
 constexpr std::array<const char*, 4> kOf = {"feed", "spindle", "offset", "path_offset"};
 
 Json offsets(const AxisValues& mm) {
@@ -38,6 +39,18 @@ std::optional<Mode> mode_of(std::string_view word) noexcept {
   return at == kModes.end() ? std::nullopt : std::optional(static_cast<Mode>(at - kModes.begin()));
 }
 
+std::string shown(const Json& value) {
+  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "…";
+}
+
+Json modulation_json(const chatter::online::Modulation& modulation) {
+  return {{"law", chatter::online::name(modulation.law)},
+          {"amplitude_ratio", modulation.amplitude_ratio},
+          {"period_s", modulation.period_s},
+          {"mean_ratio", modulation.mean_ratio}};
+}
+
 Json status_json(const LiveStatus& status) {
   Json out;
   out["mode"] = word(status.mode_in_force);
@@ -55,6 +68,7 @@ Json status_json(const LiveStatus& status) {
   out["feed_effective_percent"] = kPercent * status.feed_effective_ratio;
   out["spindle_percent"] = kPercent * status.spindle_ratio;
   out["spindle_effective_percent"] = kPercent * status.spindle_effective_ratio;
+  out["modulation"] = status.chatter_on ? modulation_json(status.modulation) : Json(nullptr);
   out["offset_um"] = offsets(status.offset_mm);
   out["path_offset_um"] = offsets(status.path_offset_mm);
   out["reasons"] = Json::array();

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/live/test/desk.hpp>
+
+namespace steadyrest::live::test {
+
+/// The chatter room modulates in every cut; Z has a thermal model.
+inline kernel::machine::Machine with_rooms(kernel::machine::Machine machine) {
+  machine.chatter.enabled = true;
+  machine.chatter.m_code_on = machine.chatter.m_code_off = 0;
+  machine.thermal.enabled = true;
+  kernel::machine::ThermalAxis z;
+  z.name = "Z";
+  z.mode.emplace_back();
+  z.mode[0].tau_s = 600.0;
+  z.mode[0].speed_rev_s = {0.0, 100.0};
+  z.mode[0].level_mm = {0.0, 0.010};
+  machine.thermal.axis = {z};
+  return machine;
+}
+
+/// The desk with both rooms on.
+struct RoomsDesk : Desk {
+  RoomsDesk() {
+    machine = with_rooms(machine);
+    layer.emplace(supervisor::Supervisor::make(machine, port->capability()).value());
+  }
+};
+
+}  // namespace steadyrest::live::test
