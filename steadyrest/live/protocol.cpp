@@ -28,7 +28,7 @@ std::string grant(const Asked& of, const Json& request, bool modulates) {
   const auto machine = of.reloader->running();
   const auto wish = modulates ? modulation_wish(request, machine, author_of(request))
                               : measured_wish(request, machine, author_of(request));
-  const auto outcome = wish ? ask_loop(of.loop, *wish) : std::unexpected(wish.error());
+  const auto outcome = wish ? granted(of.loop.ask(*wish)) : std::unexpected(wish.error());
   if (!outcome) {
     return error(outcome.error().what, outcome.error().to_do);
   }

@@ -17,7 +17,6 @@ using kernel::units::um_from_mm;
 constexpr std::array<std::string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr double kPercent = 100.0;
 constexpr double kUs_s = 1e6;
-constexpr std::size_t kMostShown = 40;
 constexpr std::array<const char*, 4> kOf = {"feed", "spindle", "offset", "path_offset"};
 
 Json offsets(const AxisValues& mm) {
@@ -37,18 +36,6 @@ std::string_view word(Mode mode) noexcept {
 std::optional<Mode> mode_of(std::string_view word) noexcept {
   const auto* const at = std::ranges::find(kModes, word);
   return at == kModes.end() ? std::nullopt : std::optional(static_cast<Mode>(at - kModes.begin()));
-}
-
-std::string shown(const Json& value) {
-  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "…";
-}
-
-Json modulation_json(const chatter::online::Modulation& modulation) {
-  return {{"law", chatter::online::name(modulation.law)},
-          {"amplitude_ratio", modulation.amplitude_ratio},
-          {"period_s", modulation.period_s},
-          {"mean_ratio", modulation.mean_ratio}};
 }
 
 Json status_json(const LiveStatus& status) {

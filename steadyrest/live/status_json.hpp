@@ -2,28 +2,20 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-
-#include <nlohmann/json.hpp>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/loop.hpp>
 #include <steadyrest/live/reloader.hpp>
+#include <steadyrest/live/wish/wish_json.hpp>
 
 namespace steadyrest::live {
-
-using Json = nlohmann::ordered_json;
 
 [[nodiscard]] std::string_view word(kernel::machine::Mode mode) noexcept;
 /// None for a word that is no mode.
 [[nodiscard]] std::optional<kernel::machine::Mode> mode_of(std::string_view word) noexcept;
 
-/// Of a client's words, as much as a message needs.
-[[nodiscard]] std::string shown(const Json& value);
-/// `law`, `amplitude_ratio`, `period_s`, `mean_ratio`.
-[[nodiscard]] Json modulation_json(const chatter::online::Modulation& modulation);
 /// The keys of `status` (docs/live-protocol.md); µm, percent.
 [[nodiscard]] Json status_json(const LiveStatus& status);
 /// `number`, `utc`, `outcome`, `words`; null before the first.

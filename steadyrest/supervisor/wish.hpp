@@ -34,8 +34,8 @@ struct ShortText {
 
 /// A measured size: how far an axis is from its proper place, with the offset in force.
 struct Measured {
-  std::size_t axis = 0;       ///< by the machine's axes
-  ShortText<16> name;         ///< of that axis, for people
+  std::size_t axis = 0;  ///< by the machine's axes
+  ShortText<16> name;    ///< of that axis, for people
   double displacement_mm = 0.0;
   double sd_mm = 0.0;  ///< ≥ 0; 0: the noise of the thermal passport
 };

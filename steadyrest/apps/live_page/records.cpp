@@ -101,9 +101,8 @@ web::Response details(const std::string& file, const std::string& name) {
   const auto& totals = reader->totals();
   Json events = Json::array();
   for (const record::Event& event : reader->events()) {
-    events.push_back({{"t_s", event.time_s},
-                      {"kind", record::word(event.kind)},
-                      {"text", words_of(event)}});
+    events.push_back(
+        {{"t_s", event.time_s}, {"kind", record::word(event.kind)}, {"text", words_of(event)}});
   }
   return answer({{"record",
                   {{"run",

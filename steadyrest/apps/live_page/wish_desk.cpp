@@ -21,7 +21,7 @@ web::Response set_modulation(const Desk& desk, const Json& asked, const std::str
   if (!wish) {
     return refused(wish.error());
   }
-  if (const auto done = steadyrest::live::ask_loop(desk.asked.loop, *wish); !done) {
+  if (const auto done = steadyrest::live::granted(desk.asked.loop.ask(*wish)); !done) {
     return refused(done.error());
   }
   return answer({{"modulation", steadyrest::live::modulation_json(
@@ -34,7 +34,7 @@ web::Response enter_measured(const Desk& desk, const Json& asked, const std::str
   if (!wish) {
     return refused(wish.error());
   }
-  const auto done = steadyrest::live::ask_loop(desk.asked.loop, *wish);
+  const auto done = steadyrest::live::granted(desk.asked.loop.ask(*wish));
   return done ? answer({{"verdict", steadyrest::live::verdict_json(*done)}})
               : refused(done.error());
 }

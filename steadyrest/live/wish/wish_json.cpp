@@ -26,6 +26,7 @@ using supervisor::WishOutcome;
 
 /// As far as any offset of a machine file goes: a larger error is no matter of heat.
 constexpr ModulationRange kDisplacement_um{-1e4, 1e4};
+constexpr std::size_t kMostShown = 40;
 constexpr ModulationRange kSd_um{0.0, 1e3};
 
 Result<double> number(const Json& keys, const char* name, const ModulationRange& range) {
@@ -54,9 +55,9 @@ supervisor::ShortText<64> author_of(std::string_view author) {
 std::vector<std::string> measurable(const Machine& machine) {
   std::vector<std::string> out;
   for (const kernel::machine::Axis& axis : machine.axes) {
-    if (!axis.rotary && std::ranges::find(machine.thermal.axis, axis.name,
-                                          &kernel::machine::ThermalAxis::name) !=
-                            machine.thermal.axis.end()) {
+    if (!axis.rotary &&
+        std::ranges::find(machine.thermal.axis, axis.name, &kernel::machine::ThermalAxis::name) !=
+            machine.thermal.axis.end()) {
       out.push_back(axis.name);
     }
   }
@@ -72,8 +73,8 @@ Result<std::size_t> axis_of(const Json& keys, const Machine& machine) {
                               fmt::join(allowed, ", ")),
                   "name one of these as `axis`");
   }
-  const auto at = std::ranges::find(machine.axes, name.get<std::string>(),
-                                    &kernel::machine::Axis::name);
+  const auto at =
+      std::ranges::find(machine.axes, name.get<std::string>(), &kernel::machine::Axis::name);
   return static_cast<std::size_t>(at - machine.axes.begin());
 }
 
@@ -84,12 +85,25 @@ std::unexpected<kernel::outcome::Refusal> room_off(const char* room) {
 
 }  // namespace
 
+std::string shown(const Json& value) {
+  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "…";
+}
+
+Json modulation_json(const chatter::online::Modulation& modulation) {
+  return {{"law", chatter::online::name(modulation.law)},
+          {"amplitude_ratio", modulation.amplitude_ratio},
+          {"period_s", modulation.period_s},
+          {"mean_ratio", modulation.mean_ratio}};
+}
+
 Result<Wish> modulation_wish(const Json& keys, const Machine& machine, std::string_view author) {
   if (!machine.chatter.enabled) {
     return room_off("chatter");
   }
   const Json name = keys.value("law", Json());
-  const auto law = name.is_string() ? chatter::online::law_of(name.get<std::string>()) : std::nullopt;
+  const auto law =
+      name.is_string() ? chatter::online::law_of(name.get<std::string>()) : std::nullopt;
   if (!law) {
     return refuse(fmt::format("the law {} is not known; allowed: {}", shown(name),
                               fmt::join(kernel::machine::kSpeedLawNames, ", ")),
@@ -132,10 +146,10 @@ Result<Wish> measured_wish(const Json& keys, const Machine& machine, std::string
       .author = author_of(author)};
 }
 
-Result<WishOutcome> ask_loop(Loop& loop, const Wish& wish) {
-  const auto outcome = loop.ask(wish);
+Result<WishOutcome> granted(std::optional<WishOutcome> outcome) {
   if (!outcome) {
-    return refuse("the loop does not cycle: nothing was changed", "see whether the layer still runs");
+    return refuse("the loop does not cycle: nothing was changed",
+                  "see whether the layer still runs");
   }
   switch (*outcome) {
     case WishOutcome::taken:

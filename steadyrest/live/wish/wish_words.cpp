@@ -16,7 +16,8 @@ constexpr double kPercent = 100.0;
 constexpr double kMinute_s = 60.0;
 
 std::string words_of(const Modulation& m) {
-  const std::string mean = fmt::format("mean {:.4g} % of the programmed speed", kPercent * m.mean_ratio);
+  const std::string mean =
+      fmt::format("mean {:.4g} % of the programmed speed", kPercent * m.mean_ratio);
   if (m.law == chatter::online::Law::constant) {
     return fmt::format("set the modulation: constant, {}", mean);
   }

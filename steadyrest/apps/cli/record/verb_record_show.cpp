@@ -103,8 +103,7 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
                                      {"kind", record::word(event.kind)},
                                      {"text", event.text},
                                      {"words", words}});
-    answer.text +=
-        fmt::format("{:.3f} s {}: {}\n", event.time_s, record::word(event.kind), words);
+    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, record::word(event.kind), words);
   }
   return answer;
 }

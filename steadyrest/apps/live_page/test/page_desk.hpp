@@ -24,10 +24,8 @@ class PageDesk {
     rooms     ///< all rooms, until it is told to stop
   };
   explicit PageDesk(const std::string& accounts = {}, Of of = Of::contour)
-      : machine_(of == Of::rooms ? steadyrest::live::test::RoomsDesk()
-                                 : steadyrest::live::test::Desk()),
-        most_cycles_(of == Of::rooms ? 0 : 100),
-        loop_(*machine_.port, *machine_.layer, machine_.pace, config()),
+      : most_cycles_(of == Of::rooms ? 0 : 100),
+        loop_(*machine_.port, layer_of(machine_, of), machine_.pace, config()),
         desk_{.asked = {.loop = loop_, .port = "sim"},
               .tap = tap_,
               .machine = machine_.machine,
@@ -85,6 +83,12 @@ class PageDesk {
   std::vector<std::string> wishes;
 
  private:
+  static supervisor::Supervisor& layer_of(steadyrest::live::test::Desk& machine, Of of) {
+    if (of == Of::rooms) {
+      steadyrest::live::test::switch_rooms_on(machine);
+    }
+    return *machine.layer;
+  }
   steadyrest::live::Loop::Config config() {
     steadyrest::live::Loop::Config out{.period_s = machine_.machine.control.interpolator_period_s,
                                        .contour_limit_mm = 0.01,

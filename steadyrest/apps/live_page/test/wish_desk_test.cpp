@@ -92,9 +92,8 @@ TEST_F(WishDesk, AnOperatorEntersAMeasuredSize) {
   EXPECT_EQ(outlier["reason"], "thermal_reading_outlier");
   EXPECT_THAT(outlier["sentence"].get<std::string>(), HasSubstr("rejected"));
   stop();
-  EXPECT_THAT(desk.wishes,
-              ElementsAre("measure 2 Z 5e-04 0.001 taken page: otto (operator)",
-                          "measure 2 Z 5 0.001 rejected page: otto (operator)"));
+  EXPECT_THAT(desk.wishes, ElementsAre("measure 2 Z 5e-04 0.001 taken page: otto (operator)",
+                                       "measure 2 Z 5 0.001 rejected page: otto (operator)"));
 }
 
 TEST_F(WishDesk, AViewerMayNeither) {
@@ -122,8 +121,9 @@ TEST_F(WishDesk, RefusesWhatIsNoWish) {
       HasSubstr("`amplitude_ratio` 2 is out of range; allowed: 0 … 0.9"));
   EXPECT_LT(refused(kModulation, R"({"law":")" + std::string(60000, 'x') + "\"}").size(), 300U);
   for (const char* const axis : {"X", "A", "", "Z "}) {
-    EXPECT_THAT(refused(kMeasured, Json{{"axis", axis}, {"displacement_um", 1}, {"sd_um", 1}}.dump()),
-                HasSubstr("has no thermal model; allowed: Z"));
+    EXPECT_THAT(
+        refused(kMeasured, Json{{"axis", axis}, {"displacement_um", 1}, {"sd_um", 1}}.dump()),
+        HasSubstr("has no thermal model; allowed: Z"));
   }
   EXPECT_THAT(refused(kMeasured, R"({"axis":"Z","displacement_um":20000,"sd_um":1})"),
               HasSubstr("allowed: -10000 … 10000"));

@@ -20,12 +20,15 @@ inline kernel::machine::Machine with_rooms(kernel::machine::Machine machine) {
   return machine;
 }
 
+/// A new layer with both rooms on.
+inline void switch_rooms_on(Desk& desk) {
+  desk.machine = with_rooms(desk.machine);
+  desk.layer.emplace(supervisor::Supervisor::make(desk.machine, desk.port->capability()).value());
+}
+
 /// The desk with both rooms on.
 struct RoomsDesk : Desk {
-  RoomsDesk() {
-    machine = with_rooms(machine);
-    layer.emplace(supervisor::Supervisor::make(machine, port->capability()).value());
-  }
+  RoomsDesk() { switch_rooms_on(*this); }
 };
 
 }  // namespace steadyrest::live::test

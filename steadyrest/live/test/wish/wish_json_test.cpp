@@ -37,8 +37,8 @@ TEST(WishJson, TakesAModulationWithTheFilesSeed) {
   auto seeded = machine();
   seeded.chatter.seed = 77;
   seeded.chatter.amplitude_rev_s = 3.0;
-  const Json keys = Json::parse(
-      R"({"law":"random","amplitude_ratio":0.25,"period_s":0.02,"mean_ratio":2})");
+  const Json keys =
+      Json::parse(R"({"law":"random","amplitude_ratio":0.25,"period_s":0.02,"mean_ratio":2})");
   const auto wish = modulation_wish(keys, seeded, "otto").value();
   const auto& modulation = std::get<chatter::online::Modulation>(wish.what);
   EXPECT_EQ(modulation_json(modulation), keys);
@@ -129,10 +129,11 @@ class SocketWish : public ::testing::Test {
                            author = wish.author.view();
                          }}};
   Reloader reloader{
-      loop, {.running = desk.machine,
-             .make = [](const auto&) -> kernel::outcome::Result<std::unique_ptr<Successor>> {
-               return kernel::outcome::refuse("no", "yes");
-             }}};
+      loop,
+      {.running = desk.machine,
+       .make = [](const auto&) -> kernel::outcome::Result<std::unique_ptr<Successor>> {
+         return kernel::outcome::refuse("no", "yes");
+       }}};
   std::thread thread;
 };
 
@@ -156,8 +157,7 @@ TEST_F(SocketWish, EntersAReading) {
   EXPECT_EQ(outlier["taken"], false);
   EXPECT_EQ(outlier["reason"], "thermal_reading_outlier");
   EXPECT_THAT(outlier["sentence"].get<std::string>(), HasSubstr("rejected"));
-  EXPECT_THAT(ask(of + "1e999}")["error"]["what"].get<std::string>(),
-              HasSubstr("no JSON object"));
+  EXPECT_THAT(ask(of + "1e999}")["error"]["what"].get<std::string>(), HasSubstr("no JSON object"));
   EXPECT_THAT(ask(of + "NaN}")["error"]["what"].get<std::string>(), HasSubstr("no JSON object"));
   stop();
   EXPECT_EQ(author, "socket");

@@ -66,8 +66,7 @@ struct Rooms : Bench {
     return grant(
         supervisor,
         {.what =
-             Measured{
-                 .axis = axis, .name = {}, .displacement_mm = displacement_mm, .sd_mm = sd_mm},
+             Measured{.axis = axis, .name = {}, .displacement_mm = displacement_mm, .sd_mm = sd_mm},
          .author = {}});
   }
 };
@@ -125,8 +124,8 @@ TEST(Wish, ALayerThatListensTakesNoModulation) {
   better.table.speed_rev_s = {60.0, 100.0};
   better.table.limit_depth_mm = {0.1, 0.1};
   better.detector.sample_rate_hz = 10e3;
-  ASSERT_TRUE(bench.supervisor.listen(
-      ListeningStage::make({.better = better, .depth_mm = 1.0}).value()));
+  ASSERT_TRUE(
+      bench.supervisor.listen(ListeningStage::make({.better = better, .depth_mm = 1.0}).value()));
   EXPECT_EQ(bench.modulate(kNinety), WishOutcome::listening);
 }
 

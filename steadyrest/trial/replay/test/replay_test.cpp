@@ -136,7 +136,8 @@ TEST_F(Replay, GrantsWhatSomebodyAskedForInTheSameCycle) {
     const auto without = replay(file_, machine).value();
     ASSERT_TRUE(without.first_difference);
     EXPECT_GE(without.first_difference->cycle, 400U);
-    EXPECT_THAT(without.first_difference->fields, ::testing::Contains(::testing::StartsWith(field)));
+    EXPECT_THAT(without.first_difference->fields,
+                ::testing::Contains(::testing::StartsWith(field)));
   }
 }
 

@@ -78,8 +78,7 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
       if (asked.at == cut.cycles) {
         const auto outcome = supervisor::grant(layer, asked.wish);
         cut.outcomes.push_back(outcome);
-        writer->event(record::EventKind::wish,
-                      supervisor::text_of(asked.wish, outcome).view());
+        writer->event(record::EventKind::wish, supervisor::text_of(asked.wish, outcome).view());
       }
     }
     const auto command = layer.cycle(port, {}).value();
