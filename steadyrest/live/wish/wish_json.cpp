@@ -26,8 +26,8 @@ using supervisor::WishOutcome;
 
 /// As far as any offset of a machine file goes: a larger error is no matter of heat.
 constexpr ModulationRange kDisplacement_um{-1e4, 1e4};
-constexpr std::size_t kMostShown = 40;
 constexpr ModulationRange kSd_um{0.0, 1e3};
+constexpr std::size_t kMostShown = 40;
 
 Result<double> number(const Json& keys, const char* name, const ModulationRange& range) {
   const auto at = keys.find(name);

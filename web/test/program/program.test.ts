@@ -14,7 +14,7 @@ const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
 const machine = join(folder, 'machine.toml');
 
-/** Modulates in every cut; Z has a thermal model. */
+/** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
 const ROOMS = `
 [chatter]
 enabled = true
@@ -27,7 +27,7 @@ name = "Z"
 [[thermal.axis.mode]]
 tau_min = 15
 speeds_rpm = [0, 6000]
-levels_um = [0, 10]
+levels_um = [0, 0]
 `;
 
 let run: ChildProcess;

@@ -47,7 +47,8 @@ export function boundsFault({ lower_percent, upper_percent, frequency_hz }: Boun
   return frequency_hz > 0 ? '' : t('bad_frequency');
 }
 
-const number = (input: HTMLInputElement) => Number(input.value.trim().replace(',', '.') || NaN);
+/** What nobody has touched stays exact: a field shows four figures. */
+const number = (input: HTMLInputElement, shown: number) => (input.value === input.defaultValue ? shown : Number(input.value.trim().replace(',', '.') || NaN));
 const input = (name: string, value: number) => h('input', { id: name, value: plain(value, 4).replace('−', '-'), inputmode: 'decimal', autocomplete: 'off' });
 
 const isWords = (m: Modulation) => t('modulation_is', { mean: plain(100 * m.mean_ratio, 4), amplitude: plain(100 * m.amplitude_ratio, 3), period: plain(m.period_s, 3) });
@@ -91,7 +92,7 @@ function form(context: Context, now: Modulation): HTMLElement {
   laws.id = 'law';
   const words = h('p', { class: 'hint', id: 'modulation-is' });
   const fault = h('p', { class: 'fault', role: 'alert' });
-  const bounds = (): Bounds => ({ lower_percent: number(lower), upper_percent: number(upper), frequency_hz: number(hz) });
+  const bounds = (): Bounds => ({ lower_percent: number(lower, at.lower_percent), upper_percent: number(upper, at.upper_percent), frequency_hz: number(hz, at.frequency_hz) });
   const tell = () => {
     const why = boundsFault(bounds());
     setText(fault, why);
@@ -106,16 +107,16 @@ function form(context: Context, now: Modulation): HTMLElement {
     }
   };
   [lower, upper, hz].forEach((i) => i.addEventListener('input', tell));
-  const made = h('form', { class: 'fields', id: 'modulation' }, field(t('law'), laws), field(t('lower_bound'), lower), field(t('upper_bound'), upper), field(t('modulation_hz'), hz), h('button', { type: 'submit', class: 'strong', id: 'set-modulation' }, t('set_now')));
+  const file = h('div', {}, button(t('into_file'), () => use(putIntoFile), { id: 'modulation-into-file' }));
+  // One reason is enough.
+  const gated = may(context.session.role, 'operator') ? gate(context.session, 'engineer', file) : file;
+  const made = h('form', { class: 'fields', id: 'modulation' }, field(t('law'), laws), field(t('lower_bound'), lower), field(t('upper_bound'), upper), field(t('modulation_hz'), hz), h('button', { type: 'submit', class: 'strong', id: 'set-modulation' }, t('set_now')), gated);
   made.addEventListener('submit', (event) => {
     event.preventDefault();
     use(setNow);
   });
-  const file = h('div', { class: 'to-file' }, button(t('into_file'), () => use(putIntoFile), { id: 'modulation-into-file' }));
   tell();
-  // One reason is enough.
-  const gated = may(context.session.role, 'operator') ? gate(context.session, 'engineer', file) : file;
-  return gate(context.session, 'operator', h('div', {}, made, words, gated, fault));
+  return gate(context.session, 'operator', h('div', {}, made, words, fault));
 }
 
 export function modulationPart(context: Context): Part {
