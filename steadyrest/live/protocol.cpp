@@ -20,7 +20,8 @@ std::string error(const std::string& what, const std::string& to_do) {
 /// Who asks, as a record shows it.
 std::string author_of(const Json& request) {
   const Json author = request.value("author", Json());
-  return author.is_string() && author != "" ? "socket: " + author.get<std::string>() : "socket";
+  const std::string name = author.is_string() ? author.get<std::string>() : "";
+  return name.empty() ? "socket" : "socket: " + name;
 }
 
 /// A wish for the rooms: an answer with what is in force, or the verdict on a reading.

@@ -60,9 +60,8 @@ class Words {
   Number number() noexcept {
     const std::string_view digits = word();
     Number value{};
-    const char* const end = digits.data() + digits.size();
-    const auto read = std::from_chars(digits.data(), end, value);
-    good_ = good_ && read.ec == std::errc() && read.ptr == end;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    good_ = good_ && read.ec == std::errc() && read.ptr == digits.data() + digits.size();
     return value;
   }
   void demand(bool what) noexcept { good_ = good_ && what; }

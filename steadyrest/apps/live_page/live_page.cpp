@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -91,8 +92,7 @@ class Page final : public LivePage {
   /// What may change of a hello.
   struct Told {
     std::uint64_t reload = 0;
-    bool modulates = false;
-    chatter::online::Modulation modulation;
+    std::optional<chatter::online::Modulation> modulation;
     friend bool operator==(const Told&, const Told&) = default;
   };
 
@@ -104,9 +104,7 @@ class Page final : public LivePage {
       const auto reload = desk_.asked.reloader->status();
       now.reload = reload.taken ? reload.number : told_.reload;
     }
-    const auto status = desk_.asked.loop.status();
-    now.modulates = status.chatter_on;
-    now.modulation = status.modulation;
+    now.modulation = desk_.asked.loop.status().modulation;
     if (now != told_) {
       told_ = now;
       server_->announce(std::make_shared<const std::string>(frames_.hello()));

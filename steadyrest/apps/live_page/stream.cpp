@@ -141,10 +141,10 @@ Json chatter_json(const LiveStatus& status) {
 
 /// That in force; before the first cycle that of the machine file. Null where the room is off.
 Json modulation_of(const LiveStatus& status, const kernel::machine::Machine& machine) {
-  if (status.chatter_on) {
-    return steadyrest::live::modulation_json(status.modulation);
+  if (status.modulation) {
+    return steadyrest::live::modulation_json(*status.modulation);
   }
-  if (!machine.chatter.enabled) {
+  if (status.cycles > 0 || !machine.chatter.enabled) {
     return nullptr;
   }
   return {{"law", passport::word(machine.chatter.law)},

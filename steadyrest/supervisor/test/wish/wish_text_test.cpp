@@ -24,7 +24,7 @@ std::uint64_t bits(double value) {
 /// Any bits of a number.
 double any(std::mt19937_64& random) {
   for (;;) {
-    if (const double value = std::bit_cast<double>(random()); !std::isnan(value)) {
+    if (const auto value = std::bit_cast<double>(random()); !std::isnan(value)) {
       return value;
     }
   }
