@@ -52,8 +52,8 @@ struct LiveStatus {
   bool chatter_on = false;  ///< the chatter room is on
   bool modulates = false;
   std::optional<chatter::online::Modulation> modulation;  ///< in force; none: the room is off
-  double modulation_goal_ratio = 1.0;      ///< of the modulator, before drive and steps
-  double modulation_phase = 0.0;           ///< in periods, [0, 1)
+  double modulation_goal_ratio = 1.0;  ///< of the modulator, before drive and steps
+  double modulation_phase = 0.0;       ///< in periods, [0, 1)
   double feed_per_tooth_ratio = 1.0;
   bool heat_on = false;  ///< the thermal room is on
   std::uint8_t axis_count = 0;

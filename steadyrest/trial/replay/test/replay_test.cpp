@@ -145,6 +145,7 @@ TEST_F(Replay, GrantsWhatSomebodyAskedForInTheSameCycle) {
 TEST_F(Replay, GrantsWhatWasRejectedToo) {
   const Machine machine = with_rooms();
   std::vector<testing::WishAt> wishes;
+  wishes.reserve(6);
   for (std::uint64_t i = 0; i < 6; ++i) {
     wishes.push_back({.at = 300 + 10 * i, .wish = reading(1.0)});
   }
