@@ -131,12 +131,14 @@ int main(int argc, char** argv) {
   std::size_t cycles = 30'000;
   double period_s = 0.001;
   bool deaf = false;
+  bool watched = false;
   double path_offset_mm = 0.0;
   app.add_option("--machine", name, "of examples/machines")->capture_default_str();
   app.add_option("--cycles", cycles)->capture_default_str();
   app.add_option("--period-s", period_s)->capture_default_str();
   app.add_option("--path-offset-mm", path_offset_mm, "offsets against the contour error, up to");
   app.add_flag("--deaf", deaf, "without the chatter detector, as steadyrest run has it");
+  app.add_flag("--watched", watched, "somebody looks at the page");
   CLI11_PARSE(app, argc, argv)
   auto machine = rig::everything_on(name);
   machine.envelope.max_path_offset_mm = path_offset_mm;
@@ -144,11 +146,14 @@ int main(int argc, char** argv) {
   auto layer = deaf ? supervisor::Supervisor::make(machine, port->capability()).value()
                     : rig::listening(machine, port->capability());
   WatchingPace pace(period_s, layer, cycles);
+  live::Tap tap;
+  tap.watch(watched);
   live::Loop loop(*port, layer, pace,
                   {.period_s = period_s,
                    .contour_limit_mm = machine.contour.limit_mm,
                    .mode = kernel::machine::Mode::act,
-                   .most_cycles = cycles});
+                   .most_cycles = cycles,
+                   .tap = &tap});
   const auto real_time = live::ask_for_real_time();
   const live::LoopFigures& figures = loop.run();
   fmt::print("{}, {} cycles of {:g} ms, real-time priority: {}\n", machine.name, figures.cycles,
