@@ -50,6 +50,7 @@ struct Cycle {
   bool switched = false;
   bool faulted = false;
   bool decided = false;  ///< the feed governor searched in it
+  bool sees = false;     ///< a path ahead: a step is looked at while somebody watches
 };
 
 /// Notes at each look at the clock what the loop's thread has used: the last two before a wait are
@@ -67,7 +68,8 @@ class WatchingPace final : public live::Pace {
                          .own_us = kUs_s * (last_.own_s - before_.own_s),
                          .switched = last_.switched != before_.switched,
                          .faulted = last_.faults != before_.faults,
-                         .decided = contour && contour->decided});
+                         .decided = contour && contour->decided,
+                         .sees = layer_.previews()});
     }
     return pace_.wait();
   }
@@ -100,6 +102,15 @@ void print_quantiles(const char* name, const std::vector<Cycle>& cycles, Value v
   };
   fmt::print("{:<28} p50 {:7.1f}   p99 {:7.1f}   p99.9 {:7.1f}   worst {:7.1f} µs\n", name, at(0.5),
              at(0.99), at(0.999), all.back());
+}
+
+template <class Which>
+void print_some(const char* name, const std::vector<Cycle>& cycles, Which which) {
+  std::vector<Cycle> some;
+  std::ranges::copy_if(cycles, std::back_inserter(some), which);
+  if (!some.empty()) {
+    print_quantiles(name, some, [](const Cycle& c) { return c.own_us; });
+  }
 }
 
 void print_long(const std::vector<Cycle>& cycles, double limit_us) {
@@ -161,12 +172,9 @@ int main(int argc, char** argv) {
   print_quantiles("work by the wall clock", pace.cycles(),
                   [](const Cycle& c) { return c.wall_us; });
   print_quantiles("its own processor time", pace.cycles(), [](const Cycle& c) { return c.own_us; });
-  std::vector<Cycle> decided;
-  std::ranges::copy_if(pace.cycles(), std::back_inserter(decided),
-                       [](const Cycle& c) { return c.decided; });
-  if (!decided.empty()) {
-    print_quantiles("… in cycles that decide", decided, [](const Cycle& c) { return c.own_us; });
-  }
+  print_some("… in cycles that decide", pace.cycles(), [](const Cycle& c) { return c.decided; });
+  print_some("… that see a path, and do not", pace.cycles(),
+             [](const Cycle& c) { return c.sees && !c.decided; });
   print_long(pace.cycles(), 60.0);
   fmt::print("lateness of the wake-up      p50 {:7.1f}   p99.9 {:7.1f} µs; {} overruns\n",
              kUs_s * figures.lateness.quantile_s(0.5), kUs_s * figures.lateness.quantile_s(0.999),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page as the program serves it, on the simulated machine, in a browser. STEADYREST_PROGRAM names the program.
 import { type ChildProcess, spawn } from 'node:child_process';
-import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { appendFileSync, copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -40,6 +40,7 @@ const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`)
 
 beforeAll(async () => {
   copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), machine);
+  appendFileSync(machine, '\n[thermal]\nenabled = true\nmax_offset_um = 60\nslope_um_min = 30\n[[thermal.axis]]\nname = "Z"\n[[thermal.axis.mode]]\ntau_min = 8\nspeeds_rpm = [0, 6000]\nlevels_um = [0, 45]\n');
   run = spawn(PROGRAM, ['run', '--machine', machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(folder, 'runs'), '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
   [address, key] = await started();
   opened = await open(address, `/#key=${key}`, { loggedIn: false });
@@ -76,6 +77,27 @@ it('applies a change of the machine file while it runs', async () => {
   expect(readFileSync(machine, 'utf8')).toContain('limit_um = 12.5');
   await go('now');
   await until(String.raw`/12\.5\sµm/.test(document.body.textContent)`);
+});
+
+it('says what each step of the override would give, and what the encoders are', async () => {
+  await go('contour');
+  await until(`document.querySelectorAll('#steps .step-row').length === 23`);
+  await until(String.raw`[...document.querySelectorAll('#steps .step-row .value')].every((e) => /^[\d.]+\sµm$/.test(e.textContent))`);
+  expect(await opened.page.$$eval('#steps .step-row.in-force', (all) => all.length)).toBe(1);
+  await go('motion');
+  await until(`document.querySelectorAll('#encoders tbody tr').length === 3`);
+  expect(await text('#encoders tbody')).toContain('edges stamped to 100 ns');
+});
+
+it('warms up in the next hour, and says when the offset moves', async () => {
+  await go('thermal');
+  await until(String.raw`/the last|as it does now/.test(document.querySelector('#outlook-of')?.textContent)`);
+  await until(`document.querySelector('#thermal-Z canvas') !== null`);
+  expect(await text('#next-correction')).toContain('none within the hour'); // nothing is corrected in observe
+  await opened.page.click('[data-mode=act]:not(.badge)');
+  await opened.page.click('dialog .strong');
+  await until(String.raw`/^Z(in|\d)/.test(document.querySelector('#corrections-come tbody tr')?.textContent)`);
+  await opened.page.click('#hand-back');
 });
 
 it('has every view, and the record of this run with who did what', async () => {

@@ -23,21 +23,24 @@ Correction* Corrections::still_moving(std::size_t axis, double time_s, double ch
 void Corrections::see(double time_s, const kernel::signal::AxisValues& offset_mm,
                       std::size_t axes) {
   for (std::size_t i = 0; i < std::min(axes, offset_mm.size()); ++i) {
-    const double change_mm = offset_mm[i] - listed_mm_[i];
-    if (!(std::abs(change_mm) >= kStep_mm - kRounding_mm)) {
+    const double away_mm = offset_mm[i] - listed_mm_[i];
+    const double steps = std::floor((std::abs(away_mm) + kRounding_mm) / kStep_mm);
+    if (!(steps >= 1.0)) {
       continue;
     }
+    const double change_mm = std::copysign(steps * kStep_mm, away_mm);
+    const double to_mm = listed_mm_[i] + change_mm;
     if (Correction* const last = still_moving(i, time_s, change_mm)) {
       last->to_s = time_s;
-      last->to_mm = offset_mm[i];
+      last->to_mm = to_mm;
     } else {
       list_.push_back({.from_s = time_s,
                        .to_s = time_s,
                        .axis = i,
                        .from_mm = listed_mm_[i],
-                       .to_mm = offset_mm[i]});
+                       .to_mm = to_mm});
     }
-    listed_mm_[i] = offset_mm[i];
+    listed_mm_[i] = to_mm;
     if (list_.size() > kMost) {
       list_.pop_front();
     }
