@@ -75,8 +75,8 @@ class Tap {
   /// In the cycle, with the frame as it was read: its path lies there.
   void put(const LiveStatus& status, const kernel::signal::Frame& frame) noexcept;
 
-  /// In the cycle, after the write: while somebody watches, one step of the override in turn, by one
-  /// forecast; not in a cycle that decides, unless all of them do. The layer stays as it is.
+  /// In the cycle, after the write: while somebody watches, one step of the override in turn, by
+  /// one forecast; not in a cycle that decides, unless all of them do. The layer stays as it is.
   void look_at_steps(const LiveStatus& status, const supervisor::Supervisor& layer) noexcept;
 
   /// In the cycle, watched or not: a copy of the thermal room once a second.
@@ -98,9 +98,9 @@ class Tap {
   PathAhead next_;
   kernel::rt::Snapshot<StepErrors> steps_;
   StepErrors looked_;
-  std::size_t turn_ = 0;        ///< looks of this round
-  bool steps_shown_ = false;    ///< those in steps_ are of now
-  bool decided_ = false;        ///< the cycle before
+  std::size_t turn_ = 0;      ///< looks of this round
+  bool steps_shown_ = false;  ///< those in steps_ are of now
+  bool decided_ = false;      ///< the cycle before
   kernel::rt::Snapshot<HeatNow> heat_;
   HeatNow heat_next_;
   std::atomic<bool> watched_{false};

@@ -235,8 +235,8 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   }
 }
 
-std::optional<double> Supervisor::preview(
-    double ratio, contour::online::FeedGovernor::Look look) const noexcept {
+std::optional<double> Supervisor::preview(double ratio,
+                                          contour::online::FeedGovernor::Look look) const noexcept {
   return contour_ ? contour_->preview(without_heat(last_frame_, seen_), ratio, look) : std::nullopt;
 }
 

@@ -131,9 +131,8 @@ class Supervisor {
   [[nodiscard]] bool previews() const noexcept { return contour_ && contour_->previews(); }
   /// What a step would give from the last cycle on (FeedGovernor::preview): one forecast, which
   /// changes nothing.
-  [[nodiscard]] std::optional<double> preview(double ratio,
-                                              contour::online::FeedGovernor::Look look)
-      const noexcept;
+  [[nodiscard]] std::optional<double> preview(
+      double ratio, contour::online::FeedGovernor::Look look) const noexcept;
 
   /// Why the last cycle's input was not acted on; none: it was.
   [[nodiscard]] kernel::outcome::Reason unfit() const noexcept { return unfit_; }

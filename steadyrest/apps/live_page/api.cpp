@@ -8,7 +8,7 @@
 
 #include <steadyrest/apps/live_page/api.hpp>
 #include <steadyrest/apps/live_page/assets.hpp>
-#include <steadyrest/apps/live_page/axes/encoders.hpp>
+#include <steadyrest/apps/live_page/encoders.hpp>
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
 #include <steadyrest/live/protocol.hpp>

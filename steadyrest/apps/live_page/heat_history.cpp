@@ -151,8 +151,8 @@ Stretch HeatHistory::between(const Entry& from, const Entry& to) {
 
 HeatHistory::Seen HeatHistory::seen() const {
   const std::scoped_lock lock(mutex_);
-  Seen out{.entries = {}, .lately = {}, .corrections = corrections_, .now = now_,
-           .corrects = corrects_};
+  Seen out{
+      .entries = {}, .lately = {}, .corrections = corrections_, .now = now_, .corrects = corrects_};
   // Every n-th from the newest on: sums of what the room was given lose nothing between them.
   const std::size_t stride = (entries_.size() + kShown - 1) / kShown;
   for (std::size_t back = 0; back < entries_.size(); back += stride) {
@@ -201,7 +201,9 @@ Json HeatHistory::cyclogram_json(const std::vector<Entry>& entries) {
               {"coolant_percent", Json::array()}};
   for (std::size_t i = 1; i < entries.size(); ++i) {
     const Stretch did = between(entries[i - 1], entries[i]);
-    const auto known = [&](double value) { return did.seconds > 0.0 ? rounded(value, 0.01) : Json(); };
+    const auto known = [&](double value) {
+      return did.seconds > 0.0 ? rounded(value, 0.01) : Json();
+    };
     out["t_s"].push_back(rounded(entries[i].time_s, kTime_s));
     out["speed_rpm"].push_back(known(kMinute_s * did.speed_rev_s));
     out["feed_mm_min"].push_back(known(kMinute_s * did.feed_mm_s));

@@ -182,9 +182,7 @@ class FeedGovernor {
   /// Ratios of the table's steps, Forecast::kMaxTable at most.
   [[nodiscard]] std::span<const double> steps() const noexcept { return table_ratio_; }
   /// A decision would be made from a known path: preview() has something to look at.
-  [[nodiscard]] bool previews() const noexcept {
-    return state_.engaged && state_.last.path_known;
-  }
+  [[nodiscard]] bool previews() const noexcept { return state_.engaged && state_.last.path_known; }
   /// The largest contour error ahead with this ratio, mm, signed as Output::predicted_error_mm; of
   /// the last update() and its frame. One forecast, in the cycle or not; it changes nothing, so
   /// decisions are the same with and without it. Empty: no previews(), or the path is not known far

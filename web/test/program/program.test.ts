@@ -1,59 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page as the program serves it, on the simulated machine, in a browser. STEADYREST_PROGRAM names the program.
-import { type ChildProcess, spawn } from 'node:child_process';
-import { appendFileSync, copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
+// The page as the program serves it, on the simulated machine, in a browser.
+import { readFileSync } from 'node:fs';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { until as untilIn } from '../live/look';
+import { Running } from './running';
 
-const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
-const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
-const folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
-const machine = join(folder, 'machine.toml');
-
-let run: ChildProcess;
-let address = '';
-let key = '';
+const running = new Running();
 let opened: Open;
-
-/** Where the program says that its page is. */
-function started(): Promise<[string, string]> {
-  return new Promise((resolve, reject) => {
-    let said = '';
-    run.stderr?.on('data', (part: Buffer) => {
-      said += part.toString();
-      const found = /Page: (http:\/\/[^/]+)\/#key=(\S+)/.exec(said);
-      if (found) {
-        resolve([found[1] ?? '', found[2] ?? '']);
-      }
-    });
-    run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
-  });
-}
 
 const text = (selector: string) => opened.page.textContent(selector);
 const until = (expression: string) => untilIn(opened.page, expression);
 const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`);
 
 beforeAll(async () => {
-  copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), machine);
-  appendFileSync(machine, '\n[thermal]\nenabled = true\nmax_offset_um = 60\nslope_um_min = 30\n[[thermal.axis]]\nname = "Z"\n[[thermal.axis.mode]]\ntau_min = 8\nspeeds_rpm = [0, 6000]\nlevels_um = [0, 45]\n');
-  run = spawn(PROGRAM, ['run', '--machine', machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(folder, 'runs'), '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
-  [address, key] = await started();
-  opened = await open(address, `/#key=${key}`, { loggedIn: false });
+  await running.start();
+  opened = await open(running.address, `/#key=${running.key}`, { loggedIn: false });
 });
 afterAll(async () => {
-  run.kill('SIGTERM');
+  running.stop();
   await closeBrowser();
-  rmSync(folder, { recursive: true, force: true });
 });
 
 it('shows the machine at work', async () => {
   await until(`document.querySelector('#mode-badge')?.textContent === 'Observe'`);
-  expect(opened.page.url()).not.toContain(key);
+  expect(opened.page.url()).not.toContain(running.key);
   expect(await text('h1')).toContain('VMC with SINUMERIK 840D');
   await until(`/Cutting/.test(document.body.textContent)`);
   await until(`document.querySelector('#connection').textContent.includes('Live')`);
@@ -74,7 +45,7 @@ it('applies a change of the machine file while it runs', async () => {
   expect(await text('dialog .diff')).toContain('+limit_um = 12.5');
   await opened.page.click('#apply');
   await opened.page.waitForSelector('dialog', { state: 'detached' });
-  expect(readFileSync(machine, 'utf8')).toContain('limit_um = 12.5');
+  expect(readFileSync(running.machine, 'utf8')).toContain('limit_um = 12.5');
   await go('now');
   await until(String.raw`/12\.5\sµm/.test(document.body.textContent)`);
 });
@@ -87,17 +58,6 @@ it('says what each step of the override would give, and what the encoders are', 
   await go('motion');
   await until(`document.querySelectorAll('#encoders tbody tr').length === 3`);
   expect(await text('#encoders tbody')).toContain('edges stamped to 100 ns');
-});
-
-it('warms up in the next hour, and says when the offset moves', async () => {
-  await go('thermal');
-  await until(String.raw`/the last|as it does now/.test(document.querySelector('#outlook-of')?.textContent)`);
-  await until(`document.querySelector('#thermal-Z canvas') !== null`);
-  expect(await text('#next-correction')).toContain('none within the hour'); // nothing is corrected in observe
-  await opened.page.click('[data-mode=act]:not(.badge)');
-  await opened.page.click('dialog .strong');
-  await until(String.raw`/^Z(in|\d)/.test(document.querySelector('#corrections-come tbody tr')?.textContent)`);
-  await opened.page.click('#hand-back');
 });
 
 it('has every view, and the record of this run with who did what', async () => {
@@ -113,9 +73,9 @@ it('has every view, and the record of this run with who did what', async () => {
 });
 
 it('lets nobody in who does not know the key', async () => {
-  expect((await fetch(`${address}/api/v1/status`)).status).toBe(401);
-  const wrong = await fetch(`${address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"key":"guess"}' });
+  expect((await fetch(`${running.address}/api/v1/status`)).status).toBe(401);
+  const wrong = await fetch(`${running.address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"key":"guess"}' });
   expect(wrong.status).toBe(401);
-  const foreign = await fetch(`${address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json', Origin: 'http://evil.example' }, body: JSON.stringify({ key }) });
+  const foreign = await fetch(`${running.address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json', Origin: 'http://evil.example' }, body: JSON.stringify({ key: running.key }) });
   expect(foreign.status).toBe(403);
 });

@@ -34,11 +34,8 @@ void Corrections::see(double time_s, const kernel::signal::AxisValues& offset_mm
       last->to_s = time_s;
       last->to_mm = to_mm;
     } else {
-      list_.push_back({.from_s = time_s,
-                       .to_s = time_s,
-                       .axis = i,
-                       .from_mm = listed_mm_[i],
-                       .to_mm = to_mm});
+      list_.push_back(
+          {.from_s = time_s, .to_s = time_s, .axis = i, .from_mm = listed_mm_[i], .to_mm = to_mm});
     }
     listed_mm_[i] = to_mm;
     if (list_.size() > kMost) {

@@ -19,8 +19,8 @@ struct Correction {
 };
 
 /// Lists what an offset does. The layer has it follow the displacement without steps, so a
-/// correction is each whole micrometre of it, from 0 on; changes of the same axis and direction less
-/// than two seconds apart are one.
+/// correction is each whole micrometre of it, from 0 on; changes of the same axis and direction
+/// less than two seconds apart are one.
 class Corrections {
  public:
   static constexpr double kStep_mm = 0.001;

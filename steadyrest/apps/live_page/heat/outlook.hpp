@@ -29,15 +29,15 @@ struct Outlook {
     std::vector<double> sd_mm;
     std::vector<double> offset_mm;
   };
-  double again_s = 0.0;      ///< length of what is repeated; 0: the present state lasts
-  std::vector<double> in_s;  ///< from now on, a minute apart
-  std::vector<Axis> axis;    ///< those with a thermal passport
+  double again_s = 0.0;             ///< length of what is repeated; 0: the present state lasts
+  std::vector<double> in_s;         ///< from now on, a minute apart
+  std::vector<Axis> axis;           ///< those with a thermal passport
   std::vector<Correction> to_come;  ///< from_s and to_s from now on
 };
 
-/// Runs a copy of the thermal room and of its envelope on for `seconds`, in steps of 1 s: the law of
-/// model, wish, slope and limits is their own. The machine repeats `again`; without any it goes on
-/// as it does. Temperatures stay. `corrects`: requests go somewhere (act, advise); otherwise the
+/// Runs a copy of the thermal room and of its envelope on for `seconds`, in steps of 1 s: the law
+/// of model, wish, slope and limits is their own. The machine repeats `again`; without any it goes
+/// on as it does. Temperatures stay. `corrects`: requests go somewhere (act, advise); otherwise the
 /// offsets stay. Empty: the room is off or its passport unusable.
 [[nodiscard]] std::optional<Outlook> outlook(const kernel::machine::Machine& machine,
                                              const steadyrest::live::HeatNow& now,

@@ -2,15 +2,16 @@
 // What was corrected against heat, and what comes.
 import type { Move, Thermal } from '../../api/types';
 import { h } from '../../shell/h';
-import { small } from '../../state/units';
+import { figure, small, units } from '../../state/units';
 import { t } from '../../texts/texts';
 import { span } from '../times';
 
 const MOST = 8;
 
 function table(id: string, title: string, moves: readonly (Move & { when: string })[]): HTMLElement {
-  const head = h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, t('axis')), h('th', { scope: 'col', class: 'n' }, t('corrections_when')), h('th', { scope: 'col', class: 'n' }, t('from_to'))));
-  const rows = moves.map((m) => h('tr', {}, h('th', { scope: 'row' }, m.axis), h('td', { class: 'n' }, m.when), h('td', { class: 'n' }, `${small(m.from_um)} → ${small(m.to_um)}`)));
+  const unit = units().small;
+  const head = h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, t('axis')), h('th', { scope: 'col', class: 'n' }, t('corrections_when')), h('th', { scope: 'col', class: 'n' }, `${t('from_to')}, ${unit.name}`)));
+  const rows = moves.map((m) => h('tr', {}, h('th', { scope: 'row' }, m.axis), h('td', { class: 'n' }, m.when), h('td', { class: 'n' }, `${figure(unit, m.from_um)} → ${figure(unit, m.to_um)}`)));
   return h('div', { id }, h('h3', {}, title), rows.length === 0 ? h('p', { class: 'none' }, t('corrections_none')) : h('table', { class: 'data few' }, head, h('tbody', {}, ...rows)));
 }
 

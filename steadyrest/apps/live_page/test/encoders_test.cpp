@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <steadyrest/apps/live_page/axes/encoders.hpp>
+#include <steadyrest/apps/live_page/encoders.hpp>
 #include <steadyrest/apps/live_page/test/page_desk.hpp>
 
 namespace steadyrest::apps::live_page {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include <steadyrest/apps/live_page/axes/encoders.hpp>
+#include <steadyrest/apps/live_page/encoders.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/supervisor/motion_stage.hpp>
 
@@ -69,13 +69,14 @@ Json curve_json(const LineTable& lines, const Unit& unit) {
     for (std::size_t k = from; k < to; ++k) {
       const std::int64_t line = table.first_line + static_cast<std::int64_t>(k);
       if (lines.learnt(line)) {
-        const double error = lines.error_mm()[k] + lines.phase_mm()[static_cast<std::size_t>(line & 3)];
+        const double error =
+            lines.error_mm()[k] + lines.phase_mm()[static_cast<std::size_t>(line & 3)];
         range.low = std::min(range.low, error);
         range.high = std::max(range.high, error);
       }
     }
-    const double middle = static_cast<double>(table.first_line) +
-                          0.5 * static_cast<double>(from + to - 1);
+    const double middle =
+        static_cast<double>(table.first_line) + 0.5 * static_cast<double>(from + to - 1);
     at.push_back(unit.length(table.count_mm * middle));
     low.push_back(unit.small(range.low));
     high.push_back(unit.small(range.high));
@@ -93,7 +94,8 @@ Json calibration_json(const Encoder& encoder, const LineTable& lines, const Unit
   for (const double error : encoder.phase_error_au) {
     phases.push_back(unit.small(error));
   }
-  const auto learnt = std::ranges::count_if(encoder.line_table_au, [](double e) { return e != 0.0; });
+  const auto learnt =
+      std::ranges::count_if(encoder.line_table_au, [](double e) { return e != 0.0; });
   return {{unit.small_key("phase_error"), std::move(phases)},
           {"lines", encoder.line_table_au.size()},
           {"lines_learnt", learnt},
@@ -122,19 +124,21 @@ Json encoder_json(const Axis& axis, double cycle_s) {
   const Encoder& encoder = axis.encoder;
   const Unit unit(axis.rotary);
   const bool ideal = !(encoder.count_au > 0.0);
-  Json out = {{"name", axis.name},
-              {"rotary", axis.rotary},
-              {"encoder",
-               {{"ideal", ideal},
-                {unit.small_key("count"), ideal ? Json() : unit.small(encoder.count_au)},
-                {unit.small_key("line_period"), ideal ? Json() : unit.small(encoder.line_period_au)},
-                {unit.small_key("line_error"), unit.small(encoder.line_error_au)},
-                {"clock_ns", ideal || encoder.clock_s <= 0.0
-                                 ? Json()
-                                 : Json(std::round(encoder.clock_s / kNanosecond_s))}}},
-              {"calibration", nullptr},
-              {"estimator", nullptr}};
-  const auto setup = ideal ? std::unexpected(kernel::outcome::Refusal()) : MotionStage::setup(axis, cycle_s);
+  Json out = {
+      {"name", axis.name},
+      {"rotary", axis.rotary},
+      {"encoder",
+       {{"ideal", ideal},
+        {unit.small_key("count"), ideal ? Json() : unit.small(encoder.count_au)},
+        {unit.small_key("line_period"), ideal ? Json() : unit.small(encoder.line_period_au)},
+        {unit.small_key("line_error"), unit.small(encoder.line_error_au)},
+        {"clock_ns", ideal || encoder.clock_s <= 0.0
+                         ? Json()
+                         : Json(std::round(encoder.clock_s / kNanosecond_s))}}},
+      {"calibration", nullptr},
+      {"estimator", nullptr}};
+  const auto setup =
+      ideal ? std::unexpected(kernel::outcome::Refusal()) : MotionStage::setup(axis, cycle_s);
   if (setup) {
     out["calibration"] = calibration_json(encoder, setup->lines, unit);
     out["estimator"] = estimator_json(*setup, axis, unit);
