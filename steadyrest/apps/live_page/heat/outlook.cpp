@@ -76,7 +76,7 @@ std::optional<OffsetEnvelope> envelope_of(const Machine& machine, const HeatNow&
     return std::nullopt;
   }
   envelope->restore({.offset_mm = now.offset_mm});
-  return std::move(*envelope);
+  return *envelope;
 }
 
 std::vector<Outlook::Axis> axes_of(const Machine& machine) {
