@@ -50,6 +50,7 @@ struct Cycle {
   bool switched = false;
   bool faulted = false;
   bool decided = false;  ///< the feed governor searched in it
+  bool sees = false;     ///< a path ahead: a step is looked at while somebody watches
 };
 
 /// Notes at each look at the clock what the loop's thread has used: the last two before a wait are
@@ -67,7 +68,8 @@ class WatchingPace final : public live::Pace {
                          .own_us = kUs_s * (last_.own_s - before_.own_s),
                          .switched = last_.switched != before_.switched,
                          .faulted = last_.faults != before_.faults,
-                         .decided = contour && contour->decided});
+                         .decided = contour && contour->decided,
+                         .sees = layer_.previews()});
     }
     return pace_.wait();
   }
@@ -102,6 +104,15 @@ void print_quantiles(const char* name, const std::vector<Cycle>& cycles, Value v
              at(0.99), at(0.999), all.back());
 }
 
+template <class Which>
+void print_some(const char* name, const std::vector<Cycle>& cycles, Which which) {
+  std::vector<Cycle> some;
+  std::ranges::copy_if(cycles, std::back_inserter(some), which);
+  if (!some.empty()) {
+    print_quantiles(name, some, [](const Cycle& c) { return c.own_us; });
+  }
+}
+
 void print_long(const std::vector<Cycle>& cycles, double limit_us) {
   std::size_t over = 0;
   std::size_t switched = 0;
@@ -131,12 +142,14 @@ int main(int argc, char** argv) {
   std::size_t cycles = 30'000;
   double period_s = 0.001;
   bool deaf = false;
+  bool watched = false;
   double path_offset_mm = 0.0;
   app.add_option("--machine", name, "of examples/machines")->capture_default_str();
   app.add_option("--cycles", cycles)->capture_default_str();
   app.add_option("--period-s", period_s)->capture_default_str();
   app.add_option("--path-offset-mm", path_offset_mm, "offsets against the contour error, up to");
   app.add_flag("--deaf", deaf, "without the chatter detector, as steadyrest run has it");
+  app.add_flag("--watched", watched, "somebody looks at the page");
   CLI11_PARSE(app, argc, argv)
   auto machine = rig::everything_on(name);
   machine.envelope.max_path_offset_mm = path_offset_mm;
@@ -144,11 +157,14 @@ int main(int argc, char** argv) {
   auto layer = deaf ? supervisor::Supervisor::make(machine, port->capability()).value()
                     : rig::listening(machine, port->capability());
   WatchingPace pace(period_s, layer, cycles);
+  live::Tap tap;
+  tap.watch(watched);
   live::Loop loop(*port, layer, pace,
                   {.period_s = period_s,
                    .contour_limit_mm = machine.contour.limit_mm,
                    .mode = kernel::machine::Mode::act,
-                   .most_cycles = cycles});
+                   .most_cycles = cycles,
+                   .tap = &tap});
   const auto real_time = live::ask_for_real_time();
   const live::LoopFigures& figures = loop.run();
   fmt::print("{}, {} cycles of {:g} ms, real-time priority: {}\n", machine.name, figures.cycles,
@@ -156,12 +172,9 @@ int main(int argc, char** argv) {
   print_quantiles("work by the wall clock", pace.cycles(),
                   [](const Cycle& c) { return c.wall_us; });
   print_quantiles("its own processor time", pace.cycles(), [](const Cycle& c) { return c.own_us; });
-  std::vector<Cycle> decided;
-  std::ranges::copy_if(pace.cycles(), std::back_inserter(decided),
-                       [](const Cycle& c) { return c.decided; });
-  if (!decided.empty()) {
-    print_quantiles("… in cycles that decide", decided, [](const Cycle& c) { return c.own_us; });
-  }
+  print_some("… in cycles that decide", pace.cycles(), [](const Cycle& c) { return c.decided; });
+  print_some("… that see a path, and do not", pace.cycles(),
+             [](const Cycle& c) { return c.sees && !c.decided; });
   print_long(pace.cycles(), 60.0);
   fmt::print("lateness of the wake-up      p50 {:7.1f}   p99.9 {:7.1f} µs; {} overruns\n",
              kUs_s * figures.lateness.quantile_s(0.5), kUs_s * figures.lateness.quantile_s(0.999),

@@ -24,6 +24,7 @@ void look_at_rooms(const supervisor::Supervisor::Estimates& estimates, LiveStatu
   into.modulation_phase = chatter ? chatter->phase : 0.0;
   into.feed_per_tooth_ratio = chatter ? chatter->feed_per_tooth_ratio : 1.0;
   into.heat_on = estimates.thermal.has_value();
+  into.heat_fed = into.heat_on ? estimates.thermal->fed : into.heat_fed;
 }
 
 }  // namespace

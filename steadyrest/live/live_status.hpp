@@ -56,6 +56,7 @@ struct LiveStatus {
   double modulation_phase = 0.0;       ///< in periods, [0, 1)
   double feed_per_tooth_ratio = 1.0;
   bool heat_on = false;  ///< the thermal room is on
+  thermal::online::OffsetGovernor::Fed heat_fed;
   std::uint8_t axis_count = 0;
   std::array<LiveAxis, kernel::signal::kMaxAxes> axis{};
   kernel::signal::AxisValues offset_mm{};

@@ -201,6 +201,8 @@ void Loop::publish() noexcept {
   status_.store(now_);
   if (config_.tap != nullptr) {
     config_.tap->put(now_, port_.last);
+    config_.tap->look_at_steps(now_, *layer_);
+    config_.tap->look_at_heat(now_, *layer_);
   }
 }
 

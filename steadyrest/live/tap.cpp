@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <steadyrest/live/tap.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
@@ -13,6 +15,7 @@ using kernel::signal::PathSegment;
 using kernel::signal::Point;
 
 constexpr std::uint32_t kCyclesPerAhead = 32;
+constexpr double kHeatEvery_s = 1.0;
 /// The page shows about a second, but no less than a corner and its surroundings.
 constexpr double kSight_s = 1.0;
 constexpr double kShortest_mm = 5.0;
@@ -77,6 +80,62 @@ void Tap::put(const LiveStatus& status, const Frame& frame) noexcept {
     look_ahead(frame, next_);
     ahead_.store(next_);
   }
+}
+
+// A round over the table takes two forecasts for each step, one in a cycle: some 50 ms for 23 steps
+// at 1 kHz. The steps are shown when all of them have been looked at. A cycle that decides is long
+// already and is left alone, unless all of them do.
+void Tap::look_at_steps(const LiveStatus& status, const supervisor::Supervisor& layer) noexcept {
+  using Look = contour::online::FeedGovernor::Look;
+  const bool looks = watched_.load(std::memory_order_relaxed) && !status.port_fault;
+  const auto ratio = layer.feed_steps();
+  if (!looks || !layer.previews() || ratio.size() > StepErrors::kMost) {
+    turn_ = 0;
+    if (steps_shown_) {
+      steps_shown_ = false;
+      looked_.count = 0;
+      steps_.store(looked_);
+    }
+    return;
+  }
+  const auto& contour = layer.estimates().contour;
+  const bool decides = contour && contour->decided;
+  if (decides && !std::exchange(decided_, true)) {
+    return;
+  }
+  decided_ = decides;
+  if (turn_ >= 2 * ratio.size()) {
+    turn_ = 0;  // a table of another machine file
+  }
+  StepErrors::Step& step = looked_.step[turn_ / 2];
+  const bool held = turn_ % 2 == 0;
+  const double at = ratio[turn_ / 2];
+  const double error_mm = layer.preview(at, held ? Look::held : Look::change)
+                              .value_or(std::numeric_limits<double>::quiet_NaN());
+  step.ratio = at;
+  (held ? step.held_mm : step.change_mm) = error_mm;
+  if (++turn_ == 2 * ratio.size()) {
+    turn_ = 0;
+    looked_.count = ratio.size();
+    steps_.store(looked_);
+    steps_shown_ = true;
+  }
+}
+
+void Tap::look_at_heat(const LiveStatus& status, const supervisor::Supervisor& layer) noexcept {
+  const auto* const room = layer.thermal();
+  const double since_s = status.time_s - heat_next_.time_s;
+  const bool waits = heat_next_.on && since_s >= 0.0 && since_s < kHeatEvery_s;
+  if (waits || status.port_fault || (room == nullptr && !heat_next_.on)) {
+    return;
+  }
+  heat_next_.on = room != nullptr;
+  heat_next_.time_s = status.time_s;
+  heat_next_.offset_mm = status.offset_mm;
+  if (room != nullptr) {
+    heat_next_.state = room->state();
+  }
+  heat_.store(heat_next_);
 }
 
 std::uint64_t Tap::take(std::vector<TapSample>& into) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -40,6 +41,27 @@ struct PathAhead {
   std::array<kernel::signal::Point, kMost> point_mm{};
 };
 
+/// What each step of the feed override would give (supervisor's preview); none where the layer sees
+/// no path ahead.
+struct StepErrors {
+  static constexpr std::size_t kMost = contour::online::Forecast::kMaxTable;
+  struct Step {
+    double ratio = 0.0;
+    double held_mm = 0.0;    ///< in force from now on; NaN: the path is not known far enough
+    double change_mm = 0.0;  ///< gone to now, and left after a decision
+  };
+  std::size_t count = 0;
+  std::array<Step, kMost> step{};
+};
+
+/// The thermal room as it is, to be run on from there.
+struct HeatNow {
+  bool on = false;
+  double time_s = 0.0;  ///< of the frame
+  thermal::online::OffsetGovernor::State state;
+  kernel::signal::AxisValues offset_mm{};  ///< that the envelope let pass
+};
+
 /// Carries what each cycle has seen to those who draw it: the cycle puts it in, one other thread
 /// takes it out. put() runs in the cycle: bounded, no allocation, no lock. Nobody who takes too
 /// late delays it: what finds no room is lost and counted.
@@ -53,10 +75,19 @@ class Tap {
   /// In the cycle, with the frame as it was read: its path lies there.
   void put(const LiveStatus& status, const kernel::signal::Frame& frame) noexcept;
 
+  /// In the cycle, after the write: while somebody watches, one step of the override in turn, by
+  /// one forecast; not in a cycle that decides, unless all of them do. The layer stays as it is.
+  void look_at_steps(const LiveStatus& status, const supervisor::Supervisor& layer) noexcept;
+
+  /// In the cycle, watched or not: a copy of the thermal room once a second.
+  void look_at_heat(const LiveStatus& status, const supervisor::Supervisor& layer) noexcept;
+
   /// All samples since the last time, and how many were lost in all.
   std::uint64_t take(std::vector<TapSample>& into);
   /// The newest; of the thread that takes.
   [[nodiscard]] const PathAhead& ahead() noexcept { return ahead_.load(); }
+  [[nodiscard]] const StepErrors& steps() noexcept { return steps_.load(); }
+  [[nodiscard]] const HeatNow& heat() noexcept { return heat_.load(); }
 
  private:
   static constexpr std::size_t kSamples = 4096;
@@ -65,6 +96,13 @@ class Tap {
   std::unique_ptr<Samples> samples_;
   kernel::rt::Snapshot<PathAhead> ahead_;
   PathAhead next_;
+  kernel::rt::Snapshot<StepErrors> steps_;
+  StepErrors looked_;
+  std::size_t turn_ = 0;      ///< looks of this round
+  bool steps_shown_ = false;  ///< those in steps_ are of now
+  bool decided_ = false;      ///< the cycle before
+  kernel::rt::Snapshot<HeatNow> heat_;
+  HeatNow heat_next_;
   std::atomic<bool> watched_{false};
   std::atomic<std::uint64_t> lost_{0};
   std::uint32_t since_ahead_ = 0;

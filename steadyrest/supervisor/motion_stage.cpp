@@ -88,6 +88,15 @@ double line_mm(const LineTable& lines, std::int64_t line) noexcept {
 
 }  // namespace
 
+Result<MotionStage::Setup> MotionStage::setup(const kernel::machine::Axis& axis, double cycle_s) {
+  auto lines = motion::online::stored_lines(axis.encoder);
+  if (!lines) {
+    return std::unexpected(std::move(lines.error()));
+  }
+  const MotionEstimator::Config limits = config_of(axis, cycle_s, line_error_mm(*lines, axis));
+  return Setup{.lines = std::move(*lines), .limits = limits};
+}
+
 Result<MotionStage> MotionStage::make(const Config& config) {
   MotionStage stage;
   stage.gap_s_ = kGapCycles * config.cycle_s;
@@ -96,12 +105,11 @@ Result<MotionStage> MotionStage::make(const Config& config) {
     if (!axis.present || !(axis.encoder.count_au > 0.0)) {
       continue;
     }
-    auto lines = motion::online::stored_lines(axis.encoder);
-    if (!lines) {
-      return std::unexpected(std::move(lines.error()));
+    auto made = setup(axis, config.cycle_s);
+    if (!made) {
+      return std::unexpected(std::move(made.error()));
     }
-    const MotionEstimator::Config limits =
-        config_of(axis, config.cycle_s, line_error_mm(*lines, axis));
+    const MotionEstimator::Config& limits = made->limits;
     auto estimator = MotionEstimator::make(limits);
     if (!estimator) {
       return std::unexpected(std::move(estimator.error()));
@@ -111,7 +119,7 @@ Result<MotionStage> MotionStage::make(const Config& config) {
                            .max_steps_s = kImpossibleSpeed * axis.max_speed_au_s / limits.count_mm,
                            .clock_s = limits.clock_s < limits.cycle_s ? limits.clock_s : 0.0,
                            .bounded = limits.line_error_mm >= 0.0,
-                           .lines = std::move(*lines),
+                           .lines = std::move(made->lines),
                            .fresh = *estimator,
                            .now = {.estimator = *estimator}});
   }

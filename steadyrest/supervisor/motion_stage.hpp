@@ -58,6 +58,14 @@ class MotionStage {
     std::vector<AxisState> axis;  ///< those with an encoder
   };
 
+  /// What the stage makes of an axis whose encoder has counts.
+  struct Setup {
+    motion::online::LineTable lines;
+    /// `line_error_mm` below 0: a line may be off by more than a count, and there are no bounds.
+    motion::online::MotionEstimator::Config limits;
+  };
+  static kernel::outcome::Result<Setup> setup(const kernel::machine::Axis& axis, double cycle_s);
+
   static kernel::outcome::Result<MotionStage> make(const Config& config);
   static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine) {
     return make({.axes = machine.axes, .cycle_s = machine.control.interpolator_period_s});

@@ -222,6 +222,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
     last_frame_.vibration = {};
   }
   const signal::InForce come_down = in_force();
+  seen_ = come_down;
   if (contour_) {
     estimates_.contour = contour_->update(without_heat(frame, come_down), come_down, unfit);
   }
@@ -232,6 +233,11 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   if (thermal_) {
     estimates_.thermal = thermal_->update(frame, unfit, state_.tool_in_cut, come_down);
   }
+}
+
+std::optional<double> Supervisor::preview(double ratio,
+                                          contour::online::FeedGovernor::Look look) const noexcept {
+  return contour_ ? contour_->preview(without_heat(last_frame_, seen_), ratio, look) : std::nullopt;
 }
 
 // Requests from outside and from the rooms rank equally: the lowest feed wins, whoever asks.

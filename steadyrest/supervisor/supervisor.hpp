@@ -123,6 +123,17 @@ class Supervisor {
   /// path.
   [[nodiscard]] const kernel::signal::Frame& frame() const noexcept { return last_frame_; }
 
+  /// The feed override's steps that preview() may be asked for; empty: the contour room is off.
+  [[nodiscard]] std::span<const double> feed_steps() const noexcept {
+    return contour_ ? contour_->steps() : std::span<const double>();
+  }
+  /// preview() has a path to look at.
+  [[nodiscard]] bool previews() const noexcept { return contour_ && contour_->previews(); }
+  /// What a step would give from the last cycle on (FeedGovernor::preview): one forecast, which
+  /// changes nothing.
+  [[nodiscard]] std::optional<double> preview(
+      double ratio, contour::online::FeedGovernor::Look look) const noexcept;
+
   /// Why the last cycle's input was not acted on; none: it was.
   [[nodiscard]] kernel::outcome::Reason unfit() const noexcept { return unfit_; }
   /// What became of the requests so far: the rooms get it with the next frame.
@@ -151,6 +162,9 @@ class Supervisor {
   [[nodiscard]] bool listens() const noexcept { return listener_.has_value(); }
   /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
+    return thermal_ ? &*thermal_ : nullptr;
+  }
+  [[nodiscard]] const thermal::online::OffsetGovernor* thermal() const noexcept {
     return thermal_ ? &*thermal_ : nullptr;
   }
   [[nodiscard]] kernel::machine::Mode mode_in_force() const noexcept {
@@ -235,6 +249,7 @@ class Supervisor {
   Written before_;           ///< the last cycle
   State state_;              ///< the parts that are not a member's own
   kernel::signal::Frame last_frame_;
+  kernel::signal::InForce seen_;  ///< with it by the rooms
   kernel::outcome::Reason unfit_ = kernel::outcome::Reason::none;
 };
 

@@ -8,6 +8,7 @@
 
 #include <steadyrest/apps/live_page/api.hpp>
 #include <steadyrest/apps/live_page/assets.hpp>
+#include <steadyrest/apps/live_page/encoders.hpp>
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
 #include <steadyrest/apps/live_page/wish_desk.hpp>
@@ -26,7 +27,7 @@ constexpr std::string_view kApi = "/api/";
 constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
 
-constexpr std::array<Route, 16> kRoutes = {{
+constexpr std::array<Route, 17> kRoutes = {{
     {"GET", "/api/v1/session", true},
     {"POST", "/api/v1/session", true},
     {"DELETE", "/api/v1/session"},
@@ -39,6 +40,7 @@ constexpr std::array<Route, 16> kRoutes = {{
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
     {"POST", "/api/v1/thermal/measured", false, Role::operating},
+    {"GET", "/api/v1/motion"},
     {"GET", "/api/v1/records"},
     {"GET", kRecords},
     {"POST", kRecords, false, Role::engineer},
@@ -145,6 +147,9 @@ web::Response Api::run(const Route& route, const Call& call) {
   }
   if (route.path == "/api/v1/thermal") {
     return heat_.show();
+  }
+  if (route.path == "/api/v1/motion") {
+    return show_encoders(desk_);
   }
   if (route.path == "/api/v1/records") {
     return list_records(desk_, call.request);

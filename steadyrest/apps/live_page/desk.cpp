@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <steadyrest/apps/live_page/desk.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::live_page {
 
 kernel::machine::Machine machine_in_force(const Desk& desk) {
   return desk.asked.reloader != nullptr ? desk.asked.reloader->running() : desk.machine;
+}
+
+Json rounded(double value, double to) {
+  return std::isfinite(value) ? Json(std::round(value / to) * to) : Json();
+}
+
+Json micrometres(double mm) {
+  return rounded(kernel::units::um_from_mm(mm), 1e-3);
 }
 
 std::string text_of(const Json& json) {

@@ -39,6 +39,10 @@ struct Desk {
 
 /// An answer with `version` and these keys.
 [[nodiscard]] web::Response answer(const Json& keys, unsigned status = 200);
+/// A number with so many digits as a picture can show; null where there is none.
+[[nodiscard]] Json rounded(double value, double to);
+/// In µm, to a nanometre.
+[[nodiscard]] Json micrometres(double mm);
 /// One JSON line, whatever bytes its texts have.
 [[nodiscard]] std::string text_of(const Json& json);
 

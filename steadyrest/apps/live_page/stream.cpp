@@ -18,15 +18,6 @@ using steadyrest::live::TapSample;
 
 constexpr std::size_t kMostSamples = 200;  ///< in a frame: a page that was away needs no history
 
-/// A number with so many digits as a picture can show.
-Json rounded(double value, double to) {
-  return std::isfinite(value) ? Json(std::round(value / to) * to) : Json();
-}
-
-Json micrometres(double mm) {
-  return rounded(um_from_mm(mm), 1e-3);
-}
-
 Json point_json(const kernel::signal::Point& point) {
   return {rounded(point[0], 1e-4), rounded(point[1], 1e-4), rounded(point[2], 1e-4)};
 }
@@ -80,6 +71,20 @@ Json ahead_json(const PathAhead& ahead, const LiveStatus& status) {
   return {{"points_mm", std::move(points)},
           {"error_um", std::move(errors)},
           {"at_mm", std::move(places)}};
+}
+
+/// Null where the layer looks at no path.
+Json steps_json(const steadyrest::live::StepErrors& steps) {
+  if (steps.count == 0) {
+    return nullptr;
+  }
+  Json out = Json::array();
+  for (std::size_t i = 0; i < steps.count; ++i) {
+    out.push_back({{"percent", rounded(kPercent * steps.step[i].ratio, 0.1)},
+                   {"error_um", micrometres(steps.step[i].held_mm)},
+                   {"change_um", micrometres(steps.step[i].change_mm)}});
+  }
+  return out;
 }
 
 Json axes_json(const LiveStatus& status, const kernel::machine::Machine& machine) {
@@ -202,7 +207,7 @@ std::string StreamText::frame() {
                     {"path_known", status.path_known},
                     {"samples", samples_json(samples_)},
                     {"ahead", ahead_json(desk_.tap.ahead(), status)},
-                    {"steps", nullptr},
+                    {"steps", steps_json(desk_.tap.steps())},
                     {"chatter", chatter_json(status)},
                     {"thermal", heat_json(status, desk_.machine)},
                     {"axes", axes_json(status, desk_.machine)}};

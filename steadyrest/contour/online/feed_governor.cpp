@@ -185,9 +185,9 @@ void FeedGovernor::remember(const kernel::signal::InForce& in_force) noexcept {
 }
 
 /// The ratios already under way: at each time the largest of those that may act then.
-void FeedGovernor::fill_pending(const Frame& frame) noexcept {
-  const Forecast::Timing& timing = forecast_.timing();
-  auto& pending = forecast_.pending();
+void FeedGovernor::fill_pending(const Frame& frame, Forecast& into) const noexcept {
+  const Forecast::Timing& timing = into.timing();
+  auto& pending = into.pending();
   std::size_t n = 0;
   for (; n < Forecast::kMaxSteps; ++n) {
     const double t = timing.step_s * static_cast<double>(n + 1);
@@ -206,7 +206,7 @@ void FeedGovernor::fill_pending(const Frame& frame) noexcept {
     }
     pending[n] = n == 0 ? std::max(most, frame.feed.effective_ratio) : most;
   }
-  forecast_.set_pending_count(n);
+  into.set_pending_count(n);
 }
 
 FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexcept {

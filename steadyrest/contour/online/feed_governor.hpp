@@ -88,6 +88,12 @@ class FeedGovernor {
  public:
   static constexpr std::size_t kHistory = 1024;
 
+  /// How preview() has a step taken.
+  enum class Look : std::uint8_t {
+    change,  ///< as a decision tries it: go there, hold it for one decision, fall to the lowest
+    held,    ///< in force from now on, whatever the panel says; judged once that has settled
+  };
+
   struct Config {
     std::vector<kernel::machine::Axis> axes;  ///< X, Y, Z first
     kernel::machine::OverrideTable feed_override;
@@ -134,6 +140,7 @@ class FeedGovernor {
     bool offsets_act = false;     ///< what is asked for goes to the machine, or is shown
     bool offsets_follow = true;   ///< slow ones follow what cancels the error, else 0
     double fallen_s = -1e9;       ///< time of the last fall
+    double hold_s = 0.0;          ///< that the last decision's step was tried with
     double wanted_ratio = 1.0;    ///< of the objective's last search
     ObjectiveSearch objective;
     double idle_effect_s = 0.0;  ///< how long the speed has ignored the override
@@ -172,6 +179,17 @@ class FeedGovernor {
   Output update(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force,
                 kernel::outcome::Reason unfit = kernel::outcome::Reason::none) noexcept;
 
+  /// Ratios of the table's steps, Forecast::kMaxTable at most.
+  [[nodiscard]] std::span<const double> steps() const noexcept { return table_ratio_; }
+  /// A decision would be made from a known path: preview() has something to look at.
+  [[nodiscard]] bool previews() const noexcept { return state_.engaged && state_.last.path_known; }
+  /// The largest contour error ahead with this ratio, mm, signed as Output::predicted_error_mm; of
+  /// the last update() and its frame. One forecast, in the cycle or not; it changes nothing, so
+  /// decisions are the same with and without it. Empty: no previews(), or the path is not known far
+  /// enough.
+  [[nodiscard]] std::optional<double> preview(const kernel::signal::Frame& frame, double ratio,
+                                              Look look) const noexcept;
+
   [[nodiscard]] const ContourError& contour_error() const noexcept { return contour_; }
   [[nodiscard]] const ServoModel& servo_model() const noexcept { return servo_; }
   [[nodiscard]] const Course& course() const noexcept { return state_; }
@@ -191,6 +209,7 @@ class FeedGovernor {
   struct Choice {
     std::size_t candidate = 0;
     Forecast::Result forecast;
+    double hold_s = 0.0;  ///< of that forecast
     bool floor = false;
     bool held_back = false;  ///< by the room that a rise needs
   };
@@ -209,7 +228,8 @@ class FeedGovernor {
   void cancel(const kernel::signal::Frame& frame, double dt, Output& output) noexcept;
   void extrapolate(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
-  void fill_pending(const kernel::signal::Frame& frame) noexcept;
+  void fill_pending(const kernel::signal::Frame& frame, Forecast& into) const noexcept;
+  [[nodiscard]] RatioPlan held_plan(double ratio, double known_s) const noexcept;
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
   void choose_offsets(Outset& outset, Output& output) noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;

@@ -120,6 +120,7 @@ struct FeedGovernor::Search {
       }
     }
     choice.forecast = result;  // the last one that is admissible is the largest
+    choice.hold_s = plan.hold_s;
     return true;
   }
 
@@ -148,6 +149,7 @@ struct FeedGovernor::Search {
     plan.target = of.candidate_.front();
     choice.candidate = 0;
     choice.floor = true;
+    choice.hold_s = plan.hold_s;
     choice.forecast = of.forecast_.run(path, outset, plan, limit_mm, false, nullptr, &trace);
     spent += count(choice.forecast.steps, output);
     for (std::size_t i = 0; i < trace.count; ++i) {
@@ -307,7 +309,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
       return;
     }
   }
-  fill_pending(frame);
+  fill_pending(frame, forecast_);
   Outset from = outset(frame);
   choose_offsets(from, output);
   const std::size_t wish = wanted_candidate(from, output);
@@ -320,6 +322,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
       --choice.candidate;
     }
   }
+  state_.hold_s = choice.hold_s;
   output.decided = true;
   output.limit_mm = reserve_.limit_mm();
   output.predicted_error_mm = choice.forecast.error_mm;

@@ -129,6 +129,7 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     if (!under.cutting || t <= std::max(timing_.dead_s, plan.judged_from_s)) {
       continue;
     }
+    walk.result.judged = true;
     if (record != nullptr) {
       record->position_mm[record->count] = walk.s;
       record->error_mm[record->count] = std::sqrt(near.squared);

@@ -88,6 +88,7 @@ class Forecast {
     double at_mm = 0.0;  ///< commanded path length then
     bool kept = true;    ///< never above the limit (and the trace)
     double broken_mm = 0.0;  ///< else the foot's path length at the first break
+    bool judged = false;     ///< there was an error to judge
     std::size_t steps = 0;
   };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -78,6 +79,84 @@ TEST(Tap, DoesNothingWhileNobodyWatches) {
   std::vector<TapSample> samples;
   tap.take(samples);
   EXPECT_TRUE(samples.empty());
+}
+
+/// Commands and steps of a run on the circle, in act.
+struct TappedRun {
+  std::vector<kernel::signal::Command> commands;
+  StepErrors steps;
+  std::vector<double> asked;
+};
+TappedRun run_on_circle(bool watched, std::uint64_t cycles) {
+  Desk desk;
+  const auto tap = std::make_unique<Tap>();
+  tap->watch(watched);
+  TappedRun out;
+  Loop::Config config = tapped(desk, *tap, cycles);
+  config.mode = Mode::act;
+  config.on_command = [&](const auto& command) {
+    out.commands.push_back(command);
+    if (out.commands.size() == 500) {  // in the cut
+      out.steps = tap->steps();
+    }
+  };
+  Loop loop(*desk.port, *desk.layer, desk.pace, config);
+  loop.run();
+  const auto ratio = desk.layer->feed_steps();
+  out.asked.assign(ratio.begin(), ratio.end());
+  return out;
+}
+
+TEST(Tap, HasWhatEachStepWouldGiveWhileSomebodyWatches) {
+  const TappedRun run = run_on_circle(true, 1500);
+  ASSERT_EQ(run.steps.count, 23U);
+  for (std::size_t i = 0; i < run.steps.count; ++i) {
+    const StepErrors::Step& step = run.steps.step[i];
+    EXPECT_EQ(step.ratio, run.asked[i]);
+    EXPECT_TRUE(std::isfinite(step.held_mm) && std::isfinite(step.change_mm)) << step.ratio;
+    // Faster is worse on a circle; the speed limit of the arc makes the fastest ones alike.
+    EXPECT_GE(step.held_mm, i == 0 ? -1e-4 : run.steps.step[i - 1].held_mm - 1e-4) << step.ratio;
+  }
+  EXPECT_GT(run.steps.step[22].held_mm, 4.0 * run.steps.step[8].held_mm);
+  EXPECT_EQ(run_on_circle(false, 1500).steps.count, 0U);
+}
+
+TEST(Tap, ChangesNoCommandByWatching) {
+  const TappedRun with = run_on_circle(true, 1500);
+  const TappedRun without = run_on_circle(false, 1500);
+  ASSERT_EQ(with.commands.size(), without.commands.size());
+  for (std::size_t i = 0; i < with.commands.size(); ++i) {
+    ASSERT_EQ(with.commands[i].feed_ratio, without.commands[i].feed_ratio) << i;
+    ASSERT_EQ(with.commands[i].feed_reason, without.commands[i].feed_reason) << i;
+    ASSERT_EQ(with.commands[i].path_offset_mm, without.commands[i].path_offset_mm) << i;
+  }
+}
+
+TEST(Tap, ForgetsTheStepsWhereNoPathIsAhead) {
+  Desk desk;
+  Tap tap;
+  tap.watch(true);
+  Loop loop(*desk.port, *desk.layer, desk.pace, tapped(desk, tap, 300));
+  loop.run();
+  EXPECT_EQ(tap.steps().count, 23U);
+  LiveStatus fault;
+  fault.port_fault = true;
+  tap.look_at_steps(fault, *desk.layer);
+  EXPECT_EQ(tap.steps().count, 0U);
+}
+
+TEST(Tap, LooksWithoutAllocating) {
+  Desk desk;
+  Tap tap;
+  tap.watch(true);
+  Loop loop(*desk.port, *desk.layer, desk.pace, tapped(desk, tap, 300));
+  loop.run();
+  const kernel::rt::testing::AllocationGuard guard;
+  for (int n = 0; n < 100; ++n) {
+    tap.look_at_steps({}, *desk.layer);
+    tap.look_at_heat({}, *desk.layer);
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
 }
 
 TEST(Tap, AllocatesNothingInTheCycle) {

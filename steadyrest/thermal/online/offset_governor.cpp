@@ -133,6 +133,12 @@ void OffsetGovernor::step(double elapsed_s, const Running& running) noexcept {
   drive_.feed_mm_s = running.feed_mm_s;
   drive_.cutting = running.cutting;
   drive_.coolant = running.coolant;
+  Fed& fed = state_.last.fed;
+  fed.time_s += elapsed_s;
+  fed.turned_rev += elapsed_s * running.speed_rev_s;
+  fed.path_mm += elapsed_s * running.feed_mm_s;
+  fed.cut_s += running.cutting ? elapsed_s : 0.0;
+  fed.coolant_s += running.coolant ? elapsed_s : 0.0;
   for (Axis& axis : axes_) {
     for (std::size_t j = 0; j < axis.ambients; ++j) {
       drive_.ambient_c[j] = state_.temperature_c[axis.sensor[j]];

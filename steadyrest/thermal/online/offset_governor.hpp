@@ -57,11 +57,21 @@ class OffsetGovernor {
     StateFilter::Verdict verdict;
   };
 
+  /// What the filters were given, summed up since the start: the cyclogram is its course.
+  struct Fed {
+    double time_s = 0.0;
+    double turned_rev = 0.0;  ///< either way
+    double path_mm = 0.0;
+    double cut_s = 0.0;  ///< in feed moves
+    double coolant_s = 0.0;
+  };
+
   struct Output {
     kernel::signal::OffsetRequest request;
     kernel::signal::AxisValues displacement_mm{};  ///< forecast; 0 for axes without passport
     kernel::signal::AxisValues sd_mm{};
     Probed probed;
+    Fed fed;
   };
 
   struct AxisState {

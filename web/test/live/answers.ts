@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock's server answers about machine, heat, lobes and records.
-import type { Checked, Lobes, Machine, MachineKey, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
+import type { Checked, EncoderAxis, Lobes, Machine, MachineKey, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
 
 const key = (name: string, value: MachineKey['value'], unit: string, range: string, explanation: string, live = true): MachineKey => ({ key: name, value, unit, range, explanation, live });
 
@@ -73,13 +73,35 @@ export function thermal(): Thermal {
     const displacement = curve(scale);
     return { name, displacement_um: displacement, sd_um: t_s.map((t) => 0.3 + 0.5 * scale * Math.abs(Math.sin(t / 9000))), offset_um: displacement.map((d) => -2 * Math.round(d / 2)) };
   };
+  const in_s = Array.from({ length: 61 }, (_, i) => 60 * i);
+  const ahead = (name: string, scale: number) => ({ name, displacement_um: in_s.map((s) => scale * (4.5 - s / 900)), sd_um: in_s.map((s) => 0.4 + s / 3000), offset_um: in_s.map((s) => -scale * (4 - s / 1000)) });
+  const turns = (t: number) => t % 7200 < 5000;
   return {
     share_k: 0.3,
+    cyclogram: { t_s: t_s.slice(1), speed_rpm: t_s.slice(1).map((t) => (turns(t) ? 5200 : 0)), feed_mm_min: t_s.slice(1).map((t) => (turns(t) ? 1800 : 0)), cutting_percent: t_s.slice(1).map((t) => (turns(t) ? 92 : 0)), coolant_percent: t_s.slice(1).map(() => 0) },
+    outlook: { of_last_s: 600, in_s, axes: [ahead('Y', 0.3), ahead('Z', 1)] },
+    corrections: {
+      step_um: 1,
+      done: [{ axis: 'Z', t_s: 40_000, from_um: -3, to_um: -4 }, { axis: 'Y', t_s: 42_860, from_um: 0, to_um: -1 }],
+      to_come: [{ axis: 'Z', in_s: 830, from_um: -4, to_um: -3 }, { axis: 'Z', in_s: 1900, from_um: -3, to_um: -2 }],
+    },
     passports: [{ axis: 'Z', modes: [{ amplitude_um: 9.2, time_constant_min: 84 }, { amplitude_um: 2.1, time_constant_min: 12 }] }, { axis: 'Y', modes: [{ amplitude_um: 2.8, time_constant_min: 95 }] }],
     history: { t_s, axes: [axis('Y', 0.3), axis('Z', 1)] },
-    next: { axis: 'Z', offset_um: -2, in_s: 830 },
+    next: { axis: 'Z', offset_um: -3, in_s: 830 },
     readings: [{ t_s: 1100, axis: 'Z', displacement_um: -3.9, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' }],
   };
+}
+
+export function encoders(): EncoderAxis[] {
+  const at_mm = Array.from({ length: 200 }, (_, i) => -400 + 4 * i);
+  const error = (mm: number) => 0.02 * Math.sin(mm / 40);
+  const linear = (name: string) => ({ name, rotary: false, encoder: { ideal: false, count_um: 0.1, line_period_um: 20, clock_ns: 100 }, estimator: { input: 'edges' as const, cycle_ms: 1, lag_ms: 0, bounded: true, line_error_um: 0.1 } });
+  return [
+    { ...linear('X'), calibration: { phase_error_um: [0.012, -0.008, 0.003, -0.007], lines: 8_000_000, lines_learnt: 7_412_000, periodic: false, applied: true, curve: { at_mm, low_um: at_mm.map((mm) => error(mm) - 0.015), high_um: at_mm.map((mm) => error(mm) + 0.015) } } },
+    { ...linear('Y'), calibration: { phase_error_um: [0, 0, 0, 0], lines: 0, lines_learnt: 0, periodic: false, applied: false, curve: null } },
+    { ...linear('Z'), calibration: null },
+    { name: 'C', rotary: true, encoder: { ideal: false, count_deg: 0.001, line_period_deg: 0.004, clock_ns: null }, calibration: null, estimator: { input: 'counts', cycle_ms: 1, lag_ms: 0, bounded: false, line_error_deg: null } },
+  ];
 }
 
 export const RECORDS: RecordRow[] = [

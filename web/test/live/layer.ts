@@ -77,6 +77,7 @@ export class Layer {
   modulation: Modulation | null = { ...MODULATION };
   reload: NonNullable<Status['reload']> | null = null;
   limit_um = LIMIT_UM;
+  pathKnown = true;
   private time = 1200;
   private cycles = 0;
   private way = 0;
@@ -158,7 +159,7 @@ export class Layer {
     };
   }
 
-  private surroundings(): Pick<Frame, 'ahead' | 'steps' | 'chatter' | 'thermal' | 'axes'> {
+  private surroundings(): Pick<Frame, 'ahead' | 'steps' | 'path_known' | 'chatter' | 'thermal' | 'axes'> {
     const points = Array.from({ length: 60 }, (_, i) => along(this.way + 0.5 * i));
     const tight = Math.min(...points.slice(0, 20).map((p) => p.radius));
     const speed = (FULL_MM_MIN / 60) * (this.feed / 100);
@@ -167,7 +168,8 @@ export class Layer {
     const warm = 6 * (1 - Math.exp(-this.time / 4000));
     return {
       ahead: { points_mm: points.map((p) => [p.x, p.y, -12.5]), error_um: points.map((p) => errorAt(speed, p.radius)), at_mm: points.map((_, i) => 0.5 * i) },
-      steps: STEPS.map((percent) => ({ percent, error_um: Number.isFinite(tight) ? errorAt((FULL_MM_MIN / 60) * (percent / 100), tight) : 0.4 })),
+      path_known: this.pathKnown,
+      steps: this.pathKnown ? STEPS.map((percent) => ({ percent, error_um: Number.isFinite(tight) ? errorAt((FULL_MM_MIN / 60) * (percent / 100), tight) : 0.4, change_um: this.error + 0.1 })) : null,
       chatter: { chatter: true, modulating: true, frequency_hz: 922, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92 },
       thermal: { axes: [{ name: 'Y', displacement_um: 0.3 * warm, sd_um: 0.4, offset_um: 0 }, { name: 'Z', displacement_um: warm, sd_um: 0.7, offset_um: -4.1 }] },
       axes: [axis('X', here.x, 60 * speed * 0.7), axis('Y', here.y, -60 * speed * 0.5), axis('Z', -12.5, 0), axis('C', 90, 0)],

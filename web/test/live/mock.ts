@@ -8,7 +8,7 @@ import type { Duplex } from 'node:stream';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Modulation, Role } from '../../src/live/api/types';
-import { RECORDS, checked, lobes, machine, record, recordData, thermal } from './answers';
+import { RECORDS, checked, encoders, lobes, machine, record, recordData, thermal } from './answers';
 import { Layer } from './layer';
 import { type Socket, accept } from './websocket';
 
@@ -208,6 +208,8 @@ export class Mock {
         return { machine: machine() };
       case 'thermal':
         return { thermal: thermal() };
+      case 'motion':
+        return { motion: { axes: encoders() } };
       case 'chatter/lobes':
         if (!this.withLobes) throw new Refusal(404, 'not_found', 'There is no map.', 'Start with --process FILE.');
         return { lobes: lobes() };

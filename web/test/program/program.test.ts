@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page as the program serves it, on the simulated machine, in a browser. STEADYREST_PROGRAM names the program.
-import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
-import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+// The page as the program serves it, on the simulated machine, in a browser.
+import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { until as untilIn } from '../live/look';
-
-const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
-const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
-const folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
-const machine = join(folder, 'machine.toml');
+import { Running, steadyrest } from './running';
 
 /** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
 const ROOMS = `
@@ -30,45 +23,25 @@ speeds_rpm = [0, 6000]
 levels_um = [0, 0]
 `;
 
-let run: ChildProcess;
-let address = '';
-let key = '';
+const running = new Running();
 let opened: Open;
-
-/** Where the program says that its page is. */
-function started(): Promise<[string, string]> {
-  return new Promise((resolve, reject) => {
-    let said = '';
-    run.stderr?.on('data', (part: Buffer) => {
-      said += part.toString();
-      const found = /Page: (http:\/\/[^/]+)\/#key=(\S+)/.exec(said);
-      if (found) {
-        resolve([found[1] ?? '', found[2] ?? '']);
-      }
-    });
-    run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
-  });
-}
 
 const text = (selector: string) => opened.page.textContent(selector);
 const until = (expression: string) => untilIn(opened.page, expression);
 const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`);
 
 beforeAll(async () => {
-  writeFileSync(machine, readFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), 'utf8') + ROOMS);
-  run = spawn(PROGRAM, ['run', '--machine', machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(folder, 'runs'), '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
-  [address, key] = await started();
-  opened = await open(address, `/#key=${key}`, { loggedIn: false });
+  await running.start(ROOMS);
+  opened = await open(running.address, `/#key=${running.key}`, { loggedIn: false });
 });
 afterAll(async () => {
-  run.kill('SIGTERM');
+  running.stop();
   await closeBrowser();
-  rmSync(folder, { recursive: true, force: true });
 });
 
 it('shows the machine at work', async () => {
   await until(`document.querySelector('#mode-badge')?.textContent === 'Observe'`);
-  expect(opened.page.url()).not.toContain(key);
+  expect(opened.page.url()).not.toContain(running.key);
   expect(await text('h1')).toContain('VMC with SINUMERIK 840D');
   await until(`/Cutting/.test(document.body.textContent)`);
   await until(`document.querySelector('#connection').textContent.includes('Live')`);
@@ -89,7 +62,7 @@ it('applies a change of the machine file while it runs', async () => {
   expect(await text('dialog .diff')).toContain('+limit_um = 12.5');
   await opened.page.click('#apply');
   await opened.page.waitForSelector('dialog', { state: 'detached' });
-  expect(readFileSync(machine, 'utf8')).toContain('limit_um = 12.5');
+  expect(readFileSync(running.machine, 'utf8')).toContain('limit_um = 12.5');
   await go('now');
   await until(String.raw`/12\.5\sµm/.test(document.body.textContent)`);
 });
@@ -106,7 +79,7 @@ it('sets the modulation at once, in act when that is confirmed, and keeps it ove
   await opened.page.click('#set-modulation');
   await opened.page.click('dialog .strong');
   await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
-  expect(readFileSync(machine, 'utf8')).not.toContain('sine');
+  expect(readFileSync(running.machine, 'utf8')).not.toContain('sine');
   await opened.page.click('#hand-back');
   await until(`document.querySelector('#mode-badge').textContent === 'Observe'`);
   await go('contour');
@@ -131,6 +104,16 @@ it('takes a measured size, and says what became of it', async () => {
   await until(`document.querySelector('#verdict-of-reading').textContent.includes('rejected')`);
 });
 
+it('says what each step of the override would give, and what the encoders are', async () => {
+  await go('contour');
+  await until(`document.querySelectorAll('#steps .step-row').length === 23`);
+  await until(String.raw`[...document.querySelectorAll('#steps .step-row .value')].every((e) => /^[\d.]+\sµm$/.test(e.textContent))`);
+  expect(await opened.page.$$eval('#steps .step-row.in-force', (all) => all.length)).toBe(1);
+  await go('motion');
+  await until(`document.querySelectorAll('#encoders tbody tr').length === 3`);
+  expect(await text('#encoders tbody')).toContain('edges stamped to 100 ns');
+});
+
 it('has every view, and the record of this run with who did what', async () => {
   for (const view of ['chatter', 'thermal', 'motion', 'machine']) {
     await go(view);
@@ -146,22 +129,20 @@ it('has every view, and the record of this run with who did what', async () => {
 });
 
 it('lets nobody in who does not know the key', async () => {
-  expect((await fetch(`${address}/api/v1/status`)).status).toBe(401);
-  const wrong = await fetch(`${address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"key":"guess"}' });
+  expect((await fetch(`${running.address}/api/v1/status`)).status).toBe(401);
+  const wrong = await fetch(`${running.address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: '{"key":"guess"}' });
   expect(wrong.status).toBe(401);
-  const foreign = await fetch(`${address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json', Origin: 'http://evil.example' }, body: JSON.stringify({ key }) });
+  const foreign = await fetch(`${running.address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json', Origin: 'http://evil.example' }, body: JSON.stringify({ key: running.key }) });
   expect(foreign.status).toBe(403);
 });
 
 it('leaves a record that shows both, and decides the same again', async () => {
-  const ended = new Promise((done) => run.once('exit', done));
-  run.kill('SIGTERM');
-  await ended;
-  const [name] = readdirSync(join(folder, 'runs')).filter((f) => f.endsWith('.sqlite'));
-  const record = join(folder, 'runs', name ?? '');
-  const steadyrest = (...of: string[]) => execFileSync(PROGRAM, ['record', ...of], { encoding: 'utf8' });
-  const shown = steadyrest('show', record);
+  await running.end();
+  const runs = join(running.folder, 'runs');
+  const [name] = readdirSync(runs).filter((f) => f.endsWith('.sqlite'));
+  const record = join(runs, name ?? '');
+  const shown = steadyrest('record', 'show', record);
   expect(shown).toContain('wish: page: local (engineer) set the modulation: sine');
   expect(shown).toContain('wish: page: local (engineer) entered a measured size: Z is +0.25 µm off, sd 1 µm\n');
-  expect(JSON.parse(steadyrest('replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });
+  expect(JSON.parse(steadyrest('record', 'replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });
 });

@@ -111,6 +111,12 @@ export interface AxisNow {
   acceleration_bound_mm_s2: Maybe;
   following_um: Maybe;
 }
+/** What a step of the override would give: in force from now on, and taken until the next decision. */
+export interface StepNow {
+  percent: number;
+  error_um: Maybe;
+  change_um: Maybe;
+}
 export interface Frame {
   type: 'frame';
   seq: number;
@@ -119,7 +125,8 @@ export interface Frame {
   status: Status;
   samples: Samples;
   ahead: Ahead | null;
-  steps: { percent: number; error_um: Maybe }[] | null;
+  path_known?: boolean;
+  steps: StepNow[] | null;
   chatter: ChatterNow | null;
   thermal: { axes: ThermalAxis[] } | null;
   axes: AxisNow[];
@@ -193,10 +200,21 @@ export interface ThermalHistory {
   sd_um: Maybe[];
   offset_um: Maybe[];
 }
+/** Of an offset. */
+export interface Move {
+  axis: string;
+  from_um: number;
+  to_um: number;
+}
 export interface Thermal {
   share_k: Maybe;
   passports: { axis: string; modes: { amplitude_um: Maybe; time_constant_min: Maybe }[] }[];
   history: { t_s: number[]; axes: ThermalHistory[] };
+  /** Means of the time up to each instant. */
+  cyclogram?: { t_s: number[]; speed_rpm: Maybe[]; feed_mm_min: Maybe[]; cutting_percent: Maybe[]; coolant_percent: Maybe[] };
+  /** From now on, if the machine repeats what it did in the last `of_last_s`. */
+  outlook?: { of_last_s: number; in_s: number[]; axes: ThermalHistory[] } | null;
+  corrections?: { step_um: number; done: (Move & { t_s: number })[]; to_come: (Move & { in_s: number })[] };
   next: { axis: string; offset_um: number; in_s: Maybe } | null;
   readings?: { t_s: number; axis: string; displacement_um: number; reason: string; sentence: string }[];
 }
@@ -204,6 +222,23 @@ export interface Verdict {
   taken?: boolean;
   reason?: string;
   sentence?: string;
+}
+
+/** Lengths in µm and mm; of a rotary axis the keys end in `_deg`. */
+export interface EncoderAxis {
+  name: string;
+  rotary: boolean;
+  encoder: { ideal: boolean; count_um?: Maybe; count_deg?: Maybe; line_period_um?: Maybe; line_period_deg?: Maybe; clock_ns: Maybe };
+  calibration: {
+    phase_error_um?: number[];
+    phase_error_deg?: number[];
+    lines: number;
+    lines_learnt: number;
+    periodic: boolean;
+    applied: boolean;
+    curve: { at_mm?: number[]; at_deg?: number[]; low_um?: Maybe[]; low_deg?: Maybe[]; high_um?: Maybe[]; high_deg?: Maybe[] } | null;
+  } | null;
+  estimator: { input: 'edges' | 'counts'; cycle_ms: number; lag_ms: number; bounded: boolean; line_error_um?: Maybe; line_error_deg?: Maybe } | null;
 }
 
 export interface RecordRow {

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits and strategy of the contour correction, and what each override step would give now.
-import { fixed } from '../../frame/numbers';
+// Limits and strategy of the contour correction, its courses, and what each override step would give now.
 import { theme as themeNow } from '../../frame/theme';
 import { Strip } from '../paint/strip';
 import type { Context, MakeView } from '../shell/context';
-import { h, panel, setText } from '../shell/h';
+import { h, panel } from '../shell/h';
 import { problem } from '../shell/problem';
-import { small, units } from '../state/units';
+import { units } from '../state/units';
 import { t } from '../texts/texts';
-import { type Bar, bar } from './bars';
 import { keyRows } from './keys';
 import { errorStrip } from './now/error';
 import { type Part, together } from './part';
+import { stepsPart } from './steps';
 
 const SECTIONS = ['contour', 'path_offset'];
 const SECONDS = 10;
-/** A bar as long as this many limits. */
-const BAR_LIMITS = 2;
 
 function limitsPart(context: Context): Part {
   const body = h('div', {}, h('p', { class: 'none' }, t('loading')));
@@ -33,53 +30,6 @@ function limitsPart(context: Context): Part {
   };
   load();
   return { root: panel(t('limits'), 'limits', h('p', { class: 'hint' }, t('limits_hint')), body), close: () => end() };
-}
-
-interface StepRow {
-  root: HTMLElement;
-  bar: Bar;
-  verdict: HTMLElement;
-}
-
-function stepRow(percent: number): StepRow {
-  const made = bar(`${fixed(percent, 0)} %`, 'step');
-  const verdict = h('span', { class: 'step-verdict' });
-  made.root.append(verdict);
-  return { root: h('li', { class: 'step-row' }, made.root), bar: made, verdict };
-}
-
-function stepsPart({ live }: Context): Part {
-  const list = h('ul', { class: 'step-rows', id: 'steps' });
-  const none = h('p', { class: 'none', id: 'steps-none' }, t('steps_none'));
-  const rows = new Map<number, StepRow>();
-  const show = () => {
-    const steps = [...(live.frame?.steps ?? [])].sort((a, b) => b.percent - a.percent);
-    none.hidden = steps.length > 0;
-    list.hidden = steps.length === 0;
-    if (steps.length !== rows.size || steps.some((s) => !rows.has(s.percent))) {
-      rows.clear();
-      steps.forEach((s) => rows.set(s.percent, stepRow(s.percent)));
-      list.replaceChildren(...[...rows.values()].map((r) => r.root));
-    }
-    const limit = live.status?.contour_limit_um ?? 0;
-    const inForce = steps.reduce<number | undefined>((best, s) => (best === undefined || Math.abs(s.percent - (live.status?.feed_percent ?? 0)) < Math.abs(best - (live.status?.feed_percent ?? 0)) ? s.percent : best), undefined);
-    for (const { percent, error_um } of steps) {
-      const row = rows.get(percent);
-      const over = error_um !== null && Math.abs(error_um) > limit;
-      row?.bar.set(error_um === null ? null : Math.abs(error_um) / (BAR_LIMITS * limit || 1), small(error_um));
-      row?.bar.mark(1 / BAR_LIMITS);
-      row?.root.classList.toggle('over', over);
-      row?.root.classList.toggle('in-force', percent === inForce);
-      if (row) {
-        const words = error_um === null ? [] : [t(over ? 'step_exceeds' : 'step_holds')];
-        setText(row.verdict, [...words, ...(percent === inForce ? [t('step_now')] : [])].join(' · '));
-      }
-    }
-  };
-  return {
-    root: panel(t('steps'), 'step-panel', h('p', { class: 'hint' }, t('steps_hint')), none, list),
-    update: (_, figures) => figures && show(),
-  };
 }
 
 function coursesPart(context: Context): Part {

@@ -10,6 +10,7 @@ import type { Context, MakeView } from '../shell/context';
 import { h, panel, setText } from '../shell/h';
 import { figure, units } from '../state/units';
 import { t } from '../texts/texts';
+import { encodersPart } from './encoders';
 import { type Part, together } from './part';
 
 interface Column {
@@ -107,4 +108,4 @@ function followingPart({ live }: Context): Part {
   };
 }
 
-export const motionView: MakeView = (context) => together('motion-view', [axesPart(context), followingPart(context), loopPart(context)]);
+export const motionView: MakeView = (context) => together('motion-view', [axesPart(context), followingPart(context), loopPart(context), encodersPart(context)]);

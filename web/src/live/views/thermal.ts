@@ -1,46 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thermal displacement: its history and forecast, the offsets against it, what comes next, measured sizes.
+// Thermal displacement: its history and the next hour, what drove it, the corrections against it, measured sizes.
 import { digits } from '../../frame/numbers';
-import type { Theme } from '../../frame/theme';
-import { axisFor } from '../../plot/axes';
-import type { Plot } from '../../plot/drawn';
-import type { Maybe } from '../../frame/data';
-import type { Thermal, ThermalHistory } from '../api/types';
+import type { Thermal } from '../api/types';
 import type { Context, MakeView } from '../shell/context';
-import { h, panel } from '../shell/h';
+import { h, panel, setText } from '../shell/h';
 import { problem } from '../shell/problem';
 import { figure, small, units } from '../state/units';
 import { reasonText, t } from '../texts/texts';
+import { correctionLists } from './heat/corrections';
+import { cyclogramPlot, historyPlot } from './heat/plots';
 import { measuredPart } from './measured';
 import { thermalPart } from './now/thermal';
 import { type Part, columns, every } from './part';
 import { Plotted } from './plotted';
+import { span } from './times';
 
 const ASK_MS = 10_000;
-const BAND_SD = 2;
-
-export function historyPlot(axis: ThermalHistory, t_s: readonly number[], theme: Theme): Plot {
-  const { of, name } = units().small;
-  const last = t_s.at(-1) ?? 0;
-  const x = t_s.map((at) => (at - last) / 3600);
-  const shown = (values: readonly Maybe[]) => values.map((v) => (v === null ? null : of(v)));
-  const edge = (sign: number) => axis.displacement_um.map((d, i) => (d === null ? null : of(d + sign * BAND_SD * (axis.sd_um[i] ?? 0))));
-  const [low, high] = [edge(-1), edge(1)];
-  const offset = shown(axis.offset_um);
-  const left = axis.displacement_um.map((d, i) => (d === null ? null : of(d + (axis.offset_um[i] ?? 0))));
-  return {
-    title: t('history_axis', { axis: axis.name, unit: name }),
-    x: { name: t('time_h'), min: Math.min(x[0] ?? -1, -0.05), max: 0 },
-    y: axisFor(t('history_axis', { axis: axis.name, unit: name }), [...low, ...high, ...offset], true),
-    group: 'thermal',
-    layers: [
-      { kind: 'band', name: t('band'), x, low, high, colour: theme.run.with, opacity: 0.2 },
-      { kind: 'line', name: t('forecast'), x, y: shown(axis.displacement_um), colour: theme.run.with, width: 2 },
-      { kind: 'line', name: t('offset_done'), x, y: offset, colour: theme.run.without, width: 1.6, step: true },
-      { kind: 'line', name: t('remaining'), x, y: left, colour: theme.text, width: 1.6 },
-    ],
-  };
-}
 
 function facts({ share_k, passports = [], readings = [] }: Thermal): HTMLElement {
   const unit = units().small.name;
@@ -56,20 +31,32 @@ function facts({ share_k, passports = [], readings = [] }: Thermal): HTMLElement
   );
 }
 
-/** Asks every 10 s for the plots of all axes and the facts. */
-function historyParts(context: Context): [Part, Part] {
+const outlookWords = (of_last_s: number) => (of_last_s > 0 ? t('outlook_hint', { time: span(of_last_s) }) : t('outlook_hint_now'));
+
+/** Asks every 10 s for the plots of all axes, the cyclogram, the corrections and the facts. */
+function historyParts(context: Context): [Part, Part, Part, Part] {
   const plots = new Map<string, Plotted>();
+  const cyclogram = new Plotted('thermal-cyclogram');
   const place = h('div', { class: 'histories' }, h('p', { class: 'none' }, t('loading')));
+  const outlook = h('p', { class: 'hint', id: 'outlook-of' });
+  const driven = h('div', { class: 'histories' });
+  const moves = h('div', { id: 'corrections' });
   const about = h('div', {});
   const show = (thermal: Thermal) => {
-    const { axes, t_s } = thermal.history;
+    const { axes } = thermal.history;
+    setText(outlook, thermal.outlook ? outlookWords(thermal.outlook.of_last_s) : '');
     if (axes.map((a) => a.name).join() !== [...plots.keys()].join()) {
       plots.forEach((p) => p.close());
       plots.clear();
       axes.forEach((a) => plots.set(a.name, new Plotted(`thermal-${a.name.replace(/\W/g, '')}`)));
       place.replaceChildren(...[...plots.values()].map((p) => p.root));
     }
-    axes.forEach((a) => void plots.get(a.name)?.set((theme) => historyPlot(a, t_s, theme)));
+    axes.forEach((a) => void plots.get(a.name)?.set((theme) => historyPlot(a, thermal, theme)));
+    if (thermal.cyclogram && thermal.cyclogram.t_s.length > 0) {
+      driven.firstChild ?? driven.append(cyclogram.root);
+      void cyclogram.set((theme) => cyclogramPlot(thermal, theme));
+    }
+    moves.replaceChildren(correctionLists(thermal));
     about.replaceChildren(facts(thermal));
   };
   const load = () => {
@@ -85,18 +72,24 @@ function historyParts(context: Context): [Part, Part] {
   const stop = every(ASK_MS, load);
   return [
     {
-      root: panel(t('history'), 'history', place),
+      root: panel(t('history'), 'history', outlook, place),
       redraw: (theme) => plots.forEach((p) => void p.redraw(theme)),
       close: () => {
         stop();
         plots.forEach((p) => p.close());
       },
     },
+    {
+      root: panel(t('cyclogram'), 'cyclogram', h('p', { class: 'hint' }, t('cyclogram_hint')), driven),
+      redraw: (theme) => void cyclogram.redraw(theme),
+      close: () => cyclogram.close(),
+    },
+    { root: panel(t('corrections'), 'corrections-panel', moves) },
     { root: panel(t('passport'), 'thermal-facts', about) },
   ];
 }
 
 export const thermalView: MakeView = (context) => {
-  const [history, modes] = historyParts(context);
-  return columns('thermal-view', [history], [thermalPart(context, t('displacement')), measuredPart(context), modes]);
+  const [history, cyclogram, corrections, modes] = historyParts(context);
+  return columns('thermal-view', [history, cyclogram], [thermalPart(context, t('displacement')), corrections, measuredPart(context), modes]);
 };

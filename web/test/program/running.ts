@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program on the simulated machine, with its page. STEADYREST_PROGRAM names it.
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
+import { appendFileSync, copyFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
+const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
+
+/** What the program prints. */
+export const steadyrest = (...of: string[]): string => execFileSync(PROGRAM, of, { encoding: 'utf8' });
+
+export class Running {
+  readonly folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
+  readonly machine = join(this.folder, 'machine.toml');
+  address = '';
+  key = '';
+  private run: ChildProcess | undefined;
+
+  /** The example's machine, with more at the end of its file. */
+  async start(more = ''): Promise<void> {
+    copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), this.machine);
+    appendFileSync(this.machine, more);
+    const run = spawn(PROGRAM, ['run', '--machine', this.machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(this.folder, 'runs'), '--socket', join(this.folder, 's'), '--listen', '0'], { cwd: ROOT });
+    this.run = run;
+    [this.address, this.key] = await new Promise((resolve, reject) => {
+      let said = '';
+      run.stderr.on('data', (part: Buffer) => {
+        said += part.toString();
+        const found = /Page: (http:\/\/[^/]+)\/#key=(\S+)/.exec(said);
+        if (found) {
+          resolve([found[1] ?? '', found[2] ?? '']);
+        }
+      });
+      run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
+    });
+  }
+
+  /** Until its record is whole; the folder stays. */
+  async end(): Promise<void> {
+    const { run } = this;
+    if (run && run.exitCode === null) {
+      const ended = new Promise((done) => run.once('exit', done));
+      run.kill('SIGTERM');
+      await ended;
+    }
+  }
+
+  stop(): void {
+    this.run?.kill('SIGTERM');
+    rmSync(this.folder, { recursive: true, force: true });
+  }
+}
