@@ -23,11 +23,11 @@ const std::string kModulates = "[chatter]\nenabled = true\nm_code_on = 0\nm_code
 
 /// A layer whose file does not modulate at first.
 struct Modulating {
-  json ask(const json& request) {
+  [[nodiscard]] json ask(const json& request) const {
     const auto answer = live::ask(layer.at("steadyrest.sock"), request.dump(), 60.0);
     return answer ? json::parse(*answer) : json{{"error", {{"what", answer.error().what}}}};
   }
-  json modulate(const std::string& law) {
+  [[nodiscard]] json modulate(const std::string& law) const {
     return ask({{"version", 1},
                 {"ask", "modulate"},
                 {"author", "night shift"},
