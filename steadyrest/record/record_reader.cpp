@@ -49,10 +49,10 @@ Result<void> check_format(Database& database, const std::string& file) {
   if (!format) {
     return std::unexpected(format.error());
   }
-  if (*format != kFormat) {
+  if (*format < kOldestFormat || *format > kFormat) {
     return refuse(file,
-                  "has format " + std::to_string(*format) + "; this program reads format " +
-                      std::to_string(kFormat),
+                  "has format " + std::to_string(*format) + "; this program reads formats " +
+                      std::to_string(kOldestFormat) + " and " + std::to_string(kFormat),
                   "use the version of Steadyrest that recorded it");
   }
   return {};
@@ -110,6 +110,8 @@ std::string_view word(EventKind kind) noexcept {
       return "undelivered";
     case EventKind::reload:
       return "reload";
+    case EventKind::wish:
+      return "wish";
     case EventKind::note:
       break;
   }
@@ -199,7 +201,7 @@ Result<void> RecordReader::read_events() {
       return {};
     }
     const std::int64_t kind = query->integer(2);
-    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::reload))) {
+    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::wish))) {
       return damaged("an event of an unknown kind");
     }
     events_.push_back({.before = static_cast<std::uint64_t>(query->integer(0)),

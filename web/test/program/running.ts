@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
+export const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 
 export class Running {
@@ -33,6 +33,16 @@ export class Running {
       });
       run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
     });
+  }
+
+  /** As Ctrl-C does; waits until it has ended. */
+  async end(): Promise<void> {
+    const { run } = this;
+    if (run && run.exitCode === null) {
+      const ended = new Promise((done) => run.once('exit', done));
+      run.kill('SIGTERM');
+      await ended;
+    }
   }
 
   stop(): void {
