@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page as the program serves it, on the simulated machine, in a browser.
+import { execFileSync } from 'node:child_process';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { until as untilIn } from '../live/look';
-import { Running, steadyrest } from './running';
+import { PROGRAM, Running } from './running';
+
+const running = new Running();
 
 /** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
 const ROOMS = `
@@ -23,7 +26,6 @@ speeds_rpm = [0, 6000]
 levels_um = [0, 0]
 `;
 
-const running = new Running();
 let opened: Open;
 
 const text = (selector: string) => opened.page.textContent(selector);
@@ -67,6 +69,16 @@ it('applies a change of the machine file while it runs', async () => {
   await until(String.raw`/12\.5\sµm/.test(document.body.textContent)`);
 });
 
+it('says what each step of the override would give, and what the encoders are', async () => {
+  await go('contour');
+  await until(`document.querySelectorAll('#steps .step-row').length === 23`);
+  await until(String.raw`[...document.querySelectorAll('#steps .step-row .value')].every((e) => /^[\d.]+\sµm$/.test(e.textContent))`);
+  expect(await opened.page.$$eval('#steps .step-row.in-force', (all) => all.length)).toBe(1);
+  await go('motion');
+  await until(`document.querySelectorAll('#encoders tbody tr').length === 3`);
+  expect(await text('#encoders tbody')).toContain('edges stamped to 100 ns');
+});
+
 it('sets the modulation at once, in act when that is confirmed, and keeps it over a change of the file', async () => {
   await go('chatter');
   await opened.page.click('[data-mode=act]:not(.badge)');
@@ -104,16 +116,6 @@ it('takes a measured size, and says what became of it', async () => {
   await until(`document.querySelector('#verdict-of-reading').textContent.includes('rejected')`);
 });
 
-it('says what each step of the override would give, and what the encoders are', async () => {
-  await go('contour');
-  await until(`document.querySelectorAll('#steps .step-row').length === 23`);
-  await until(String.raw`[...document.querySelectorAll('#steps .step-row .value')].every((e) => /^[\d.]+\sµm$/.test(e.textContent))`);
-  expect(await opened.page.$$eval('#steps .step-row.in-force', (all) => all.length)).toBe(1);
-  await go('motion');
-  await until(`document.querySelectorAll('#encoders tbody tr').length === 3`);
-  expect(await text('#encoders tbody')).toContain('edges stamped to 100 ns');
-});
-
 it('has every view, and the record of this run with who did what', async () => {
   for (const view of ['chatter', 'thermal', 'motion', 'machine']) {
     await go(view);
@@ -138,10 +140,10 @@ it('lets nobody in who does not know the key', async () => {
 
 it('leaves a record that shows both, and decides the same again', async () => {
   await running.end();
-  const runs = join(running.folder, 'runs');
-  const [name] = readdirSync(runs).filter((f) => f.endsWith('.sqlite'));
-  const record = join(runs, name ?? '');
-  const shown = steadyrest('record', 'show', record);
+  const [name] = readdirSync(join(running.folder, 'runs')).filter((f) => f.endsWith('.sqlite'));
+  const record = join(running.folder, 'runs', name ?? '');
+  const steadyrest = (...of: string[]) => execFileSync(PROGRAM, ['record', ...of], { encoding: 'utf8' });
+  const shown = steadyrest('show', record);
   expect(shown).toContain('wish: page: local (engineer) set the modulation: sine');
   expect(shown).toContain('wish: page: local (engineer) entered a measured size: Z is +0.25 µm off, sd 1 µm\n');
   expect(JSON.parse(steadyrest('record', 'replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });

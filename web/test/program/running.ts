@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
+export const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 
 /** What the program prints. */
@@ -38,7 +38,7 @@ export class Running {
     });
   }
 
-  /** Until its record is whole; the folder stays. */
+  /** As Ctrl-C does; waits until it has ended. */
   async end(): Promise<void> {
     const { run } = this;
     if (run && run.exitCode === null) {
