@@ -136,12 +136,14 @@ class Supervisor {
   }
   /// Listens to the frames' vibration from now on. When it chatters, the table's better speed
   /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are the
-  /// modulator's. False, with nothing changed, where the chatter room is off.
+  /// modulator's. One that does not act requests nothing. False, with nothing
+  /// changed, for one that acts where the chatter room is off.
   [[nodiscard]] bool listen(const ListeningStage& listener) noexcept {
-    if (chatter_) {
-      listener_ = listener;
+    if (listener.acts() && !chatter_) {
+      return false;
     }
-    return chatter_.has_value();
+    listener_ = listener;
+    return true;
   }
   /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {

@@ -224,6 +224,12 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   }
   if (kept.chatter) {
     std::swap(chatter_, before.chatter_);
+  }
+  // What was heard, and the speed that helped against it, outlive other settings of the room: the
+  // speed before would chatter again.
+  if (listener_ && before.listener_) {
+    listener_->take_over(*before.listener_);
+  } else if (!listener_ && kept.chatter) {
     std::swap(listener_, before.listener_);
   }
   if (kept.thermal) {

@@ -25,7 +25,7 @@ constexpr std::string_view kApi = "/api/";
 constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
 
-constexpr std::array<Route, 14> kRoutes = {{
+constexpr std::array<Route, 16> kRoutes = {{
     {"GET", "/api/v1/session", true},
     {"POST", "/api/v1/session", true},
     {"DELETE", "/api/v1/session"},
@@ -36,6 +36,8 @@ constexpr std::array<Route, 14> kRoutes = {{
     {"POST", "/api/v1/machine/check"},
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
+    {"GET", "/api/v1/chatter/lobes"},
+    {"GET", "/api/v1/chatter/plan"},
     {"GET", "/api/v1/records"},
     {"GET", kRecords},
     {"POST", kRecords, false, Role::engineer},
@@ -78,7 +80,12 @@ std::string author(const web::Caller& caller) {
 }  // namespace
 
 Api::Api(const Desk& desk, const Login::Config& login, std::function<double()> now_s)
-    : desk_(desk), login_(login), stream_(desk), heat_(desk), now_s_(std::move(now_s)) {}
+    : desk_(desk),
+      login_(login),
+      stream_(desk),
+      heat_(desk),
+      study_(desk),
+      now_s_(std::move(now_s)) {}
 
 std::span<const Route> Api::routes() noexcept {
   return kRoutes;
@@ -142,6 +149,9 @@ web::Response Api::run(const Route& route, const Call& call) {
   }
   if (route.path == "/api/v1/thermal") {
     return heat_.show();
+  }
+  if (route.path.starts_with("/api/v1/chatter/")) {
+    return route.path.ends_with("plan") ? study_.plan() : study_.lobes();
   }
   if (route.path == "/api/v1/records") {
     return list_records(desk_, call.request);

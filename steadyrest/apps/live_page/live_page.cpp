@@ -19,6 +19,7 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr auto kFrame = std::chrono::microseconds(33'333);
+constexpr int kFramesPerSpectrum = 6;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -100,6 +101,16 @@ class Page final : public LivePage {
     }
   }
 
+  void send_spectrum() {
+    if (++since_spectrum_ < kFramesPerSpectrum) {
+      return;
+    }
+    since_spectrum_ = 0;
+    if (std::string text = frames_.spectrum(); !text.empty()) {
+      server_->offer(std::make_shared<const std::string>(std::move(text)));
+    }
+  }
+
   void send() {
     auto next = std::chrono::steady_clock::now();
     while (!ends_.load()) {
@@ -107,6 +118,7 @@ class Page final : public LivePage {
       desk_.tap.watch(watched);
       if (watched) {
         server_->publish(std::make_shared<const std::string>(frames_.frame()));
+        send_spectrum();
       }
       api_.look();
       tell_machine();
@@ -123,6 +135,7 @@ class Page final : public LivePage {
   std::unique_ptr<web::Server> server_;
   std::atomic<bool> ends_{false};
   std::uint64_t told_ = 0;
+  int since_spectrum_ = 0;
   std::thread thread_;
 };
 

@@ -71,8 +71,17 @@ TEST(RefusedRecord, ADatabaseOfAnotherProgram) {
 TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
-  change(file, "PRAGMA user_version = 3");
-  EXPECT_THAT(refusal(file), testing::HasSubstr("has format 3; this program reads format 2"));
+  change(file, "PRAGMA user_version = 4");
+  EXPECT_THAT(refusal(file), testing::HasSubstr("has format 4; this program reads formats 2 to 3"));
+}
+
+// Format 2 had no listener.
+TEST(RefusedRecord, TheFormatBeforeIsNot) {
+  const test::Folder folder;
+  const std::string file = record(folder);
+  change(file, "ALTER TABLE run DROP COLUMN listener; PRAGMA user_version = 2");
+  EXPECT_EQ(refusal(file), "");
+  EXPECT_EQ(RecordReader::open(file).value().run().listener, "");
 }
 
 TEST(RefusedRecord, DamageNamesThePlace) {
