@@ -229,6 +229,9 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   // speed before would chatter again.
   if (listener_ && before.listener_) {
     listener_->take_over(*before.listener_);
+    if (listener_->acts() && !kept.chatter && chatter_ && before.chatter_) {
+      chatter_->restore(before.chatter_->state());
+    }
   } else if (!listener_ && kept.chatter) {
     std::swap(listener_, before.listener_);
   }

@@ -103,7 +103,7 @@ Result<void> give(const Listener& listener, const Machine& machine, supervisor::
   };
   supervisor::ListeningStage::Config config = listener.stage;
   put_limits(machine, config.acts, config.better.table);
-  if (config.better.table.step_ratio.empty()) {
+  if (config.acts && config.better.table.step_ratio.size() < 2) {
     return cannot_act();
   }
   auto stage = supervisor::ListeningStage::make(config);

@@ -4,13 +4,11 @@ import { type ChildProcess, spawn } from 'node:child_process';
 import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { until as untilIn } from '../live/look';
+import { PROGRAM, ROOT, started } from './run';
 
-const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
-const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
 const machine = join(folder, 'machine.toml');
 
@@ -19,21 +17,6 @@ let address = '';
 let key = '';
 let opened: Open;
 
-/** Where the program says that its page is. */
-function started(): Promise<[string, string]> {
-  return new Promise((resolve, reject) => {
-    let said = '';
-    run.stderr?.on('data', (part: Buffer) => {
-      said += part.toString();
-      const found = /Page: (http:\/\/[^/]+)\/#key=(\S+)/.exec(said);
-      if (found) {
-        resolve([found[1] ?? '', found[2] ?? '']);
-      }
-    });
-    run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
-  });
-}
-
 const text = (selector: string) => opened.page.textContent(selector);
 const until = (expression: string) => untilIn(opened.page, expression);
 const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`);
@@ -41,7 +24,7 @@ const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`)
 beforeAll(async () => {
   copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), machine);
   run = spawn(PROGRAM, ['run', '--machine', machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(folder, 'runs'), '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
-  [address, key] = await started();
+  [address, key] = await started(run);
   opened = await open(address, `/#key=${key}`, { loggedIn: false });
 });
 afterAll(async () => {

@@ -63,7 +63,7 @@ std::expected<std::optional<RunProcess>, Refusals> read_run_process(
 }
 
 std::optional<Refusal> unfit(const std::optional<RunProcess>& process, const Machine& machine) {
-  if (process && process->acts && machine.spindle_override.ratio.empty()) {
+  if (process && process->acts && machine.spindle_override.ratio.size() < 2) {
     return bad_input(machine.file,
                      "the machine has no spindle override to act against chatter with",
                      "add [override.spindle], or only listen with --chatter machine");

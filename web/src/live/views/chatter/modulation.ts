@@ -84,6 +84,7 @@ export function modulationPart(context: Context): Part {
   let shown: string | undefined;
   const show = (modulation: Modulation | null) => {
     shown = JSON.stringify(modulation);
+    const none = live.hello?.chooses_speed === true ? t('modulation_chosen') : t('modulation_none');
     body.replaceChildren(
       modulation
         ? form(context, modulation, (m) => {
@@ -91,7 +92,7 @@ export function modulationPart(context: Context): Part {
               context.staged.set(key, value, keysOf(modulation)[key] ?? null);
             }
           })
-        : h('p', { class: 'none', id: 'modulation-none' }, t('modulation_none')),
+        : h('p', { class: 'none', id: 'modulation-none' }, none),
     );
   };
   return {
