@@ -8,6 +8,8 @@
 namespace steadyrest::live {
 namespace {
 
+using Kind = chatter::online::Detector::Kind;
+
 constexpr double kSameRatio = 0.01;
 
 }  // namespace
@@ -23,10 +25,12 @@ const LiveChatter& ChatterWatch::update(const supervisor::Supervisor& layer,
   const bool begins = heard->chatter && !heard_;
   heard_ = heard->chatter;
   // Outside of cuts the ear keeps its last word, and there is no chatter.
-  now_.chatters = heard->chatter && frame.motion == kernel::signal::Motion::feed;
+  const bool cuts = frame.motion == kernel::signal::Motion::feed;
+  now_.chatters = heard->chatter && cuts;
   now_.kind = heard->kind;
   now_.frequency_hz = heard->frequency_hz;
-  now_.level = heard->level;
+  // Of a tool that is too quiet to be in a cut the share says nothing.
+  now_.level = cuts && heard->kind != Kind::none ? heard->level : 0.0;
   now_.threshold = heard->threshold;
   const bool asks = kernel::override::is_wish(heard->request.ratio, heard->request.reason);
   now_.better_ratio = asks ? heard->request.ratio : 1.0;

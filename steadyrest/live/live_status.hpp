@@ -31,7 +31,7 @@ struct LiveChatter {
   bool chatters = false;  ///< the tool is in the cut, and the cut chatters
   chatter::online::Detector::Kind kind = chatter::online::Detector::Kind::none;
   double frequency_hz = 0.0;  ///< of the strongest line that is not forced; 0: none
-  double level = 0.0;         ///< the detector's energy ratio, 0 … 1
+  double level = 0.0;         ///< the detector's energy ratio, 0 … 1; 0: not in a cut
   double threshold = 0.0;     ///< of it
   double before = 0.0;        ///< level before the layer stepped in; 0: it did not
   double better_ratio = 1.0;  ///< of the spindle, by the planner's table; 1: none was asked for

@@ -79,6 +79,8 @@ TEST(ChatterWatch, OutOfTheCutThereIsNoChatter) {
   EXPECT_TRUE(in.chatters);
   const LiveChatter out = cut.run(1.0, Motion::rapid);
   EXPECT_FALSE(out.chatters);
+  EXPECT_EQ(out.level, 0.0);
+  EXPECT_GT(in.level, 0.5);
   EXPECT_EQ(out.events, 1U);
   EXPECT_NEAR(out.chatter_s, in.chatter_s, 1e-9);
 }
