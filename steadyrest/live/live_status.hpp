@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/signal/path.hpp>

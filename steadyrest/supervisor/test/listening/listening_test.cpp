@@ -3,7 +3,7 @@
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
 #include <steadyrest/supervisor/succession.hpp>
-#include <steadyrest/supervisor/test/chattering_cut.hpp>
+#include <steadyrest/supervisor/test/listening/chattering_cut.hpp>
 
 namespace steadyrest::supervisor {
 namespace {
