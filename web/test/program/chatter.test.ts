@@ -20,8 +20,6 @@ beforeAll(async () => {
   run = spawn(PROGRAM, ['run', '--machine', 'examples/machines/vmc-840d.toml', '--program', 'examples/programs/slot.mpf', '--process', 'examples/processes/slot-922hz.toml', '--depth-mm', '0.6', '--mode', 'act', '--repeat', '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
   const [address, key] = await started(run);
   opened = await open(address, `/#key=${key}`, { loggedIn: false });
-  await until(`document.querySelector('#mode-badge')?.textContent === 'Act'`);
-  await opened.page.evaluate(`location.hash = '#/chatter'`);
 });
 afterAll(async () => {
   run.kill('SIGTERM');
@@ -30,6 +28,8 @@ afterAll(async () => {
 });
 
 it('shows the better step, and how loud it was before', async () => {
+  await until(`document.querySelector('#mode-badge')?.textContent === 'Act'`);
+  await opened.page.evaluate(`location.hash = '#/chatter'`);
   await until(`document.querySelector('#chatter-now').textContent.includes('Spindle at 90 % against it')`);
   await until(`/[5-9]\\d/.test(document.querySelector('.vibration .before .value').textContent)`);
   await until(`document.querySelector('#chatter-now').textContent.startsWith('The cut is quiet')`);
