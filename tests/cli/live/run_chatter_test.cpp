@@ -57,6 +57,7 @@ TEST(RunChatter, GoesOnListeningWithAnotherMachineFile) {
                   kSlotProgram);
   const auto chatter = [] { return answer_of("status")["chatter"]; };
   EXPECT_TRUE(LiveLayer::until([&] { return !chatter()["before"].is_null(); }));
+  EXPECT_THAT(run_line("status").out, HasSubstr("better step: 90 %"));
   layer.change("limit_um = 10\n", "limit_um = 20\n");
   layer.process().send(SIGHUP);
   json status = LiveLayer::after_reload(1);

@@ -71,6 +71,10 @@ describe('chatter', () => {
   it('is not called quiet where nobody listens', () => {
     expect(said({}, false)).toBe('Nothing listens for chatter: start the layer with --process.');
   });
+  it('is neither there nor not out of the cut', () => {
+    const frame = layer.frame(1);
+    expect(chatterWords({ hello: layer.hello(), frame: { ...frame, status: { ...frame.status, cutting: false }, chatter: { chatter: false } }, spectrum: undefined })).toBe('Not cutting');
+  });
   it('has a plan in words', () => {
     expect(planWords(plan())).toBe('Set the spindle override to 90 %: 4680 rpm.');
     expect(planWords({ ...plan(), decision: 'keep', speed_rpm: 5200 })).toBe('Keep 5200 rpm: the cut is stable.');

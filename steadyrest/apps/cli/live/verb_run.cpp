@@ -298,8 +298,9 @@ Outcome run(const Options& options, Progress& progress) {
   show_warnings(prepared->findings);
   const StopSignals signals(loop);
   const LoopFigures& figures = loop.run();
+  // Before page and record end: that may take longer than the watchdog waits.
+  life_sign.reset();
   page.close();
-  life_sign.reset();  // before the record ends: that may take longer than the watchdog waits
   return answer_of(figures, *prepared, real_time, record);
 }
 

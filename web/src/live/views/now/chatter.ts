@@ -28,7 +28,8 @@ export function chatterWords({ hello, frame, spectrum }: Pick<Live, 'hello' | 'f
   if (!chatter) {
     return t('chatter_none');
   }
-  const heard = hello?.listening === false ? t('chatter_deaf') : heardWords(chatter, spectrum?.chatter_hz ?? null);
+  const cuts = frame?.status.cutting !== false;
+  const heard = hello?.listening === false ? t('chatter_deaf') : cuts ? heardWords(chatter, spectrum?.chatter_hz ?? null) : t('not_cutting');
   return [heard, stepWords(chatter, frame?.status.mode === 'act')].filter((words) => words !== '').join(' · ');
 }
 
