@@ -110,6 +110,8 @@ std::string_view word(EventKind kind) noexcept {
       return "undelivered";
     case EventKind::reload:
       return "reload";
+    case EventKind::wish:
+      return "wish";
     case EventKind::note:
       break;
   }
@@ -160,7 +162,7 @@ Result<RecordReader> RecordReader::open(const std::string& file) {
 
 Result<void> RecordReader::read_run() {
   const auto format = database_.number("PRAGMA user_version");
-  const bool listens = format && *format > kOldestFormat;
+  const bool listens = format && *format >= kListenerFormat;
   const std::string select =
       std::string(
           "SELECT start_utc, version, machine, machine_text, program, program_text, "
@@ -205,7 +207,7 @@ Result<void> RecordReader::read_events() {
       return {};
     }
     const std::int64_t kind = query->integer(2);
-    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::reload))) {
+    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::wish))) {
       return damaged("an event of an unknown kind");
     }
     events_.push_back({.before = static_cast<std::uint64_t>(query->integer(0)),

@@ -134,6 +134,10 @@ class Supervisor {
   [[nodiscard]] bool modulate(const chatter::online::Modulation& modulation) noexcept {
     return chatter_ && chatter_->change(modulation);
   }
+  /// The modulation in force: the machine file's until modulate(). Null where the room is off.
+  [[nodiscard]] const chatter::online::Modulation* modulation() const noexcept {
+    return chatter_ ? &chatter_->state().modulation : nullptr;
+  }
   /// Listens to the frames' vibration from now on. When it chatters, the table's better speed
   /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are the
   /// modulator's. One that does not act requests nothing. False, with nothing
@@ -145,6 +149,8 @@ class Supervisor {
     listener_ = listener;
     return true;
   }
+  /// It listens and acts, and so chooses the modulator's speed itself.
+  [[nodiscard]] bool chooses_speed() const noexcept { return listener_ && listener_->acts(); }
   /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
     return thermal_ ? &*thermal_ : nullptr;

@@ -224,6 +224,9 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   }
   if (kept.chatter) {
     std::swap(chatter_, before.chatter_);
+  } else if (kept.modulation && chatter_ && before.chatter_) {
+    // In range, since it was in force.
+    [[maybe_unused]] const bool taken = chatter_->change(before.chatter_->state().modulation);
   }
   // What was heard, and the speed that helped against it, outlive other settings of the room: the
   // speed before would chatter again.

@@ -143,6 +143,20 @@ Json chatter_json(const LiveStatus& status, Json heard) {
   return out;
 }
 
+/// That in force; before the first cycle that of the machine file. Null where the room is off.
+Json modulation_of(const LiveStatus& status, const kernel::machine::Machine& machine) {
+  if (status.modulation) {
+    return steadyrest::live::modulation_json(*status.modulation);
+  }
+  if (status.cycles > 0 || !machine.chatter.enabled) {
+    return nullptr;
+  }
+  return {{"law", passport::word(machine.chatter.law)},
+          {"amplitude_ratio", machine.chatter.amplitude_ratio},
+          {"period_s", machine.chatter.period_s},
+          {"mean_ratio", machine.chatter.mean_ratio}};
+}
+
 }  // namespace
 
 std::string StreamText::hello() const {
@@ -157,30 +171,24 @@ std::string StreamText::hello() const {
   for (const double ratio : machine.feed_override.ratio) {
     steps.push_back(rounded(kPercent * ratio, 0.1));
   }
-  Json modulation;
   const bool chooses = desk_.chatter && desk_.chatter->acts;
-  if (machine.chatter.enabled && !chooses) {
-    modulation = {{"law", passport::word(machine.chatter.law)},
-                  {"amplitude_ratio", machine.chatter.amplitude_ratio},
-                  {"period_s", machine.chatter.period_s},
-                  {"mean_ratio", machine.chatter.mean_ratio}};
-  }
-  return text_of({{"type", "hello"},
-                  {"version", steadyrest::live::kProtocol},
-                  {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
-                  {"cycle_s", desk_.cycle_s},
-                  {"contour",
-                   {{"limit_um", um_from_mm(machine.contour.limit_mm)},
-                    {"strategy", passport::word(machine.contour.strategy)},
-                    {"min_percent", kPercent * machine.contour.min_ratio},
-                    {"max_percent", kPercent * machine.contour.max_ratio},
-                    {"steps_percent", std::move(steps)}}},
-                  {"modulation", modulation},
-                  {"thermal", machine.thermal.enabled},
-                  {"listening", desk_.chatter.has_value()},
-                  {"chooses_speed", chooses},
-                  {"lobes", desk_.chatter.has_value()},
-                  {"measures", false}});
+  return text_of(
+      {{"type", "hello"},
+       {"version", steadyrest::live::kProtocol},
+       {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
+       {"cycle_s", desk_.cycle_s},
+       {"contour",
+        {{"limit_um", um_from_mm(machine.contour.limit_mm)},
+         {"strategy", passport::word(machine.contour.strategy)},
+         {"min_percent", kPercent * machine.contour.min_ratio},
+         {"max_percent", kPercent * machine.contour.max_ratio},
+         {"steps_percent", std::move(steps)}}},
+       {"modulation", chooses ? Json() : modulation_of(desk_.asked.loop.status(), machine)},
+       {"thermal", machine.thermal.enabled},
+       {"listening", desk_.chatter.has_value()},
+       {"chooses_speed", chooses},
+       {"lobes", desk_.chatter.has_value()},
+       {"measures", machine.thermal.enabled}});
 }
 
 std::string StreamText::frame() {
