@@ -46,6 +46,7 @@ void look_at(const supervisor::Supervisor& layer, LiveStatus& into) noexcept {
   into.spindle_effective_ratio = frame.spindle.effective_ratio;
   into.path_speed_mm_s = frame.path_speed_mm_s;
   into.spindle_rev_s = frame.spindle_actual_rev_s;
+  into.spindle_programmed_rev_s = frame.spindle_programmed_rev_s;
   into.offset_mm = in_force.offset_mm;
   into.path_offset_mm = in_force.path_offset_mm;
   into.axis_count = std::min<std::uint8_t>(frame.axis_count, kernel::signal::kMaxAxes);

@@ -25,6 +25,20 @@ struct LiveAxis {
   double displacement_sd_mm = 0.0;
 };
 
+/// What the layer hears.
+struct LiveChatter {
+  bool listens = false;
+  bool chatters = false;  ///< the tool is in the cut, and the cut chatters
+  chatter::online::Detector::Kind kind = chatter::online::Detector::Kind::none;
+  double frequency_hz = 0.0;  ///< of the strongest line that is not forced; 0: none
+  double level = 0.0;         ///< the detector's energy ratio, 0 … 1; 0: not in a cut
+  double threshold = 0.0;     ///< of it
+  double before = 0.0;        ///< level before the layer stepped in; 0: it did not
+  double better_ratio = 1.0;  ///< of the spindle, by the planner's table; 1: none was asked for
+  std::uint64_t events = 0;   ///< how often chatter began, since the start
+  double chatter_s = 0.0;     ///< for how long it chattered in all
+};
+
 /// What a cycle leaves for those who look.
 struct LiveStatus {
   std::uint64_t cycles = 0;
@@ -45,6 +59,7 @@ struct LiveStatus {
   double spindle_effective_ratio = 1.0;
   double path_speed_mm_s = 0.0;
   double spindle_rev_s = 0.0;
+  double spindle_programmed_rev_s = 0.0;
   double predicted_error_mm = 0.0;  ///< the largest ahead with the step that was chosen
   double predicted_at_mm = 0.0;     ///< path length where
   double limit_used_mm = 0.0;       ///< by the last decision: the limit less margin and reserve
@@ -55,6 +70,7 @@ struct LiveStatus {
   double modulation_goal_ratio = 1.0;  ///< of the modulator, before drive and steps
   double modulation_phase = 0.0;       ///< in periods, [0, 1)
   double feed_per_tooth_ratio = 1.0;
+  LiveChatter chatter;
   bool heat_on = false;  ///< the thermal room is on
   thermal::online::OffsetGovernor::Fed heat_fed;
   std::uint8_t axis_count = 0;

@@ -190,6 +190,10 @@ void Loop::count(const kernel::signal::Command& command) noexcept {
 
 void Loop::publish() noexcept {
   look_at(*layer_, now_);
+  now_.chatter = chatter_.update(*layer_, config_.period_s);
+  figures_.listens = now_.chatter.listens;
+  figures_.chatter_events = now_.chatter.events;
+  figures_.chatter_s = now_.chatter.chatter_s;
   now_.cycles = figures_.cycles;
   now_.overruns = figures_.overruns;
   now_.mode_wanted = wanted_.load();

@@ -18,6 +18,7 @@
 #include <steadyrest/kernel/rt/ring.hpp>
 #include <steadyrest/kernel/rt/snapshot.hpp>
 #include <steadyrest/live/black_box.hpp>
+#include <steadyrest/live/chatter_watch.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/pace.hpp>
 #include <steadyrest/live/tap.hpp>
@@ -36,6 +37,9 @@ struct LoopFigures {
   TimeFigures work;
   TimeFigures lateness;
   double over_limit_s = 0.0;
+  bool listens = false;              ///< to chatter
+  std::uint64_t chatter_events = 0;  ///< how often it began
+  double chatter_s = 0.0;
   bool handed_back = true;  ///< nothing of the layer was left on the machine at the end
   /// Cycles by the reason of the feed, spindle, offsets: one cycle may count in several.
   std::vector<std::uint64_t> by_reason;  ///< in the order of kernel::outcome::reasons()
@@ -183,6 +187,7 @@ class Loop {
   LiveStatus now_;
   LoopFigures figures_;
   BlackBox black_box_;
+  ChatterWatch chatter_;
 };
 
 }  // namespace steadyrest::live

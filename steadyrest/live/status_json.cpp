@@ -17,6 +17,8 @@ using kernel::units::um_from_mm;
 constexpr std::array<std::string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr double kPercent = 100.0;
 constexpr double kUs_s = 1e6;
+/// In the order of Detector::Kind.
+constexpr std::array<const char*, 4> kKinds = {"none", "forced", "hopf", "flip"};
 constexpr std::array<const char*, 4> kOf = {"feed", "spindle", "offset", "path_offset"};
 
 Json offsets(const AxisValues& mm) {
@@ -25,6 +27,23 @@ Json offsets(const AxisValues& mm) {
     out.push_back(um_from_mm(value));
   }
   return out;
+}
+
+Json chatter_json(const LiveChatter& chatter) {
+  if (!chatter.listens) {
+    return nullptr;
+  }
+  const auto known = [](double value) { return value > 0.0 ? Json(value) : Json(nullptr); };
+  return {{"chatter", chatter.chatters},
+          {"kind", kKinds[static_cast<std::size_t>(chatter.kind)]},
+          {"frequency_hz", chatter.chatters ? known(chatter.frequency_hz) : Json(nullptr)},
+          {"level", chatter.level},
+          {"threshold", known(chatter.threshold)},
+          {"before", known(chatter.before)},
+          {"better_spindle_percent",
+           chatter.better_ratio == 1.0 ? Json(nullptr) : Json(kPercent * chatter.better_ratio)},
+          {"events", chatter.events},
+          {"chatter_s", chatter.chatter_s}};
 }
 
 }  // namespace
@@ -64,6 +83,7 @@ Json status_json(const LiveStatus& status) {
                               {"reason", kernel::outcome::name(status.reasons[i])},
                               {"sentence", kernel::outcome::sentence(status.reasons[i])}});
   }
+  out["chatter"] = chatter_json(status.chatter);
   out["port_fault"] =
       status.port_fault ? Json(std::string(status.port_words.data())) : Json(nullptr);
   return out;
@@ -87,6 +107,10 @@ Json figures_json(const LoopFigures& figures) {
   out["work_p999_us"] = kUs_s * figures.work.quantile_s(0.999);
   out["lateness_p999_us"] = kUs_s * figures.lateness.quantile_s(0.999);
   out["over_limit_s"] = figures.over_limit_s;
+  if (figures.listens) {
+    out["chatter_events"] = figures.chatter_events;
+    out["chatter_s"] = figures.chatter_s;
+  }
   out["port_faults"] = figures.port_faults;
   out["handed_back"] = figures.handed_back;
   out["reasons"] = Json::object();

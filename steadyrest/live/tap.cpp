@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -16,6 +17,7 @@ using kernel::signal::Point;
 
 constexpr std::uint32_t kCyclesPerAhead = 32;
 constexpr double kHeatEvery_s = 1.0;
+constexpr std::size_t kMostReadings = 1024;  ///< of a cycle
 /// The page shows about a second, but no less than a corner and its surroundings.
 constexpr double kSight_s = 1.0;
 constexpr double kShortest_mm = 5.0;
@@ -75,6 +77,7 @@ void Tap::put(const LiveStatus& status, const Frame& frame) noexcept {
   if (!taken) {
     lost_.fetch_add(1, std::memory_order_relaxed);
   }
+  put_vibration(frame);
   if (++since_ahead_ >= kCyclesPerAhead) {
     since_ahead_ = 0;
     look_ahead(frame, next_);
@@ -136,6 +139,28 @@ void Tap::look_at_heat(const LiveStatus& status, const supervisor::Supervisor& l
     heat_next_.state = room->state();
   }
   heat_.store(heat_next_);
+}
+
+void Tap::put_vibration(const Frame& frame) noexcept {
+  rate_hz_.store(frame.vibration_rate_hz, std::memory_order_relaxed);
+  const std::size_t most = std::min(frame.vibration.size(), kMostReadings);
+  for (std::size_t i = 0; i < most; ++i) {
+    if (!readings_->try_push(frame.vibration[i])) {
+      return;
+    }
+  }
+}
+
+double Tap::take_vibration(std::vector<double>& into) {
+  into.clear();
+  for (std::size_t i = 0; i < kReadings; ++i) {
+    const auto reading = readings_->try_pop();
+    if (!reading) {
+      break;
+    }
+    into.push_back(*reading);
+  }
+  return rate_hz_.load(std::memory_order_relaxed);
 }
 
 std::uint64_t Tap::take(std::vector<TapSample>& into) {

@@ -67,7 +67,7 @@ struct HeatNow {
 /// late delays it: what finds no room is lost and counted.
 class Tap {
  public:
-  Tap() : samples_(std::make_unique<Samples>()) {}
+  Tap() : samples_(std::make_unique<Samples>()), readings_(std::make_unique<Readings>()) {}
 
   /// Only while somebody watches; from any thread.
   void watch(bool on) noexcept { watched_.store(on, std::memory_order_relaxed); }
@@ -84,6 +84,9 @@ class Tap {
 
   /// All samples since the last time, and how many were lost in all.
   std::uint64_t take(std::vector<TapSample>& into);
+  /// The vibration since the last time, oldest first, and its rate in Hz. Readings that found no
+  /// room are left out. Of the thread that takes.
+  double take_vibration(std::vector<double>& into);
   /// The newest; of the thread that takes.
   [[nodiscard]] const PathAhead& ahead() noexcept { return ahead_.load(); }
   [[nodiscard]] const StepErrors& steps() noexcept { return steps_.load(); }
@@ -93,7 +96,15 @@ class Tap {
   static constexpr std::size_t kSamples = 4096;
   using Samples = kernel::rt::Ring<TapSample, kSamples>;
 
+  /// A second at 50 kHz: the newest is lost when it is full, which leaves a gap in the signal.
+  static constexpr std::size_t kReadings = 65'536;
+  using Readings = kernel::rt::Ring<double, kReadings>;
+
+  void put_vibration(const kernel::signal::Frame& frame) noexcept;
+
   std::unique_ptr<Samples> samples_;
+  std::unique_ptr<Readings> readings_;
+  std::atomic<double> rate_hz_{0.0};
   kernel::rt::Snapshot<PathAhead> ahead_;
   PathAhead next_;
   kernel::rt::Snapshot<StepErrors> steps_;

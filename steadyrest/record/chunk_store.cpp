@@ -61,7 +61,7 @@ Result<std::unique_ptr<ChunkStore>> ChunkStore::create(const std::string& file,
 }
 
 Result<void> ChunkStore::write_run(const RunInfo& info) {
-  auto insert = database_.prepare("INSERT INTO run VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  auto insert = database_.prepare("INSERT INTO run VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   if (!insert) {
     return std::unexpected(std::move(insert.error()));
   }
@@ -70,7 +70,7 @@ Result<void> ChunkStore::write_run(const RunInfo& info) {
                                   &info.program, &info.program_text}) {
     insert->bind(at++, *text);
   }
-  return insert->bind(6, info.cycle_s).bind(7, bits(info.capability)).run();
+  return insert->bind(6, info.cycle_s).bind(7, bits(info.capability)).bind(8, info.listener).run();
 }
 
 Result<void> ChunkStore::prepare() {

@@ -52,7 +52,7 @@ Result<void> check_format(Database& database, const std::string& file) {
   if (*format < kOldestFormat || *format > kFormat) {
     return refuse(file,
                   "has format " + std::to_string(*format) + "; this program reads formats " +
-                      std::to_string(kOldestFormat) + " and " + std::to_string(kFormat),
+                      std::to_string(kOldestFormat) + " to " + std::to_string(kFormat),
                   "use the version of Steadyrest that recorded it");
   }
   return {};
@@ -161,9 +161,14 @@ Result<RecordReader> RecordReader::open(const std::string& file) {
 }
 
 Result<void> RecordReader::read_run() {
-  auto query = database_.prepare(
-      "SELECT start_utc, version, machine, machine_text, program, program_text, cycle_s, "
-      "capability, samples, dropped, closed FROM run, totals");
+  const auto format = database_.number("PRAGMA user_version");
+  const bool listens = format && *format >= kListenerFormat;
+  const std::string select =
+      std::string(
+          "SELECT start_utc, version, machine, machine_text, program, program_text, "
+          "cycle_s, capability, samples, dropped, closed, ") +
+      (listens ? "listener" : "''") + " FROM run, totals";
+  auto query = database_.prepare(select.c_str());
   if (!query) {
     return std::unexpected(std::move(query.error()));
   }
@@ -181,6 +186,7 @@ Result<void> RecordReader::read_run() {
   }
   run_.cycle_s = query->real(6);
   run_.capability = capability_of(query->integer(7));
+  run_.listener = query->text(11);
   totals_ = {.samples = static_cast<std::uint64_t>(query->integer(8)),
              .dropped = static_cast<std::uint64_t>(query->integer(9)),
              .closed = query->integer(10) != 0};

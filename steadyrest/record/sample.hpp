@@ -52,6 +52,7 @@ struct RunInfo {
   std::string machine_text = {};
   std::string program = {};  ///< its name
   std::string program_text = {};
+  std::string listener = {};  ///< how the layer hears chatter, as its maker wrote it; empty: not
   double cycle_s = 0.0;
   kernel::port::Capability capability = {};
   // NOLINTEND(readability-redundant-member-init)

@@ -8,9 +8,11 @@ namespace steadyrest::record {
 /// `STRY` in the file's head, so that `file` and we know a record from any other database.
 inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
-inline constexpr std::int64_t kFormat = 3;
+inline constexpr std::int64_t kFormat = 4;
 /// The oldest that is still read: it has no wishes.
 inline constexpr std::int64_t kOldestFormat = 2;
+/// The first with `run.listener`.
+inline constexpr std::int64_t kListenerFormat = 4;
 
 /// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others, its
 /// acceleration in mm/s² above that.
@@ -20,13 +22,13 @@ inline constexpr int kAccelerationShift = 32;
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;
-PRAGMA user_version = 3;
+PRAGMA user_version = 4;
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = NORMAL;
 CREATE TABLE run (
   start_utc TEXT NOT NULL, version TEXT NOT NULL, machine TEXT NOT NULL,
   machine_text TEXT NOT NULL, program TEXT NOT NULL, program_text TEXT NOT NULL,
-  cycle_s REAL NOT NULL, capability INTEGER NOT NULL);
+  cycle_s REAL NOT NULL, capability INTEGER NOT NULL, listener TEXT NOT NULL);
 CREATE TABLE totals (samples INTEGER NOT NULL, dropped INTEGER NOT NULL, closed INTEGER NOT NULL);
 INSERT INTO totals VALUES (0, 0, 0);
 CREATE TABLE chunk (

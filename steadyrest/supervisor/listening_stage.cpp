@@ -11,13 +11,12 @@
 // jumped once per cycle would smear the tooth-passing lines that the detector removes.
 namespace steadyrest::supervisor {
 
-kernel::outcome::Result<ListeningStage> ListeningStage::make(Config config) {
-  const double sample_rate_hz = config.better.detector.sample_rate_hz;
-  auto better = chatter::online::BetterSpeed::make(std::move(config.better));
+kernel::outcome::Result<ListeningStage> ListeningStage::make(const Config& config) {
+  auto better = chatter::online::BetterSpeed::make(config.better);
   if (!better) {
     return std::unexpected(std::move(better.error()));
   }
-  return ListeningStage(sample_rate_hz, config.depth_mm, std::move(*better));
+  return ListeningStage(config, std::move(*better));
 }
 
 ListeningStage::State ListeningStage::state() const {
@@ -28,6 +27,12 @@ void ListeningStage::restore(const State& state) noexcept {
   better_.restore(state.better);
   out_ = state.out;
   last_rev_s_ = state.last_rev_s;
+}
+
+void ListeningStage::take_over(ListeningStage& before) noexcept {
+  better_.take_over(before.better_);
+  out_ = before.out_;
+  last_rev_s_ = before.last_rev_s_;
 }
 
 void ListeningStage::reset() noexcept {

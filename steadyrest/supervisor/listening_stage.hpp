@@ -21,6 +21,7 @@ class ListeningStage {
   struct Config {
     chatter::online::BetterSpeed::Config better;  ///< frames of another sample rate are skipped
     double depth_mm = 0.0;                        ///< of the cut; 0 = not known
+    bool acts = true;  ///< the supervisor follows its request; else it is heard and shown alone
   };
 
   struct State {
@@ -30,7 +31,7 @@ class ListeningStage {
   };
 
   /// Refuses what BetterSpeed refuses.
-  [[nodiscard]] static kernel::outcome::Result<ListeningStage> make(Config config);
+  [[nodiscard]] static kernel::outcome::Result<ListeningStage> make(const Config& config);
 
   const chatter::online::BetterSpeed::Output& update(const kernel::signal::Frame& frame,
                                                      bool fit) noexcept;
@@ -38,13 +39,20 @@ class ListeningStage {
   [[nodiscard]] State state() const;
   /// From a stage with the same config.
   void restore(const State& state) noexcept;
+  /// As BetterSpeed::take_over().
+  void take_over(ListeningStage& before) noexcept;
+  [[nodiscard]] bool acts() const noexcept { return acts_; }
 
  private:
-  ListeningStage(double sample_rate_hz, double depth_mm, chatter::online::BetterSpeed better)
-      : sample_rate_hz_(sample_rate_hz), depth_mm_(depth_mm), better_(std::move(better)) {}
+  ListeningStage(const Config& config, chatter::online::BetterSpeed better)
+      : sample_rate_hz_(config.better.detector.sample_rate_hz),
+        depth_mm_(config.depth_mm),
+        acts_(config.acts),
+        better_(std::move(better)) {}
 
   double sample_rate_hz_;
   double depth_mm_;
+  bool acts_;
   chatter::online::BetterSpeed better_;
   chatter::online::BetterSpeed::Output out_;
   double last_rev_s_ = 0.0;

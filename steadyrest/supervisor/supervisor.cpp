@@ -205,6 +205,10 @@ void Supervisor::hear(const signal::Frame& frame, bool fit) noexcept {
     return;
   }
   estimates_.heard = listener_->update(frame, fit);
+  if (!listener_->acts() || !chatter_) {
+    estimates_.heard->request = {};
+    return;
+  }
   const signal::SpindleRequest& request = estimates_.heard->request;
   const bool wish = kernel::override::is_wish(request.ratio, request.reason);
   // Refused only if outside the modulator's range; then the present mean stays.
@@ -226,8 +230,8 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   if (contour_) {
     estimates_.contour = contour_->update(without_heat(frame, come_down), come_down, unfit);
   }
+  hear(frame, fit);
   if (chatter_) {
-    hear(frame, fit);
     estimates_.chatter = chatter_->update(frame, come_down);
   }
   if (thermal_) {

@@ -151,15 +151,17 @@ class Supervisor {
   }
   /// Listens to the frames' vibration from now on. When it chatters, the table's better speed
   /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are the
-  /// modulator's. False, with nothing changed, where the chatter room is off.
+  /// modulator's. One that does not act requests nothing. False, with nothing
+  /// changed, for one that acts where the chatter room is off.
   [[nodiscard]] bool listen(const ListeningStage& listener) noexcept {
-    if (chatter_) {
-      listener_ = listener;
+    if (listener.acts() && !chatter_) {
+      return false;
     }
-    return chatter_.has_value();
+    listener_ = listener;
+    return true;
   }
-  /// It listens, and so chooses the modulator's speed itself.
-  [[nodiscard]] bool listens() const noexcept { return listener_.has_value(); }
+  /// It listens and acts, and so chooses the modulator's speed itself.
+  [[nodiscard]] bool chooses_speed() const noexcept { return listener_ && listener_->acts(); }
   /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
     return thermal_ ? &*thermal_ : nullptr;

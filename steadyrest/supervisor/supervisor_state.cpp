@@ -224,10 +224,19 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   }
   if (kept.chatter) {
     std::swap(chatter_, before.chatter_);
-    std::swap(listener_, before.listener_);
   } else if (kept.modulation && chatter_ && before.chatter_) {
     // In range, since it was in force.
     [[maybe_unused]] const bool taken = chatter_->change(before.chatter_->state().modulation);
+  }
+  // What was heard, and the speed that helped against it, outlive other settings of the room: the
+  // speed before would chatter again.
+  if (listener_ && before.listener_) {
+    listener_->take_over(*before.listener_);
+    if (listener_->acts() && !kept.chatter && chatter_ && before.chatter_) {
+      chatter_->restore(before.chatter_->state());
+    }
+  } else if (!listener_ && kept.chatter) {
+    std::swap(listener_, before.listener_);
   }
   if (kept.thermal) {
     std::swap(thermal_, before.thermal_);

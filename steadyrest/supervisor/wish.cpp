@@ -11,7 +11,7 @@ WishOutcome grant_modulation(Supervisor& layer, const Modulation& modulation) no
   if (layer.modulation() == nullptr) {
     return WishOutcome::room_off;
   }
-  if (layer.listens()) {
+  if (layer.chooses_speed()) {
     return WishOutcome::listening;
   }
   return layer.modulate(modulation) ? WishOutcome::taken : WishOutcome::out_of_range;

@@ -84,6 +84,11 @@ class BeastServer final : public Server {
       each([&message](Stream& stream) { stream.announce(message); });
     });
   }
+  void offer(std::shared_ptr<const std::string> message) override {
+    asio::post(traffic_.io, [this, message = std::move(message)] {
+      each([&message](Stream& stream) { stream.offer(message); });
+    });
+  }
 
  private:
   /// A stream may leave while it is told.

@@ -65,6 +65,8 @@ class Server {
   virtual void publish(std::shared_ptr<const std::string> newest) = 0;
   /// To each stream, in order; a client that leaves more than a few waiting is dropped.
   virtual void announce(std::shared_ptr<const std::string> message) = 0;
+  /// To each stream that has nothing waiting; the others go without it.
+  virtual void offer(std::shared_ptr<const std::string> message) = 0;
   [[nodiscard]] virtual std::size_t streams() const noexcept = 0;
 };
 

@@ -62,6 +62,12 @@ class StreamClient final : public Stream,
     write();
   }
 
+  void offer(const std::shared_ptr<const std::string>& message) override {
+    if (waiting_.empty() && !newest_) {
+      announce(message);
+    }
+  }
+
   void look() override {
     if (!admitted_.goes_on()) {
       close(websocket::close_code::policy_error);

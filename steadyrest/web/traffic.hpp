@@ -25,6 +25,7 @@ class Stream {
   virtual ~Stream() = default;
   virtual void publish(const std::shared_ptr<const std::string>& newest) = 0;
   virtual void announce(const std::shared_ptr<const std::string>& message) = 0;
+  virtual void offer(const std::shared_ptr<const std::string>& message) = 0;
   virtual void look() = 0;  ///< whether it may go on
 };
 

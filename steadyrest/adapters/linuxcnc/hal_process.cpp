@@ -240,6 +240,10 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
   at.heartbeat->b = pins.heartbeat;
 }
 
+double HalProcess::vibration_rate_hz() const noexcept {
+  return hal_->has_vibration ? hal_->vibration_rate_hz : 0.0;
+}
+
 double HalProcess::linear_unit_mm() const noexcept {
   return signal_value("layer-unit-mm").value_or(1.0);
 }

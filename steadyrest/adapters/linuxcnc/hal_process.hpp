@@ -42,6 +42,8 @@ class HalProcess final : public HalSide {
   void pause() noexcept override;
   /// Millimetres in one of the machine's linear units, as the HAL file says; without it 1.
   [[nodiscard]] double linear_unit_mm() const noexcept;
+  /// Of the vibration sensor; 0: there is none.
+  [[nodiscard]] double vibration_rate_hz() const noexcept;
 
  private:
   struct Hal;

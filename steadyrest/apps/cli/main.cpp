@@ -76,7 +76,10 @@ constexpr Entry kVerbs[] = {
      "Run the layer, live, on the port of the machine file",
      add_verb_run,
      {"--machine examples/machines/vmc-840d.toml --program examples/programs/circle-r10.mpf --mode "
-      "act --for-s 1 --socket steadyrest.sock"}},
+      "act --for-s 1 --socket steadyrest.sock",
+      "--machine examples/machines/vmc-840d.toml --program examples/programs/slot.mpf --process "
+      "examples/processes/slot-922hz.toml --depth-mm 0.6 --mode act --for-s 4 --socket "
+      "steadyrest.sock"}},
     {"status", "Ask a running layer what it sees and does", add_verb_status, {"--json"}},
     {"mode", "Ask a running layer to observe, advise or act", add_verb_mode, {"advise"}},
     {"machine", "Machine files"},

@@ -27,7 +27,7 @@ constexpr std::string_view kApi = "/api/";
 constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
 
-constexpr std::array<Route, 17> kRoutes = {{
+constexpr std::array<Route, 19> kRoutes = {{
     {"GET", "/api/v1/session", true},
     {"POST", "/api/v1/session", true},
     {"DELETE", "/api/v1/session"},
@@ -40,6 +40,8 @@ constexpr std::array<Route, 17> kRoutes = {{
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
     {"GET", "/api/v1/motion"},
+    {"GET", "/api/v1/chatter/lobes"},
+    {"GET", "/api/v1/chatter/plan"},
     {"POST", "/api/v1/thermal/measured", false, Role::operating},
     {"GET", "/api/v1/records"},
     {"GET", kRecords},
@@ -83,7 +85,12 @@ std::string author(const web::Caller& caller) {
 }  // namespace
 
 Api::Api(const Desk& desk, const Login::Config& login, std::function<double()> now_s)
-    : desk_(desk), login_(login), stream_(desk), heat_(desk), now_s_(std::move(now_s)) {}
+    : desk_(desk),
+      login_(login),
+      stream_(desk),
+      heat_(desk),
+      study_(desk),
+      now_s_(std::move(now_s)) {}
 
 std::span<const Route> Api::routes() noexcept {
   return kRoutes;
@@ -150,6 +157,9 @@ web::Response Api::run(const Route& route, const Call& call) {
   }
   if (route.path == "/api/v1/motion") {
     return show_encoders(desk_);
+  }
+  if (route.path.starts_with("/api/v1/chatter/")) {
+    return route.path.ends_with("plan") ? study_.plan() : study_.lobes();
   }
   if (route.path == "/api/v1/records") {
     return list_records(desk_, call.request);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <variant>
 
+#include <steadyrest/apps/live_page/chatter_study.hpp>
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/apps/live_page/heat_history.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
@@ -35,7 +36,10 @@ class Api {
   [[nodiscard]] std::variant<web::Server::Admitted, web::Response> admit(
       const web::Request& request);
   /// Every now and then, whether somebody watches or not.
-  void look() { heat_.update(now_s_()); }
+  void look() {
+    heat_.update(now_s_());
+    study_.look();
+  }
   [[nodiscard]] const std::string& key() const noexcept { return login_.key(); }
 
   /// All of them; `/api/v1/openapi.json` describes the same.
@@ -57,6 +61,7 @@ class Api {
   Login login_;
   StreamText stream_;
   HeatHistory heat_;
+  ChatterStudy study_;
   std::function<double()> now_s_;
 };
 

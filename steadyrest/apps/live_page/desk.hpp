@@ -2,13 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/tap.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -22,6 +25,18 @@ using Json = nlohmann::ordered_json;
 inline constexpr double kPercent = 100.0;
 inline constexpr double kMinute_s = 60.0;
 
+/// The cut that the layer listens to.
+struct ChatterDesk {
+  chatter::offline::Process process;
+  double depth_mm = 0.0;
+  bool acts = false;  ///< the layer chooses the spindle's step when it hears chatter
+  /// What `chatter plan` decides for this programmed speed; takes a while, of any thread.
+  std::function<kernel::outcome::Result<Json>(const kernel::machine::Machine& machine,
+                                              double programmed_rev_s,
+                                              const std::function<void(double share)>& progress)>
+      plan;
+};
+
 /// The running layer as the page has it before it.
 struct Desk {
   steadyrest::live::Asked asked;  ///< what the socket's clients ask too
@@ -32,6 +47,9 @@ struct Desk {
   /// What `doctor` finds in a machine file.
   std::function<std::vector<passport::Finding>(const kernel::machine::Machine&)> findings;
   double cycle_s = 0.001;
+  // Designated initialisers may leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<ChatterDesk> chatter = {};  ///< none: the run has no process
 };
 
 /// What the loop runs by: another file may have taken over.

@@ -20,6 +20,7 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr auto kFrame = std::chrono::microseconds(33'333);
+constexpr int kFramesPerSpectrum = 6;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -104,10 +105,22 @@ class Page final : public LivePage {
       const auto reload = desk_.asked.reloader->status();
       now.reload = reload.taken ? reload.number : told_.reload;
     }
-    now.modulation = desk_.asked.loop.status().modulation;
+    if (!desk_.chatter || !desk_.chatter->acts) {  // else a hello has none
+      now.modulation = desk_.asked.loop.status().modulation;
+    }
     if (now != told_) {
       told_ = now;
       server_->announce(std::make_shared<const std::string>(frames_.hello()));
+    }
+  }
+
+  void send_spectrum() {
+    if (++since_spectrum_ < kFramesPerSpectrum) {
+      return;
+    }
+    since_spectrum_ = 0;
+    if (std::string text = frames_.spectrum(); !text.empty()) {
+      server_->offer(std::make_shared<const std::string>(std::move(text)));
     }
   }
 
@@ -118,6 +131,7 @@ class Page final : public LivePage {
       desk_.tap.watch(watched);
       if (watched) {
         server_->publish(std::make_shared<const std::string>(frames_.frame()));
+        send_spectrum();
       }
       api_.look();
       tell_changes();
@@ -134,6 +148,7 @@ class Page final : public LivePage {
   std::unique_ptr<web::Server> server_;
   std::atomic<bool> ends_{false};
   Told told_;
+  int since_spectrum_ = 0;
   std::thread thread_;
 };
 

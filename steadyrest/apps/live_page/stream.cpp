@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -16,6 +17,8 @@ using steadyrest::live::LiveStatus;
 using steadyrest::live::PathAhead;
 using steadyrest::live::TapSample;
 
+constexpr std::size_t kMostLines = 480;    ///< of the spectrum
+constexpr double kModesShown = 2.5;        ///< it goes up to this many times the highest mode
 constexpr std::size_t kMostSamples = 200;  ///< in a frame: a page that was away needs no history
 
 Json point_json(const kernel::signal::Point& point) {
@@ -133,15 +136,16 @@ Json heat_json(const LiveStatus& status, const kernel::machine::Machine& machine
   return {{"axes", std::move(axes)}};
 }
 
-Json chatter_json(const LiveStatus& status) {
-  if (!status.chatter_on) {
+Json chatter_json(const LiveStatus& status, Json heard) {
+  if (!status.chatter_on && !status.chatter.listens) {
     return nullptr;
   }
-  return {{"chatter", false},  // nothing listens here
-          {"modulating", status.modulates},
-          {"goal_percent", rounded(kPercent * status.modulation_goal_ratio, 0.1)},
-          {"phase", rounded(status.modulation_phase, 1e-3)},
-          {"feed_per_tooth_percent", rounded(kPercent * status.feed_per_tooth_ratio, 0.1)}};
+  Json out = heard.is_object() ? std::move(heard) : Json{{"chatter", false}};
+  out.update({{"modulating", status.modulates},
+              {"goal_percent", rounded(kPercent * status.modulation_goal_ratio, 0.1)},
+              {"phase", rounded(status.modulation_phase, 1e-3)},
+              {"feed_per_tooth_percent", rounded(kPercent * status.feed_per_tooth_ratio, 0.1)}});
+  return out;
 }
 
 /// That in force; before the first cycle that of the machine file. Null where the room is off.
@@ -172,21 +176,24 @@ std::string StreamText::hello() const {
   for (const double ratio : machine.feed_override.ratio) {
     steps.push_back(rounded(kPercent * ratio, 0.1));
   }
-  return text_of({{"type", "hello"},
-                  {"version", steadyrest::live::kProtocol},
-                  {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
-                  {"cycle_s", desk_.cycle_s},
-                  {"contour",
-                   {{"limit_um", um_from_mm(machine.contour.limit_mm)},
-                    {"strategy", passport::word(machine.contour.strategy)},
-                    {"min_percent", kPercent * machine.contour.min_ratio},
-                    {"max_percent", kPercent * machine.contour.max_ratio},
-                    {"steps_percent", std::move(steps)}}},
-                  {"modulation", modulation_of(desk_.asked.loop.status(), machine)},
-                  {"thermal", machine.thermal.enabled},
-                  {"listening", false},
-                  {"lobes", false},
-                  {"measures", machine.thermal.enabled}});
+  const bool chooses = desk_.chatter && desk_.chatter->acts;
+  return text_of(
+      {{"type", "hello"},
+       {"version", steadyrest::live::kProtocol},
+       {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
+       {"cycle_s", desk_.cycle_s},
+       {"contour",
+        {{"limit_um", um_from_mm(machine.contour.limit_mm)},
+         {"strategy", passport::word(machine.contour.strategy)},
+         {"min_percent", kPercent * machine.contour.min_ratio},
+         {"max_percent", kPercent * machine.contour.max_ratio},
+         {"steps_percent", std::move(steps)}}},
+       {"modulation", chooses ? Json() : modulation_of(desk_.asked.loop.status(), machine)},
+       {"thermal", machine.thermal.enabled},
+       {"listening", desk_.chatter.has_value()},
+       {"chooses_speed", chooses},
+       {"lobes", desk_.chatter.has_value()},
+       {"measures", machine.thermal.enabled}});
 }
 
 std::string StreamText::frame() {
@@ -198,6 +205,9 @@ std::string StreamText::frame() {
   if (desk_.asked.of_port) {
     keys.update(desk_.asked.of_port());
   }
+  const double rate_hz = desk_.tap.take_vibration(readings_);
+  spectrum_.add(readings_, rate_hz);
+  const Json heard = keys["chatter"];
   const Json out = {{"type", "frame"},
                     {"seq", ++sequence_},
                     {"lost_cycles", lost - lost_},
@@ -208,11 +218,38 @@ std::string StreamText::frame() {
                     {"samples", samples_json(samples_)},
                     {"ahead", ahead_json(desk_.tap.ahead(), status)},
                     {"steps", steps_json(desk_.tap.steps())},
-                    {"chatter", chatter_json(status)},
+                    {"chatter", chatter_json(status, heard)},
                     {"thermal", heat_json(status, desk_.machine)},
                     {"axes", axes_json(status, desk_.machine)}};
   lost_ = lost;
   return text_of(out).substr(1);
+}
+
+std::string StreamText::spectrum() {
+  if (!desk_.chatter || !spectrum_.fresh()) {
+    return {};
+  }
+  const chatter::offline::Process& process = desk_.chatter->process;
+  double highest_hz = 0.0;
+  for (const chatter::offline::Mode& mode : process.modes) {
+    highest_hz = std::max(highest_hz, mode.frequency_hz);
+  }
+  const auto lines = spectrum_.lines(kModesShown * highest_hz, kMostLines);
+  Json hz = Json::array();
+  Json amplitude = Json::array();
+  for (std::size_t i = 0; i < lines.hz.size(); ++i) {
+    hz.push_back(rounded(lines.hz[i], 0.1));
+    amplitude.push_back(rounded(lines.amplitude[i], 1e-4));
+  }
+  const LiveStatus status = desk_.asked.loop.status();
+  const double tooth_hz = static_cast<double>(process.tool.teeth) * std::abs(status.spindle_rev_s);
+  return text_of({{"type", "spectrum"},
+                  {"rate_hz", spectrum_.rate_hz()},
+                  {"hz", std::move(hz)},
+                  {"amplitude", std::move(amplitude)},
+                  {"tooth_hz", tooth_hz > 0.0 ? rounded(tooth_hz, 0.1) : Json()},
+                  {"chatter_hz",
+                   status.chatter.chatters ? rounded(status.chatter.frequency_hz, 0.1) : Json()}});
 }
 
 }  // namespace steadyrest::apps::live_page

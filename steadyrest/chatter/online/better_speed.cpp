@@ -24,12 +24,12 @@ kernel::outcome::Result<BetterSpeed> BetterSpeed::make(Config config) {
   if (!table) {
     return std::unexpected(table.error());
   }
-  return BetterSpeed(config.again_s * config.detector.sample_rate_hz, std::move(*detector),
-                     std::move(*table));
+  return BetterSpeed(config, std::move(*detector), std::move(*table));
 }
 
-BetterSpeed::BetterSpeed(double again_samples, Detector detector, SpeedTable table)
-    : again_samples_(again_samples),
+BetterSpeed::BetterSpeed(const Config& config, Detector detector, SpeedTable table)
+    : again_samples_(config.again_s * config.detector.sample_rate_hz),
+      threshold_(config.detector.sure_ratio),
       table_(std::move(table)),
       state_{.detector = std::move(detector), .out = {}} {}
 
@@ -48,6 +48,8 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   state_.out.chatter = heard.chatter;
   state_.out.kind = heard.kind;
   state_.out.frequency_hz = heard.frequency_hz;
+  state_.out.level = heard.energy_ratio;
+  state_.out.threshold = threshold_;
   state_.since_asked += 1.0;
   // At once when chatter begins, then at intervals: the frequency moves with the speed, and another
   // step may help where the first did not.

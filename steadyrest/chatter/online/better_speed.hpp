@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
@@ -43,6 +44,8 @@ class BetterSpeed {
     bool chatter = false;
     Detector::Kind kind = Detector::Kind::none;
     double frequency_hz = 0.0;
+    double level = 0.0;      ///< the detector's energy ratio, 0 … 1
+    double threshold = 0.0;  ///< the level above which a cut at constant speed surely chatters
     kernel::signal::SpindleRequest request;
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;  ///< the detector's, or that
                                                                      ///< of the last answer
@@ -65,12 +68,16 @@ class BetterSpeed {
   [[nodiscard]] const State& state() const noexcept { return state_; }
   /// From an object with the same detector setup.
   void restore(const State& state) noexcept { state_ = state; }
+  /// Goes on where `before`, which has the same detector setup and must not run any more, is; the
+  /// table stays its own. In the cycle: no allocation.
+  void take_over(BetterSpeed& before) noexcept { std::swap(state_, before.state_); }
 
  private:
-  BetterSpeed(double again_samples, Detector detector, SpeedTable table);
+  BetterSpeed(const Config& config, Detector detector, SpeedTable table);
   void ask(const Input& input) noexcept;
 
   double again_samples_;
+  double threshold_;
   SpeedTable table_;
   State state_;
 };

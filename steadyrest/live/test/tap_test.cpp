@@ -57,6 +57,44 @@ TEST(Tap, HasEveryCycleOnceAndThePathAhead) {
             5.0);
 }
 
+TEST(Tap, CarriesTheVibrationOfEachCycleInOrder) {
+  Tap tap;
+  kernel::signal::Frame frame;
+  std::vector<double> readings(20);
+  std::vector<double> taken;
+  const auto put = [&](double first) {
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      readings[i] = first + static_cast<double>(i);
+    }
+    frame.vibration = readings;
+    frame.vibration_rate_hz = 10e3;
+    tap.put({}, frame);
+  };
+  put(0.0);
+  EXPECT_EQ(tap.take_vibration(taken), 0.0) << "nobody watches";
+  EXPECT_TRUE(taken.empty());
+  tap.watch(true);
+  put(100.0);
+  put(120.0);
+  EXPECT_EQ(tap.take_vibration(taken), 10e3);
+  ASSERT_EQ(taken.size(), 40U);
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    EXPECT_EQ(taken[i], 100.0 + static_cast<double>(i));
+  }
+  // Nobody takes: bounded, and what is there stays in order.
+  {
+    const kernel::rt::testing::AllocationGuard guard;
+    for (int i = 0; i < 5000; ++i) {
+      tap.put({}, frame);
+    }
+    EXPECT_EQ(guard.allocations(), 0U);
+  }
+  tap.take_vibration(taken);
+  EXPECT_EQ(taken.size(), 65'536U);
+  tap.take_vibration(taken);
+  EXPECT_TRUE(taken.empty());
+}
+
 TEST(Tap, LosesTheNewestAndCountsThemWhereNobodyTakes) {
   Tap tap;
   tap.watch(true);

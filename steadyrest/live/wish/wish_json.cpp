@@ -162,7 +162,7 @@ Result<WishOutcome> granted(std::optional<WishOutcome> outcome) {
       return refuse("the axis has no thermal model in the running layer", "name another axis");
     case WishOutcome::listening:
       return refuse("the layer listens for chatter and chooses the speed itself",
-                    "switch listening off first");
+                    "start it with --chatter machine, which only listens");
     case WishOutcome::out_of_range:
       break;
   }

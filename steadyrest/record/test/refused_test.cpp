@@ -71,18 +71,23 @@ TEST(RefusedRecord, ADatabaseOfAnotherProgram) {
 TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
-  for (const std::string format : {"1", "4"}) {
+  for (const std::string format : {"1", "5"}) {
     change(file, "PRAGMA user_version = " + format);
-    EXPECT_THAT(refusal(file), testing::HasSubstr("has format " + format +
-                                                  "; this program reads formats 2 and 3"));
+    EXPECT_THAT(refusal(file),
+                testing::HasSubstr("has format " + format + "; this program reads formats 2 to 4"));
   }
 }
 
-TEST(RefusedRecord, TheFormatBeforeIsNot) {
+// Neither had a listener.
+TEST(RefusedRecord, TheFormatsBeforeAreNot) {
   const test::Folder folder;
   const std::string file = record(folder);
-  change(file, "PRAGMA user_version = 2");
-  EXPECT_EQ(refusal(file), "");
+  change(file, "ALTER TABLE run DROP COLUMN listener");
+  for (const std::string format : {"2", "3"}) {
+    change(file, "PRAGMA user_version = " + format);
+    EXPECT_EQ(refusal(file), "");
+    EXPECT_EQ(RecordReader::open(file).value().run().listener, "");
+  }
   EXPECT_EQ(refusal(STEADYREST_SOURCE_DIR "/examples/records/circle-start.sqlite"), "");
 }
 

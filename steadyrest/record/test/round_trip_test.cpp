@@ -103,6 +103,7 @@ TEST(RoundTrip, TheRunAndItsEventsComeBack) {
                         .machine_text = std::string("a\0b", 3),
                         .program = "part.mpf",
                         .program_text = "G1 X1 ; Ø\n",
+                        .listener = "{\"depth_mm\":0.30000000000000004}",
                         .cycle_s = 0.002,
                         .capability = {.feed_override = true,
                                        .path_offset = true,
@@ -119,6 +120,7 @@ TEST(RoundTrip, TheRunAndItsEventsComeBack) {
   EXPECT_FALSE(reader.run().version.empty());
   EXPECT_EQ(reader.run().machine_text, info.machine_text);
   EXPECT_EQ(reader.run().program_text, info.program_text);
+  EXPECT_EQ(reader.run().listener, info.listener);
   EXPECT_EQ(reader.run().cycle_s, 0.002);
   EXPECT_TRUE(reader.run().capability.feed_override);
   EXPECT_FALSE(reader.run().capability.axis_offset);

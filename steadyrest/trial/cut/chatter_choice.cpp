@@ -5,10 +5,10 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/chatter/offline/plan/speed_table_of.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 
 // Turns the planner's answer for each cutting spindle speed into what the layer can do: a law, a
 // constant ratio, or nothing.
@@ -93,6 +93,18 @@ std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path) {
   });
   std::ranges::sort(speeds);
   return speeds;
+}
+
+double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
+  const std::vector<double> speeds = cutting_speeds(path);
+  double slowest = speeds.empty() ? 0.0 : speeds.front();
+  for (const nc::plan::SegmentPlan& plan : path.plans) {
+    const double speed = std::abs(plan.spindle_rev_s);
+    if (speed > 0.0 && !plan.rapid) {
+      slowest = slowest > 0.0 ? std::min(slowest, speed) : speed;
+    }
+  }
+  return slowest;
 }
 
 std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path) {
@@ -196,27 +208,13 @@ double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool liste
 Result<supervisor::ListeningStage> listener_for(const chatter::offline::Process& process,
                                                 const kernel::machine::Machine& machine,
                                                 const std::vector<double>& speeds_rev_s,
-                                                double depth_mm, double sensor_rate_hz) {
-  constexpr double kMostDepth = 5.0;  // of the wanted one: the planner's search depth
-  // The detector sees only the listening tool; thresholds apply to its sensor, the velocity of
-  // vibration.
-  constexpr double kSilence_mm_s = 0.1;  // a quieter tool is not in a cut
-  chatter::online::BetterSpeed::Config config;
-  config.detector.sample_rate_hz = sensor_rate_hz;
-  config.detector.teeth = process.tool.teeth;
-  config.detector.least_energy = kSilence_mm_s * kSilence_mm_s;
-  config.table = chatter::offline::steps_of(machine);
-  config.table.teeth = process.tool.teeth;
-  // The listener has no operator to ask: steps above 100 % are out of reach.
-  if (!machine.spindle_override.layer_may_exceed_panel) {
-    config.table.max_ratio = std::min(config.table.max_ratio, 1.0);
+                                                double depth_mm) {
+  const auto stage =
+      listener::stage_for(process, machine, speeds_rev_s, depth_mm, listener::simulated_sensor());
+  if (!stage) {
+    return std::unexpected(stage.error());
   }
-  auto added =
-      chatter::offline::add_depths(process, speeds_rev_s, kMostDepth * depth_mm, config.table);
-  if (!added) {
-    return std::unexpected(added.error());
-  }
-  return supervisor::ListeningStage::make({.better = std::move(config), .depth_mm = depth_mm});
+  return supervisor::ListeningStage::make(*stage);
 }
 
 // One turn of the switch before the program begins, to the first step that is enough for every cut.
@@ -233,16 +231,6 @@ std::vector<sim::OperatorAction> operator_for(const std::vector<ChatterChoice>& 
     }
   }
   return {};
-}
-
-// The room is on and idle from the start; the choices tell it what to do.
-kernel::machine::Machine with_modulator(kernel::machine::Machine machine) {
-  machine.chatter.enabled = true;
-  machine.chatter.m_code_on = machine.chatter.m_code_off = 0;
-  machine.chatter.amplitude_ratio = 0.0;
-  machine.chatter.amplitude_rev_s = 0.0;
-  machine.chatter.mean_ratio = 1.0;
-  return machine;
 }
 
 }  // namespace steadyrest::trial::cut

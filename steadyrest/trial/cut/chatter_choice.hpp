@@ -32,6 +32,10 @@ struct ChatterChoice {
 /// change along the way and are left out.
 [[nodiscard]] std::vector<double> cutting_speeds(const nc::plan::PlannedPath& path);
 
+/// Lowest programmed speed of a cut, G96 included; 0 when the spindle is stopped. It sets the time
+/// grid of a simulated cut: the slower the spindle, the more steps a tooth pass needs.
+[[nodiscard]] double slowest_cut_rev_s(const nc::plan::PlannedPath& path);
+
 /// For each stretch that cuts under G96, and so at an unplanned speed: where, and from which speed
 /// to which. A cut at a programmed speed ends a stretch; repeated lines count once.
 [[nodiscard]] std::vector<nc::plan::Warning> unplanned_cuts(const nc::plan::PlannedPath& path);
@@ -51,22 +55,18 @@ inline constexpr std::size_t kMostSpeeds = 32;
 
 /// The lowest ratio of the programmed spindle speed that the layer can ask for: by the choices, by
 /// the machine's own [chatter], and for a listener anything, within the envelope and the override's
-/// steps. `machine`: as with_modulator() made it, if it did.
+/// steps. `machine`: as listener::with_modulator() made it, if it did.
 [[nodiscard]] double least_spindle_ratio(const std::vector<ChatterChoice>& choices, bool listens,
                                          const kernel::machine::Machine& machine);
 
-/// The layer's ear: detector and the planner's table for the process at the override's steps, as
-/// far as the operator's switch at 100 % lets the layer go. Refuses what they refuse.
+/// The layer's ear on the simulated machine's sensor: listener::stage_for().
 [[nodiscard]] kernel::outcome::Result<supervisor::ListeningStage> listener_for(
     const chatter::offline::Process& process, const kernel::machine::Machine& machine,
-    const std::vector<double>& speeds_rev_s, double depth_mm, double sensor_rate_hz);
+    const std::vector<double>& speeds_rev_s, double depth_mm);
 
 /// The operator turns the spindle switch up for the choices before the program starts, where 100 %
 /// is not enough.
 [[nodiscard]] std::vector<sim::OperatorAction> operator_for(
     const std::vector<ChatterChoice>& choices, const kernel::machine::Machine& machine);
-
-/// The machine with a modulator that is always on and awaits a choice: constant, at 100 %.
-[[nodiscard]] kernel::machine::Machine with_modulator(kernel::machine::Machine machine);
 
 }  // namespace steadyrest::trial::cut

@@ -11,6 +11,7 @@
 #include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/supervisor/wish_text.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 
 namespace steadyrest::trial::replay {
@@ -54,7 +55,40 @@ std::optional<Mode> mode_of(const std::string& text) {
 struct Deciding {
   kernel::machine::Machine machine;
   supervisor::Supervisor layer;
+  std::optional<listener::Listener> listener;
 };
+
+/// A layer as a run makes it.
+Result<supervisor::Supervisor> layer_of(const kernel::machine::Machine& machine,
+                                        const kernel::port::Capability& capability,
+                                        const std::optional<listener::Listener>& listener) {
+  auto layer = supervisor::Supervisor::make(machine, capability);
+  if (layer && listener) {
+    if (auto given = listener::give(*listener, machine, *layer); !given) {
+      return std::unexpected(std::move(given.error()));
+    }
+  }
+  return layer;
+}
+
+/// The layer that the run began with.
+Result<Deciding> begin(const std::string& file, kernel::machine::Machine machine,
+                       const ReplayPort& port) {
+  std::optional<listener::Listener> listener;
+  if (const std::string& text = port.reader().run().listener; !text.empty()) {
+    auto read = listener::parse(text, file);
+    if (!read) {
+      return std::unexpected(std::move(read.error()));
+    }
+    listener = std::move(*read);
+    machine = listener::machine_for(*listener, std::move(machine));
+  }
+  auto layer = layer_of(machine, port.capability(), listener);
+  if (!layer) {
+    return std::unexpected(std::move(layer.error()));
+  }
+  return Deciding{std::move(machine), std::move(*layer), std::move(listener)};
+}
 
 /// As in the run: the new layer takes over between two cycles.
 Result<void> reload(const std::string& file, const std::string& text,
@@ -63,15 +97,19 @@ Result<void> reload(const std::string& file, const std::string& text,
   if (!machine) {
     return std::unexpected(std::move(machine.error()));
   }
+  if (deciding.listener) {
+    *machine = listener::machine_for(*deciding.listener, std::move(*machine));
+  }
   if (auto fit = supervisor::fits(deciding.machine, *machine); !fit) {
     return fit;
   }
-  auto next = supervisor::Supervisor::make(*machine, capability);
+  auto next = layer_of(*machine, capability, deciding.listener);
   if (!next) {
     return std::unexpected(std::move(next.error()));
   }
   next->take_over(deciding.layer, supervisor::kept(deciding.machine, *machine));
-  deciding = {std::move(*machine), std::move(*next)};
+  deciding.machine = std::move(*machine);
+  deciding.layer = std::move(*next);
   return {};
 }
 
@@ -160,11 +198,11 @@ Result<Replayed> replay(const std::string& file, const kernel::machine::Machine&
     return std::unexpected(std::move(opened.error()));
   }
   ReplayPort& port = **opened;
-  auto layer = supervisor::Supervisor::make(machine, port.capability());
-  if (!layer) {
-    return std::unexpected(std::move(layer.error()));
+  auto begun = begin(file, machine, port);
+  if (!begun) {
+    return std::unexpected(std::move(begun.error()));
   }
-  Deciding deciding{machine, std::move(*layer)};
+  Deciding& deciding = *begun;
   Watched watched(port);
   Replayed replayed;
   replayed.paths_complete = port.reader().paths_complete();

@@ -20,10 +20,11 @@ namespace steadyrest::test {
 /// temporary folder, and its own machine file, which a test may change.
 class LiveLayer {
  public:
-  explicit LiveLayer(const std::string& mode = "observe", std::vector<std::string> more = {})
+  explicit LiveLayer(const std::string& mode = "observe", std::vector<std::string> more = {},
+                     const std::string& program = "examples/programs/rib-pocket.mpf")
       : folder_((::setenv("XDG_RUNTIME_DIR", scratch_.at("").c_str(), 1), scratch_.at(""))),
         machine_(text_of_file(project_file("examples/machines/vmc-840d.toml"))),
-        process_(arguments(mode, std::move(more)), folder_) {
+        process_(arguments(mode, std::move(more), program), folder_) {
     EXPECT_TRUE(
         until([this] { return ::access((folder_ + "/steadyrest.sock").c_str(), F_OK) == 0; }));
   }
@@ -66,14 +67,12 @@ class LiveLayer {
   }
 
  private:
-  std::vector<std::string> arguments(const std::string& mode, std::vector<std::string> more) {
-    std::vector<std::string> all = {"run",
-                                    "--machine",
-                                    scratch_.file("machine.toml", machine_),
-                                    "--program",
-                                    project_file("examples/programs/rib-pocket.mpf"),
-                                    "--mode",
-                                    mode};
+  std::vector<std::string> arguments(const std::string& mode, std::vector<std::string> more,
+                                     const std::string& program) {
+    std::vector<std::string> all = {
+        "run",       "--machine",           scratch_.file("machine.toml", machine_),
+        "--program", project_file(program), "--mode",
+        mode};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

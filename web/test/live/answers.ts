@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock's server answers about machine, heat, lobes and records.
-import type { Checked, EncoderAxis, Lobes, Machine, MachineKey, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
+import type { Checked, EncoderAxis, Lobes, Machine, MachineKey, Plan, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
 
 const key = (name: string, value: MachineKey['value'], unit: string, range: string, explanation: string, live = true): MachineKey => ({ key: name, value, unit, range, explanation, live });
 
@@ -64,6 +64,10 @@ export function lobes(): Lobes {
   const depth_mm = Array.from({ length: 41 }, (_, i) => 0.1 * i);
   const border = (rpm: number) => 0.9 + 2.4 * Math.abs(Math.sin((Math.PI * 922 * 60) / (2 * rpm))) ** 8;
   return { map: { speed_rpm, depth_mm, log_radius: speed_rpm.flatMap((n) => depth_mm.map((d) => 0.35 * (d - border(n)))) }, border: { speed_rpm, depth_mm: speed_rpm.map(border) }, depth_mm: 1.2 };
+}
+
+export function plan(): Plan {
+  return { decision: 'constant', override_percent: [90], law: 'constant', rva: 0, period_s: null, speed_rpm: 4680, programmed_rpm: 5200, depth_mm: 1.2, limit_depth_mm: 1.84, likely_depth_mm: null, notes: [] };
 }
 
 export function thermal(): Thermal {

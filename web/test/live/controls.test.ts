@@ -260,6 +260,24 @@ describe('chatter', () => {
     await page.click('#modulation button');
     expect(mock.asked).toEqual([]);
   });
+  it('shows how loud it was before the layer stepped in', async () => {
+    mock.layer.wanted = 'act';
+    await as('viewer', 'chatter');
+    await until(`document.querySelector('.vibration .before .value').textContent.includes('92')`);
+    await until(`document.querySelector('#chatter-now').textContent === 'The cut chatters at 922 Hz · Spindle at 90 % against it'`);
+    mock.layer.wanted = 'observe';
+    await until(`document.querySelector('#chatter-now').textContent.endsWith('Better: spindle at 90 %')`);
+  });
+  it('tells how far map and plan are, and shows them when they are there', async () => {
+    mock.studied = 0.4;
+    await as('viewer', 'chatter');
+    await until(`document.querySelector('#lobes-computing')?.textContent === 'Being computed: 40 %'`);
+    await until(`document.querySelector('.plan-panel').textContent.includes('Being computed: 40 %')`);
+    mock.studied = 1;
+    await until(`document.querySelector('#plan-words')?.textContent === 'Set the spindle override to 90 %: 4680 rpm.'`);
+    await until(`document.querySelector('.lobes-panel canvas') !== null`);
+    expect(await text('.plan-panel')).toContain('Stable there up to 1.84\u00a0mm.'.replace('\u00a0', ' '));
+  });
   it('does without a map', async () => {
     mock.withLobes = false;
     await as('operator', 'chatter');

@@ -170,7 +170,7 @@ export class Layer {
       ahead: { points_mm: points.map((p) => [p.x, p.y, -12.5]), error_um: points.map((p) => errorAt(speed, p.radius)), at_mm: points.map((_, i) => 0.5 * i) },
       path_known: this.pathKnown,
       steps: this.pathKnown ? STEPS.map((percent) => ({ percent, error_um: Number.isFinite(tight) ? errorAt((FULL_MM_MIN / 60) * (percent / 100), tight) : 0.4, change_um: this.error + 0.1 })) : null,
-      chatter: { chatter: true, modulating: true, frequency_hz: 922, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92 },
+      chatter: { chatter: true, modulating: true, kind: 'hopf', frequency_hz: 922, better_spindle_percent: 90, events: 1, chatter_s: 0.4, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92 },
       thermal: { axes: [{ name: 'Y', displacement_um: 0.3 * warm, sd_um: 0.4, offset_um: 0 }, { name: 'Z', displacement_um: warm, sd_um: 0.7, offset_um: -4.1 }] },
       axes: [axis('X', here.x, 60 * speed * 0.7), axis('Y', here.y, -60 * speed * 0.5), axis('Z', -12.5, 0), axis('C', 90, 0)],
     };

@@ -8,7 +8,7 @@ import type { Duplex } from 'node:stream';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Modulation, Role } from '../../src/live/api/types';
-import { RECORDS, checked, encoders, lobes, machine, record, recordData, thermal } from './answers';
+import { RECORDS, checked, encoders, lobes, machine, plan, record, recordData, thermal } from './answers';
 import { Layer } from './layer';
 import { type Socket, accept } from './websocket';
 
@@ -54,6 +54,8 @@ export class Mock {
   /** The file changes under the page's hands with the next apply. */
   changedMeanwhile = false;
   withLobes = true;
+  /** Share of the map and of the plan that is computed; 1: all. */
+  studied = 1;
   /** Refuses connections, as while the network is down. */
   offline = false;
   private session: { name: string; role: Role } | undefined;
@@ -212,7 +214,9 @@ export class Mock {
         return { motion: { axes: encoders() } };
       case 'chatter/lobes':
         if (!this.withLobes) throw new Refusal(404, 'not_found', 'There is no map.', 'Start with --process FILE.');
-        return { lobes: lobes() };
+        return { lobes: this.studied < 1 ? null : lobes(), progress: this.studied };
+      case 'chatter/plan':
+        return { plan: this.studied < 1 ? null : plan(), programmed_rpm: 5200, progress: this.studied };
       case 'records':
         return { records: RECORDS.filter((r) => JSON.stringify(r).includes(query.get('search') ?? '')) };
     }

@@ -19,11 +19,11 @@ export class Running {
   key = '';
   private run: ChildProcess | undefined;
 
-  /** The example's machine, with more at the end of its file. */
-  async start(more = ''): Promise<void> {
+  /** The example's machine, with more at the end of its file, cuts the example's pocket again and again. */
+  async start(more = '', work: readonly string[] = ['--program', 'examples/programs/rib-pocket.mpf', '--record', join(this.folder, 'runs')]): Promise<void> {
     copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), this.machine);
     appendFileSync(this.machine, more);
-    const run = spawn(PROGRAM, ['run', '--machine', this.machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(this.folder, 'runs'), '--socket', join(this.folder, 's'), '--listen', '0'], { cwd: ROOT });
+    const run = spawn(PROGRAM, ['run', '--machine', this.machine, ...work, '--repeat', '--socket', join(this.folder, 's'), '--listen', '0'], { cwd: ROOT });
     this.run = run;
     [this.address, this.key] = await new Promise((resolve, reject) => {
       let said = '';

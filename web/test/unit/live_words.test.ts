@@ -13,9 +13,12 @@ import { REASONS_ZH } from '../../src/live/texts/reasons_zh';
 import { ALL, type TextKey } from '../../src/live/texts/texts';
 import { parsed, wordsOf } from '../../src/live/views/keys';
 import { boundsFault, boundsOf, modulationOf } from '../../src/live/views/chatter/modulation';
+import { planWords } from '../../src/live/views/chatter/plan';
+import { chatterWords } from '../../src/live/views/now/chatter';
 import { bytesText } from '../../src/live/views/record/list';
 import { nameText } from '../../src/live/views/record/detail';
 import { span } from '../../src/live/views/times';
+import { plan } from '../live/answers';
 import { Layer } from '../live/layer';
 
 const places = (text: string) => [...text.matchAll(/\{\w+\}/g)].map(String).sort();
@@ -53,6 +56,30 @@ describe('units', () => {
     chooseUnits('inch');
     expect([small(25.4), length(25.4), feed(2540)]).toEqual(['1.000\u00a0mil', '1.0000\u00a0in', '100.0\u00a0ipm']);
     expect(units().small.back(units().small.of(7))).toBeCloseTo(7, 12);
+  });
+});
+
+describe('chatter', () => {
+  const layer = new Layer();
+  const said = (change: object, listening = true) => chatterWords({ hello: { ...layer.hello(), listening }, frame: { ...layer.frame(1), chatter: { chatter: false, ...change } }, spectrum: undefined });
+  it('is told with its frequency, and what is done against it', () => {
+    expect(said({})).toBe('The cut is quiet');
+    expect(said({ chatter: true })).toBe('The cut chatters');
+    expect(said({ chatter: true, frequency_hz: 946.6, better_spindle_percent: 90 })).toBe('The cut chatters at 947 Hz · Better: spindle at 90 %');
+    expect(said({ modulating: true })).toBe('The cut is quiet · Spindle speed modulated');
+  });
+  it('is not called quiet where nobody listens', () => {
+    expect(said({}, false)).toBe('Nothing listens for chatter: start the layer with --process.');
+  });
+  it('is neither there nor not out of the cut', () => {
+    const frame = layer.frame(1);
+    expect(chatterWords({ hello: layer.hello(), frame: { ...frame, status: { ...frame.status, cutting: false }, chatter: { chatter: false } }, spectrum: undefined })).toBe('Not cutting');
+  });
+  it('has a plan in words', () => {
+    expect(planWords(plan())).toBe('Set the spindle override to 90 %: 4680 rpm.');
+    expect(planWords({ ...plan(), decision: 'keep', speed_rpm: 5200 })).toBe('Keep 5200 rpm: the cut is stable.');
+    expect(planWords({ ...plan(), decision: 'law', law: 'sine', rva: 0.2, period_s: 0.5 })).toBe('Modulate the spindle speed: sine, ±20 % every 0.5 s.');
+    expect(planWords({ ...plan(), decision: 'nothing' })).toBe('Nothing helps at 1.2 mm.');
   });
 });
 

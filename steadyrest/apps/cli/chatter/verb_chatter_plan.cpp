@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/chatter/plan_answer.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_plan.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/report_option.hpp>
@@ -26,7 +27,6 @@ namespace offline = chatter::offline;
 namespace units = kernel::units;
 using chatter::online::Law;
 using offline::Alternative;
-using offline::PlanDecision;
 
 /// ± 2σ: 95 % of what the natural frequencies may really be.
 constexpr double kSigmas = 2.0;  ///< of the frequencies, within which a best speed holds its depth
@@ -49,74 +49,16 @@ struct Options {
   std::string report;
 };
 
-/// JSON has neither NaN nor infinity; both mean that there is no number.
-Json or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
-}
-
-/// Override steps in per cent, as the switch is labelled.
-Json percents(const std::vector<double>& ratios) {
-  Json out = Json::array();
-  for (const double ratio : ratios) {
-    // Six digits are enough and keep 0.85·100 from printing as 85.00000000000001.
-    out.push_back(1e-6 * std::round(1e6 * units::percent_from_ratio(ratio)));
-  }
-  return out;
-}
-
-bool is_law(const Alternative& a) {
-  return a.modulation.law != Law::constant;
-}
-
-/// T = 60/(n·RVF) s with n in rev/min.
-double period_s(const Alternative& a, double speed_rpm) {
-  return 60.0 / (speed_rpm * a.modulation.rvf);
-}
-
-/// The keys that the decision and every alternative share, so that a script reads both alike.
-void put(Json& json, const Alternative& a, double speed_rpm) {
-  json["override_percent"] = percents(a.demand.written_ratio);
-  json["law"] = chatter::online::name(a.modulation.law);
-  json["rva"] = is_law(a) ? a.modulation.rva : 0.0;
-  json["rvf"] = is_law(a) ? a.modulation.rvf : 0.0;
-  json["limit_depth_mm"] = or_null(a.limit_depth_mm);
-  json["probability"] = or_null(a.probability);
-  json["peak_growth"] = or_null(a.peak_growth);
-  json["log_radius"] = or_null(a.log_radius);
-  json["written_log_radius"] = or_null(a.written_log_radius);
-  json["speed_rpm"] = speed_rpm * a.ratio;
-  json["amplitude_rpm"] = is_law(a) ? a.modulation.rva * speed_rpm : 0.0;
-  json["period_s"] = is_law(a) ? Json(period_s(a, speed_rpm)) : Json(nullptr);
-}
-
-Json to_json(const offline::Plan& plan, const Options& options) {
-  Json out;
-  out["decision"] = offline::name(plan.decision);
-  put(out, plan.chosen, options.speed_rpm);
-  out["depth_mm"] = options.depth_mm;
-  out["most_depth_mm"] = plan.most_depth_mm;
-  out["likely_depth_mm"] =
-      // The depth that would work matters only when nothing works at the intended one.
-      plan.decision == PlanDecision::nothing ? Json(plan.likely_depth_mm) : Json(nullptr);
-  out["helping_override_percent"] =
-      plan.helping_ratio ? percents({*plan.helping_ratio})[0] : Json(nullptr);
-  out["chatter_frequency_hz"] = or_null(plan.chatter_frequency_hz);
-  out["notes"] = plan.notes;
-  out["alternatives"] = Json::array();
-  for (const Alternative& a : plan.alternatives) {
-    Json one;
-    // A rejected alternative keeps its numbers and its reasons: the user sees how close it came.
-    put(one, a, options.speed_rpm);
-    one["stable"] = a.stable;
-    one["growth_is_lower_bound"] = a.growth_is_lower_bound;
-    one["reasons"] = a.reasons;
-    out["alternatives"].push_back(std::move(one));
-  }
-  return out;
+PlannedCut cut_of(const Options& options) {
+  return {.speed_rpm = options.speed_rpm, .depth_mm = options.depth_mm};
 }
 
 /// One speed from each lobe, for a new S word.
 using BestSpeeds = std::vector<offline::BestSpeed>;
+
+Json or_null(const std::optional<double>& depth_mm) {
+  return depth_mm && std::isfinite(*depth_mm) ? Json(*depth_mm) : Json(nullptr);
+}
 
 /// A null depth means stable as deep as the search went.
 Json json_of(const BestSpeeds& best) {
@@ -147,19 +89,6 @@ std::string text_of(const BestSpeeds& best, const Options& options, double most_
   return "\n" + table.text();
 }
 
-/// A constant speed reads as an override step, a law as amplitude and period in the units of the
-/// drive.
-std::string choice_words(const Alternative& a, double speed_rpm) {
-  if (!is_law(a)) {
-    return fmt::format("{:.4g} % = {:.0f} rpm", units::percent_from_ratio(a.ratio),
-                       speed_rpm * a.ratio);
-  }
-  return fmt::format("{} ±{:.4g} % = ±{:.0f} rpm every {:.3g} s",
-                     chatter::online::name(a.modulation.law),
-                     units::percent_from_ratio(a.modulation.rva), speed_rpm * a.modulation.rva,
-                     period_s(a, speed_rpm));
-}
-
 /// Empty: not computed, because the alternative failed a cheaper test. Infinite: stable as deep as
 /// the search went.
 std::string limit_text(const Alternative& a, double most_depth_mm) {
@@ -181,36 +110,14 @@ std::string log_text(const std::optional<double>& log_radius) {
   return log_radius && std::isfinite(*log_radius) ? fmt::format("{:.3g}", *log_radius) : "–";
 }
 
-/// The decision as an instruction to the operator.
-std::string headline(const offline::Plan& plan, const Options& options) {
-  const std::string choice = choice_words(plan.chosen, options.speed_rpm);
-  switch (plan.decision) {
-    case PlanDecision::keep:
-      return fmt::format("Keep the programmed speed: {}", choice);
-    case PlanDecision::constant:
-      return fmt::format("Set the spindle override to {}", choice);
-    case PlanDecision::law:
-      return fmt::format("Modulate the spindle speed: {}", choice);
-    case PlanDecision::nothing:
-      // With --laws-only a step may still solve the problem, and the user should hear of it.
-      if (plan.helping_ratio) {
-        return fmt::format("No law helps at {:.4g} mm; a constant {:.4g} % = {:.0f} rpm does",
-                           options.depth_mm, units::percent_from_ratio(*plan.helping_ratio),
-                           options.speed_rpm * *plan.helping_ratio);
-      }
-      return fmt::format("Nothing helps at {:.4g} mm", options.depth_mm);
-  }
-  return {};
-}
-
 /// The table of all alternatives first, then each rejection with its reason, then the planner's
 /// notes.
 std::string for_people(const offline::Plan& plan, const Options& options) {
-  std::string out = headline(plan, options) + "\n\n";
+  std::string out = plan_headline(plan, cut_of(options)) + "\n\n";
   Table table(
       {"choice", "border, mm", "stable cuts, %", "growth", "ln ρ", "as written", "verdict"});
   for (const Alternative& a : plan.alternatives) {
-    table.row({choice_words(a, options.speed_rpm), limit_text(a, plan.most_depth_mm),
+    table.row({plan_choice(a, options.speed_rpm), limit_text(a, plan.most_depth_mm),
                a.probability ? fmt::format("{:.0f}", 100.0 * *a.probability) : "–", growth_text(a),
                log_text(a.log_radius), log_text(a.written_log_radius),
                a.accepted() ? "good" : "no"});
@@ -218,7 +125,7 @@ std::string for_people(const offline::Plan& plan, const Options& options) {
   out += table.text() + "\n";
   for (const Alternative& a : plan.alternatives) {
     for (const std::string& reason : a.reasons) {
-      out += fmt::format("{}: {}\n", choice_words(a, options.speed_rpm), reason);
+      out += fmt::format("{}: {}\n", plan_choice(a, options.speed_rpm), reason);
     }
   }
   out += plan.notes.empty() ? "" : "\n";
@@ -275,7 +182,7 @@ Outcome run(Options options, Progress& progress) {
     return refused(best.error());
   }
   Answer answer;
-  answer.json = to_json(*found, options);
+  answer.json = plan_json(*found, cut_of(options));
   answer.json["best_speeds"] = json_of(*best);
   answer.text = for_people(*found, options) + text_of(*best, options, found->most_depth_mm);
   if (!options.report.empty()) {

@@ -10,6 +10,7 @@
 #include <steadyrest/apps/page/cut/report.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 #include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 namespace steadyrest::apps::cli {
@@ -24,20 +25,6 @@ using trial::cut::ChatterChoice;
 constexpr const char* kPlan = "plan";
 constexpr const char* kDetect = "detect";
 constexpr const char* kMachine = "machine";
-
-/// Lowest programmed speed of a cut, G96 included; 0 when the spindle is stopped. It sets the time
-/// grid of the simulated cut: the slower the spindle, the more steps a tooth pass needs.
-double slowest_cut_rev_s(const nc::plan::PlannedPath& path) {
-  const std::vector<double> speeds = trial::cut::cutting_speeds(path);
-  double slowest = speeds.empty() ? 0.0 : speeds.front();
-  for (const nc::plan::SegmentPlan& plan : path.plans) {
-    const double speed = std::abs(plan.spindle_rev_s);
-    if (speed > 0.0 && !plan.rapid) {
-      slowest = slowest > 0.0 ? std::min(slowest, speed) : speed;
-    }
-  }
-  return slowest;
-}
 
 std::string choice_words(const ChatterChoice& choice) {
   const chatter::online::Modulation& m = choice.modulation;
@@ -98,11 +85,26 @@ std::string vibration_text(const trial::cut::VibrationFigures& without,
 
 }  // namespace
 
-void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
+CLI::Option* add_process_options(Verb& verb, ProcessOptions& options) {
   CLI::Option* process = verb.reads("--process", options.process,
                                     "Process file (TOML) for the cut in G1–G3, with its vibration");
   verb.also_reads([&options] { return chatter::offline::response_files(options.process); });
   verb.add_option("--depth-mm", options.depth_mm, "Depth of cut of that process")->needs(process);
+  return process;
+}
+
+std::expected<double, Refusals> depth_of(const ProcessOptions& options) {
+  if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
+    return refused(bad_input(options.depth_mm
+                                 ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
+                                 : "--process without --depth-mm",
+                             "give a depth of cut above 0, as in --depth-mm 1.5"));
+  }
+  return *options.depth_mm;
+}
+
+void add_cut_chatter_options(Verb& verb, CutChatterOptions& options) {
+  CLI::Option* process = add_process_options(verb, options);
   verb.add_option("--chatter", options.source,
                   "How the layer fights chatter: plan (ask the planner for each spindle speed), "
                   "detect (hear it, then take a better step from the planner's table), machine "
@@ -120,18 +122,15 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
   if (options.process.empty()) {
     return out;
   }
-  if (!options.depth_mm || !(*options.depth_mm > 0.0)) {
-    return refused(bad_input(options.depth_mm
-                                 ? fmt::format("--depth-mm {} is not above 0", *options.depth_mm)
-                                 : "--process without --depth-mm",
-                             "give a depth of cut above 0, as in --depth-mm 1.5"));
+  if (const auto depth_mm = depth_of(options); !depth_mm) {
+    return std::unexpected(depth_mm.error());
   }
   const auto process = chatter::offline::read_process_all_faults(options.process);
   if (!process) {
     return std::unexpected(process.error());
   }
   // A tooth that does not turn cuts nothing; the model divides by the speed.
-  const double slowest = slowest_cut_rev_s(path);
+  const double slowest = trial::cut::slowest_cut_rev_s(path);
   if (!(slowest > 0.0)) {
     return refused(bad_input("the program cuts with the spindle stopped",
                              "program S and M3 before the first G1, or leave out --process"));
@@ -154,20 +153,17 @@ std::expected<CutChatter, Refusals> cut_chatter(const CutChatterOptions& options
     // The modulator waits at 100 % until the program reaches a speed with a choice. If no choice
     // acts, the machine gets no modulator at all.
     if (acts) {
-      machine = trial::cut::with_modulator(std::move(machine));
+      machine = trial::listener::with_modulator(std::move(machine));
     }
   }
   if (options.source == kDetect) {
-    // The sensor's sample rate comes from the simulated machine and decides how high the detector
-    // hears.
-    const sim::CuttingVibration::Config sensor;
     auto listener = trial::cut::listener_for(*process, machine, trial::cut::cutting_speeds(path),
-                                             *options.depth_mm, sensor.sensor_rate_hz);
+                                             *options.depth_mm);
     if (!listener) {
       return refused(listener.error());
     }
     out.listener = std::move(*listener);
-    machine = trial::cut::with_modulator(std::move(machine));
+    machine = trial::listener::with_modulator(std::move(machine));
   }
   out.cutting = {.cut = trial::vibration::cutting_of(*process, *options.depth_mm),
                  // Made once, so the grid must be fine enough for whatever the layer may ask.

@@ -19,9 +19,18 @@
 /// The chatter part of `steadyrest cut`: what is cut, and what the layer does about chatter.
 namespace steadyrest::apps::cli {
 
-struct CutChatterOptions {
+/// What is cut.
+struct ProcessOptions {
   std::string process;
   std::optional<double> depth_mm;
+};
+
+/// `--process` and `--depth-mm`; returns the first.
+CLI::Option* add_process_options(Verb& verb, ProcessOptions& options);
+/// Refused: a process without a depth above 0.
+[[nodiscard]] std::expected<double, Refusals> depth_of(const ProcessOptions& options);
+
+struct CutChatterOptions : ProcessOptions {
   std::string source = "plan";  ///< of the layer's choice: plan, detect, machine
 };
 

@@ -108,6 +108,7 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
   LivePort out;
   out.period_s = machine.control.servo_period_s;
   out.paces = true;
+  out.sensor.rate_hz = (*beside)->hal->vibration_rate_hz();
   out.findings = std::move(compared->findings);
   out.accepts = [machine, control = std::move(compared->file)](const auto& wanted) {
     return accepts(machine, control, wanted);

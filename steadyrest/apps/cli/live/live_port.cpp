@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -9,12 +10,32 @@
 #include <steadyrest/apps/cli/live/repeating_port.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
+#include <steadyrest/trial/cut/chatter_choice.hpp>
+#include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 namespace steadyrest::apps::cli::live {
 namespace {
 
+/// The cut of the process along the program.
+std::expected<std::optional<sim::CuttingVibration::Config>, Refusals> cutting_of(
+    const kernel::machine::Machine& machine, const nc::plan::PlannedPath& path,
+    const Simulated& simulated) {
+  if (simulated.process == nullptr) {
+    return std::nullopt;
+  }
+  const double slowest_rev_s = trial::cut::slowest_cut_rev_s(path);
+  if (!(slowest_rev_s > 0.0)) {
+    return refused(bad_input("the program cuts with the spindle stopped",
+                             "program S and M3 before the first G1, or leave out --process"));
+  }
+  return sim::CuttingVibration::Config{
+      .cut = trial::vibration::cutting_of(*simulated.process, simulated.depth_mm),
+      .slowest_rev_s = slowest_rev_s *
+                       trial::cut::least_spindle_ratio({}, simulated.layer_chooses_speed, machine)};
+}
+
 std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& machine,
-                                            const ProgramOptions& program, bool repeats) {
+                                            const ProgramOptions& program, const Simulated& of) {
   if (program.file.empty()) {
     return refused(bad_input("the simulated machine has nothing to cut", "give --program FILE"));
   }
@@ -22,13 +43,19 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
   if (!planned) {
     return std::unexpected(planned.error().refusals);
   }
-  const auto make = [config =
-                         sim::SimulatedMachine::Config{.machine = machine, .path = planned->path}] {
+  const auto cutting = cutting_of(machine, *planned->path, of);
+  if (!cutting) {
+    return std::unexpected(cutting.error());
+  }
+  const auto make = [config = sim::SimulatedMachine::Config{
+                         .machine = machine, .path = planned->path, .cutting = *cutting}] {
     return sim::SimulatedMachine::make(config);
   };
   LivePort out;
   out.period_s = machine.control.interpolator_period_s;
-  if (repeats) {
+  out.sensor = *cutting ? trial::listener::simulated_sensor() : trial::listener::Sensor();
+  out.cutting_speeds_rev_s = trial::cut::cutting_speeds(*planned->path);
+  if (of.repeats) {
     auto port = RepeatingPort::open(make);
     if (!port) {
       return refused(port.error());
@@ -54,11 +81,11 @@ constexpr const char* kPorts = "sim";
 }  // namespace
 
 std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
-                                            const ProgramOptions& program, bool repeats) {
+                                            const ProgramOptions& program, const Simulated& of) {
   if (machine.port == kernel::machine::PortKind::sim) {
-    return simulated(machine, program, repeats);
+    return simulated(machine, program, of);
   }
-  if (repeats) {
+  if (of.repeats) {
     return refused(bad_input("--repeat is for the simulated machine",
                              "leave it out; a control repeats its program itself"));
   }

@@ -8,9 +8,11 @@
 
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 
 namespace steadyrest::apps::cli::live {
 
@@ -27,13 +29,25 @@ struct LivePort {
   double period_s = 0.001;
   bool paces = false;              ///< read() waits for the control's next sample
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never
+  /// The vibration sensor; a rate of 0: it has none.
+  trial::listener::Sensor sensor;
+  /// Programmed speeds of the program's cuts, rev/s; empty: not known yet.
+  std::vector<double> cutting_speeds_rev_s;
+};
+
+/// What a simulated machine does beside the program.
+struct Simulated {
+  bool repeats = false;  ///< begins the program again and again
+  /// Cuts this; null: air.
+  const chatter::offline::Process* process = nullptr;
+  double depth_mm = 0.0;
+  bool layer_chooses_speed = false;  ///< of the spindle, within the override's steps
 };
 
 /// The port of the machine file. Refused: a port that this program does not have; for `sim` a
-/// missing program, and what its control refuses. `repeats`: the simulated machine begins its
-/// program again and again.
+/// missing program, what its control refuses, and a process where the spindle never turns.
 [[nodiscard]] std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
                                                           const ProgramOptions& program,
-                                                          bool repeats = false);
+                                                          const Simulated& simulated = {});
 
 }  // namespace steadyrest::apps::cli::live

@@ -8,6 +8,7 @@
 #include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/live/reloader.hpp>
 #include <steadyrest/record/record_writer.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 
 namespace steadyrest::apps::cli::live {
 
@@ -17,6 +18,8 @@ struct ReloadOf {
   kernel::port::Capability capability;
   /// LivePort::accepts.
   std::function<kernel::outcome::Result<void>(const kernel::machine::Machine&)> accepts;
+  /// The run's ear; null: none. Outlives the reload.
+  const trial::listener::Listener* listener = nullptr;
   record::RecordWriter* writer = nullptr;  ///< keeps the file's text; null: nothing is recorded
 };
 

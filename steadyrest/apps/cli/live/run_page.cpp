@@ -86,9 +86,7 @@ Result<void> check_page(const PageOptions& options) {
                 : Result<void>(std::unexpected(config.error()));
 }
 
-Result<void> RunPage::open(const steadyrest::live::Asked& asked,
-                           const kernel::machine::Machine& machine, const std::string& machine_file,
-                           const std::string& record_folder, double cycle_s) {
+Result<void> RunPage::open(const Of& of) {
   if (!wanted_) {
     return {};
   }
@@ -97,13 +95,14 @@ Result<void> RunPage::open(const steadyrest::live::Asked& asked,
     return std::unexpected(config.error());
   }
   desk_ = std::make_unique<live_page::Desk>(
-      live_page::Desk{.asked = asked,
+      live_page::Desk{.asked = of.asked,
                       .tap = tap_,
-                      .machine = machine,
-                      .machine_file = machine_file,
-                      .records = options_.records.empty() ? record_folder : options_.records,
+                      .machine = of.machine,
+                      .machine_file = of.machine_file,
+                      .records = options_.records.empty() ? of.record_folder : options_.records,
                       .findings = start_findings,
-                      .cycle_s = cycle_s});
+                      .cycle_s = of.cycle_s,
+                      .chatter = of.chatter});
   auto page = live_page::LivePage::open(*config, *desk_);
   if (!page) {
     return std::unexpected(std::move(page.error()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <steadyrest/apps/cli/shared/session.hpp>
@@ -37,11 +38,16 @@ class RunPage {
   explicit RunPage(const PageOptions& options)
       : options_(options), wanted_(!options.listen.empty()) {}
 
+  struct Of {
+    const steadyrest::live::Asked& asked;
+    const kernel::machine::Machine& machine;
+    std::string machine_file;
+    std::string record_folder;
+    double cycle_s = 0.001;
+    std::optional<live_page::ChatterDesk> chatter;
+  };
   /// Says on stderr where it is. What `asked` names outlives the page.
-  [[nodiscard]] Result<void> open(const steadyrest::live::Asked& asked,
-                                  const kernel::machine::Machine& machine,
-                                  const std::string& machine_file, const std::string& record_folder,
-                                  double cycle_s);
+  [[nodiscard]] Result<void> open(const Of& of);
   /// Where; empty: there is none.
   [[nodiscard]] std::string address() const { return page_ ? page_->address() : ""; }
   /// No request is answered any more.

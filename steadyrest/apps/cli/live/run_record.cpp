@@ -47,6 +47,7 @@ Result<std::unique_ptr<RunRecord>> RunRecord::start(const Of& of, const LivePort
   info.machine_text = std::move(*machine);
   info.program = of.program_file;
   info.program_text = std::move(*program);
+  info.listener = of.listener;
   info.cycle_s = port.period_s;
   info.capability = port.port->capability();
   // What goes wrong here shows when the file is made.

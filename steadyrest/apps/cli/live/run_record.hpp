@@ -20,6 +20,7 @@ class RunRecord {
     std::string machine_file;
     std::string machine;       ///< its name
     std::string program_file;  ///< empty: the control has its own
+    std::string listener;      ///< text of the layer's ear; empty: it hears nothing
   };
 
   /// Null where no folder is named. Refused: what cannot be read, and a folder that cannot be

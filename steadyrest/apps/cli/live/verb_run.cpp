@@ -16,6 +16,7 @@
 #include <steadyrest/apps/cli/live/live_port.hpp>
 #include <steadyrest/apps/cli/live/lossy_port.hpp>
 #include <steadyrest/apps/cli/live/machine_reload.hpp>
+#include <steadyrest/apps/cli/live/run_chatter.hpp>
 #include <steadyrest/apps/cli/live/run_page.hpp>
 #include <steadyrest/apps/cli/live/run_record.hpp>
 #include <steadyrest/apps/cli/live/signals.hpp>
@@ -54,6 +55,7 @@ struct Options {
   std::string socket;
   std::string record;  ///< folder; empty: no record
   PageOptions page;
+  RunChatterOptions chatter;
   bool repeats = false;
   double for_s = 0.0;
   double lose_link_at_s = -1.0;  ///< below 0: never
@@ -68,6 +70,10 @@ std::string text_of(const LoopFigures& figures, const Json& json) {
       .row({"over the limit", fmt::format("{:.2f} s", figures.over_limit_s)});
   for (const auto& [name, cycles] : json["reasons"].items()) {
     table.row({name, fmt::format("{} cycles", cycles.get<std::uint64_t>())});
+  }
+  if (figures.listens) {
+    table.row({"chatter", fmt::format("{} times, {:.2f} s in all", figures.chatter_events,
+                                      figures.chatter_s)});
   }
   if (const Json stalls = json.value("stalls", Json()); stalls.is_object()) {
     table.row({"servo cycles lost, passed over",
@@ -105,11 +111,17 @@ struct Prepared {
   std::vector<passport::Finding> findings;
   LivePort port;
   supervisor::Supervisor layer;
+  std::optional<RunProcess> process;
+  std::optional<trial::listener::Listener> listener;  ///< where there is a process
 };
 
 /// What `doctor` calls an error refuses the start. The socket comes before the port: a second layer
 /// must not touch a machine that has one.
-std::expected<Prepared, Refusals> prepare(const Options& options) {
+std::expected<Prepared, Refusals> prepare(const Options& options, Progress& progress) {
+  auto process = read_run_process(options.chatter);
+  if (!process) {
+    return std::unexpected(process.error());
+  }
   auto machine = read_machine(options.machine);
   if (!machine) {
     return std::unexpected(machine.error());
@@ -124,7 +136,10 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
   if (const auto fits = check_page(options.page); !fits) {
     return refused(fits.error());
   }
-  auto port = open_port(*machine, options.program, options.repeats);
+  if (auto refusal = unfit(*process, *machine)) {
+    return refused(std::move(*refusal));
+  }
+  auto port = open_port(*machine, options.program, simulated_of(*process, options.repeats));
   if (!port) {
     return std::unexpected(port.error());
   }
@@ -137,14 +152,20 @@ std::expected<Prepared, Refusals> prepare(const Options& options) {
         std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
   }
   std::ranges::move(port->findings, std::back_inserter(findings));
-  auto layer = supervisor::Supervisor::make(*machine, port->port->capability());
+  auto listener = listener_of(*process, *machine, *port, progress);
+  if (!listener) {
+    return refused(listener.error());
+  }
+  auto layer = layer_of(*listener, *machine, port->port->capability());
   if (!layer) {
     return refused(layer.error());
   }
   return Prepared{.machine = std::move(*machine),
                   .findings = std::move(findings),
                   .port = std::move(*port),
-                  .layer = std::move(*layer)};
+                  .layer = std::move(*layer),
+                  .process = std::move(*process),
+                  .listener = std::move(*listener)};
 }
 
 /// fmt::print() throws where stderr has gone with its terminal; a run must not end for that.
@@ -176,6 +197,7 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
                reload = ReloadOf{.file = options.machine,
                                  .capability = of.port.port->capability(),
                                  .accepts = of.port.accepts,
+                                 .listener = of.listener ? &*of.listener : nullptr,
                                  .writer = writer}](
                   const auto& running) -> Result<std::unique_ptr<steadyrest::live::Successor>> {
         if (hangup.terminal_is_gone()) {
@@ -218,9 +240,10 @@ Answer answer_of(const LoopFigures& figures, const Prepared& of,
 
 // Threads come before the real-time priority, which they would inherit. What a thread uses is made
 // before it.
-Outcome run(const Options& options) {
+Outcome run(const Options& options, Progress& progress) {
   const HangupWaits hangup;
-  auto prepared = prepare(options);
+  auto prepared = prepare(options, progress);
+  progress.clear();
   if (!prepared) {
     return std::unexpected(prepared.error());
   }
@@ -232,7 +255,8 @@ Outcome run(const Options& options) {
   auto made = RunRecord::start({.folder = options.record,
                                 .machine_file = options.machine,
                                 .machine = prepared->machine.name,
-                                .program_file = options.program.file},
+                                .program_file = options.program.file,
+                                .listener = listener_text(prepared->listener)},
                                prepared->port);
   if (!made) {
     return refused(made.error());
@@ -257,8 +281,12 @@ Outcome run(const Options& options) {
   if (!socket) {
     return refused(socket.error());
   }
-  if (auto opened =
-          page.open(asked, prepared->machine, options.machine, options.record, config.period_s);
+  if (auto opened = page.open({.asked = asked,
+                               .machine = prepared->machine,
+                               .machine_file = options.machine,
+                               .record_folder = options.record,
+                               .cycle_s = config.period_s,
+                               .chatter = chatter_desk(prepared->process)});
       !opened) {
     return refused(opened.error());
   }
@@ -270,8 +298,9 @@ Outcome run(const Options& options) {
   show_warnings(prepared->findings);
   const StopSignals signals(loop);
   const LoopFigures& figures = loop.run();
+  // Before page and record end: that may take longer than the watchdog waits.
+  life_sign.reset();
   page.close();
-  life_sign.reset();  // before the record ends: that may take longer than the watchdog waits
   return answer_of(figures, *prepared, real_time, record);
 }
 
@@ -300,7 +329,8 @@ void add_verb_run(Session& session, Verb& verb) {
   live::add_page_options(verb, options->page);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");
-  session.on(verb, [options](Progress& /*progress*/) { return live::run(*options); });
+  live::add_run_chatter_options(verb, options->chatter);
+  session.on(verb, [options](Progress& progress) { return live::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -39,6 +39,18 @@ std::string path_text(const Json& program) {
   return place == "no_program" ? "no program runs; " + file + " is known" : "no program is known";
 }
 
+/// What the layer hears, and which spindle step is better by the planner's table.
+std::string chatter_text(const Json& chatter) {
+  const Json hz = chatter.value("frequency_hz", Json());
+  std::string out = !chatter.value("chatter", false) ? "none"
+                    : hz.is_number()                 ? fmt::format("at {:.0f} Hz", hz.get<double>())
+                                                     : "yes";
+  if (const Json better = chatter.value("better_spindle_percent", Json()); better.is_number()) {
+    out += fmt::format("; better step: {:.4g} %", better.get<double>());
+  }
+  return out;
+}
+
 std::string text_of(const Json& status) {
   const Json error = status.value("contour_error_um", Json());
   Table table({"layer", ""});
@@ -56,6 +68,9 @@ std::string text_of(const Json& status) {
                                                 percent(status, "feed_effective_percent")})
       .row({"spindle: layer, in force", percent(status, "spindle_percent") + ", " +
                                             percent(status, "spindle_effective_percent")});
+  if (const Json chatter = status.value("chatter", Json()); chatter.is_object()) {
+    table.row({"chatter", chatter_text(chatter)});
+  }
   for (const Json& reason : status.value("reasons", Json::array())) {
     table.row({reason.value("of", ""), reason.value("sentence", "")});
   }

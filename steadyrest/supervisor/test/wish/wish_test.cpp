@@ -127,6 +127,9 @@ TEST(Wish, ALayerThatListensTakesNoModulation) {
   ASSERT_TRUE(
       bench.supervisor.listen(ListeningStage::make({.better = better, .depth_mm = 1.0}).value()));
   EXPECT_EQ(bench.modulate(kNinety), WishOutcome::listening);
+  ASSERT_TRUE(bench.supervisor.listen(
+      ListeningStage::make({.better = better, .depth_mm = 1.0, .acts = false}).value()));
+  EXPECT_EQ(bench.modulate(kNinety), WishOutcome::taken);
 }
 
 // δ is nearly 0 and surely so, with the bias's variance that the start gives; 0.3 µm of a reading

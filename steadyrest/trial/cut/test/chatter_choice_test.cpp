@@ -12,9 +12,12 @@
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/sim/cut/cutting_vibration.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 
 namespace steadyrest::trial::cut {
 namespace {
+
+using listener::with_modulator;
 
 namespace machine = kernel::machine;
 using ::testing::HasSubstr;

@@ -6,11 +6,14 @@
 
 #include <gmock/gmock.h>
 
+#include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/record/database.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 #include <steadyrest/trial/replay/testing/recorded_cut.hpp>
+#include <steadyrest/trial/vibration/cut_simulation.hpp>
 
 namespace steadyrest::trial::replay {
 namespace {
@@ -192,6 +195,48 @@ TEST_F(Replay, RefusesAMachineFileThatCannotHaveTakenOver) {
   const auto replayed = replay(file_, machine);
   ASSERT_FALSE(replayed);
   EXPECT_THAT(replayed.error().what, ::testing::HasSubstr("cannot change during a run"));
+}
+
+/// The slot that chatters, with an ear for it.
+testing::Heard slot(const Machine& machine) {
+  constexpr double kDepth_mm = 0.6;
+  constexpr double kSpeed_rev_s = 5000.0 / 60.0;
+  const auto process =
+      chatter::offline::read_process(trial::test::kExamples + "processes/slot-922hz.toml").value();
+  return {.program = "slot.mpf",
+          .cutting = sim::CuttingVibration::Config{.cut = vibration::cutting_of(process, kDepth_mm),
+                                                   .slowest_rev_s = 0.5 * kSpeed_rev_s},
+          .listener = listener::Listener{.stage = listener::stage_for(process, machine,
+                                                                      {kSpeed_rev_s}, kDepth_mm,
+                                                                      listener::simulated_sensor())
+                                                      .value()}};
+}
+
+TEST_F(Replay, ALayerThatListenedHearsTheSameAgain) {
+  const Machine machine = trial::test::machine_of("vmc-840d.toml");
+  std::string text =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/vmc-840d.toml");
+  const std::string limit = "limit_um = 10\n";
+  text.replace(text.find(limit), limit.size(), "limit_um = 9\n");
+  // The file takes over while the spindle runs at the better step.
+  const auto cut = testing::record_cut(file_, machine, kAll, 0, {}, {.at = 700, .text = text}, {},
+                                       slot(machine));
+  ASSERT_GT(cut.slowed, 300U) << "it heard nothing";
+  ASSERT_EQ(cut.dropped, 0U);
+  const auto replayed = replay(file_, machine).value();
+  EXPECT_EQ(replayed.cycles, cut.cycles);
+  EXPECT_EQ(replayed.reloads, 1U);
+  EXPECT_FALSE(replayed.first_difference);
+}
+
+TEST_F(Replay, RefusesAListenerThatItCannotMake) {
+  const Machine machine = trial::test::machine_of("vmc-840d.toml");
+  testing::record_cut(file_, machine, 10);
+  auto database = record::Database::open_to_change(file_).value();
+  ASSERT_TRUE(database.run("UPDATE run SET listener = '{}'"));
+  const auto replayed = replay(file_, machine);
+  ASSERT_FALSE(replayed);
+  EXPECT_THAT(replayed.error().what, ::testing::HasSubstr("how the layer listened"));
 }
 
 TEST_F(Replay, EndsBeforeALostSample) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/supervisor/wish_text.hpp>
+#include <steadyrest/trial/listener/listener.hpp>
 #include <steadyrest/trial/test/examples.hpp>
 
 namespace steadyrest::trial::replay::testing {
@@ -23,6 +26,7 @@ struct RecordedCut {
   std::uint64_t cycles = 0;
   std::uint64_t dropped = 0;
   std::uint64_t reduced = 0;  ///< cycles in which the layer took feed away
+  std::uint64_t slowed = 0;   ///< cycles in which it took spindle speed away
   std::vector<supervisor::WishOutcome> outcomes;
 };
 
@@ -32,36 +36,59 @@ struct Takeover {
   std::string text;
 };
 
+/// What the tool cuts, and the ear of the layer.
+struct Heard {
+  std::string program = "circle-r10.mpf";
+  // NOLINTBEGIN(readability-redundant-member-init)
+  std::optional<sim::CuttingVibration::Config> cutting = {};
+  std::optional<listener::Listener> listener = {};
+  // NOLINTEND(readability-redundant-member-init)
+};
+
+/// A layer for the machine file's values, with its ear.
+inline supervisor::Supervisor layer_of(const kernel::machine::Machine& machine,
+                                       const kernel::port::Capability& capability,
+                                       const Heard& heard) {
+  const auto values = heard.listener ? listener::machine_for(*heard.listener, machine) : machine;
+  auto layer = supervisor::Supervisor::make(values, capability).value();
+  if (heard.listener && !listener::give(*heard.listener, values, layer)) {
+    std::abort();
+  }
+  return layer;
+}
+
 /// What somebody asks for during the cut.
 struct WishAt {
   std::uint64_t at = 0;  ///< cycle
   supervisor::Wish wish;
 };
 
-/// Cuts the example circle with the layer acting, and records it. `lose_at`: the cycle that the
-/// record loses; 0: none.
+/// Cuts an example with the layer acting, and records it. `lose_at`: the cycle that the record
+/// loses; 0: none.
 inline RecordedCut record_cut(const std::string& file, const kernel::machine::Machine& machine,
                               std::uint64_t most_cycles, std::uint64_t lose_at = 0,
                               record::RunInfo info = {}, const Takeover& takeover = {},
-                              const std::vector<WishAt>& wishes = {}) {
+                              const std::vector<WishAt>& wishes = {}, const Heard& heard = {}) {
   nc::interpret::Config config;
   config.dialect = nc::read::Dialect::sinumerik;
   nc::plan::PathBuilder builder(machine);
-  if (!nc::interpret::run_file(trial::test::kExamples + "programs/circle-r10.mpf", config,
+  if (!nc::interpret::run_file(trial::test::kExamples + "programs/" + heard.program, config,
                                builder)) {
     return {};
   }
   const auto simulated =
       sim::SimulatedMachine::make(
           {.machine = machine,
-           .path = std::make_shared<const nc::plan::PlannedPath>(builder.take().value())})
+           .path = std::make_shared<const nc::plan::PlannedPath>(builder.take().value()),
+           .cutting = heard.cutting})
           .value();
   info.machine = machine.name;
-  info.program = "circle-r10.mpf";
+  info.program = heard.program;
+  info.listener = heard.listener ? listener::text_of(*heard.listener) : "";
   info.cycle_s = machine.control.interpolator_period_s;
   info.capability = simulated->capability();
   const auto writer = record::RecordWriter::make({.file = file, .info = info}).value();
-  auto layer = supervisor::Supervisor::make(machine, simulated->capability()).value();
+  auto layer = layer_of(machine, simulated->capability(), heard);
   layer.set_mode(kernel::machine::Mode::act);
   writer->event(record::EventKind::mode, "act");
   record::RecordingPort port(*simulated, *writer);
@@ -69,7 +96,7 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
   while (!simulated->finished() && cut.cycles < most_cycles) {
     if (takeover.at > 0 && cut.cycles == takeover.at) {
       const auto wanted = passport::parse(takeover.text, "other.toml").value();
-      auto next = supervisor::Supervisor::make(wanted, simulated->capability()).value();
+      auto next = layer_of(wanted, simulated->capability(), heard);
       next.take_over(layer, supervisor::kept(machine, wanted));
       layer = std::move(next);
       writer->event(record::EventKind::reload, writer->hold(takeover.text));
@@ -91,6 +118,7 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
       port.record(command);
     }
     cut.reduced += command.feed_ratio < 1.0 ? 1 : 0;
+    cut.slowed += command.spindle_ratio < 1.0 ? 1 : 0;
     // The simulation is faster than any machine; the ring is made for a real one.
     if (cut.cycles % 1000 == 0) {
       writer->flush();

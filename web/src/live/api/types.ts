@@ -62,6 +62,8 @@ export interface Hello {
   modulation: Modulation | null;
   thermal: boolean;
   listening: boolean;
+  /** The layer sets the spindle's speed itself when it hears chatter. */
+  chooses_speed?: boolean;
   /** The server has a map of stability; it takes measured sizes. */
   lobes: boolean;
   measures: boolean;
@@ -90,11 +92,17 @@ export interface ChatterNow {
   /** Does the cut chatter, and is the speed modulated against it? */
   chatter: boolean;
   modulating?: boolean;
+  kind?: 'none' | 'forced' | 'hopf' | 'flip';
   frequency_hz?: Maybe;
+  /** Share of the chatter in the vibration's energy, 0 … 1. */
   level?: Maybe;
   threshold?: Maybe;
   /** Level before the layer stepped in. */
   before?: Maybe;
+  /** The better step by the planner's table; null: none was asked for. */
+  better_spindle_percent?: Maybe;
+  events?: number;
+  chatter_s?: number;
 }
 export interface ThermalAxis {
   name: string;
@@ -192,6 +200,31 @@ export interface Lobes {
   border: { speed_rpm: number[]; depth_mm: Maybe[] };
   /** The depth that the process file gives. */
   depth_mm?: Maybe;
+}
+
+/** Null: not computed yet. */
+export interface LobesAnswer {
+  lobes: Lobes | null;
+  progress: number;
+}
+export interface Plan {
+  decision: 'keep' | 'constant' | 'law' | 'nothing';
+  override_percent: number[];
+  law: Law;
+  rva: number;
+  period_s: Maybe;
+  speed_rpm: number;
+  programmed_rpm: number;
+  depth_mm: number;
+  limit_depth_mm: Maybe;
+  likely_depth_mm: Maybe;
+  notes: string[];
+}
+export interface PlanAnswer {
+  plan: Plan | null;
+  /** 0: no speed has been programmed yet. */
+  programmed_rpm: number;
+  progress: number;
 }
 
 export interface ThermalHistory {

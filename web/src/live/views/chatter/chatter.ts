@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cut is on the stability lobes, the modulation of the spindle speed, and what it has done.
-import { twoDigits } from '../../../frame/numbers';
+// Where the cut is on the stability lobes, what the layer hears, the plan, and the modulation of the spindle speed.
 import { theme as themeNow } from '../../../frame/theme';
 import { SpectrumPicture } from '../../paint/spectrum';
 import type { Context, MakeView } from '../../shell/context';
@@ -9,7 +8,8 @@ import { t } from '../../texts/texts';
 import { bar } from '../bars';
 import { lobesPart } from './lobes';
 import { modulationPart } from './modulation';
-import { chatterWords } from '../now/chatter';
+import { planPart } from './plan';
+import { chatterWords, levelText } from '../now/chatter';
 import { type Part, columns } from '../part';
 
 function vibrationPart({ live }: Context): Part {
@@ -20,17 +20,16 @@ function vibrationPart({ live }: Context): Part {
   const levels = h('div', { class: 'override-group' }, h('h3', {}, t('before_after')), before.root, now.root);
   const show = () => {
     const { chatter } = live.frame ?? {};
-    setText(state, chatterWords(chatter, live.spectrum));
+    setText(state, chatterWords(live));
     state.classList.toggle('over', chatter?.chatter === true);
     levels.hidden = chatter?.level == null;
-    const whole = 1.1 * Math.max(chatter?.before ?? 0, chatter?.level ?? 0, 1.2 * (chatter?.threshold ?? 0)) || 1;
     for (const [which, value] of [[before, chatter?.before], [now, chatter?.level]] as const) {
-      which.set(value == null ? null : value / whole, value == null ? '–' : twoDigits(value));
-      which.mark(chatter?.threshold == null ? null : chatter.threshold / whole);
+      which.set(value ?? null, value == null ? '–' : levelText(value));
+      which.mark(chatter?.threshold ?? null);
     }
   };
   return {
-    root: panel(t('level'), 'vibration', state, levels, picture.canvas.element),
+    root: panel(t('vibration'), 'vibration', state, levels, picture.canvas.element),
     update: (theme, figures) => {
       picture.draw(theme);
       if (figures && live.frame) {
@@ -42,4 +41,4 @@ function vibrationPart({ live }: Context): Part {
   };
 }
 
-export const chatterView: MakeView = (context) => columns('chatter-view', [lobesPart(context)], [modulationPart(context), vibrationPart(context)]);
+export const chatterView: MakeView = (context) => columns('chatter-view', [lobesPart(context)], [vibrationPart(context), planPart(context), modulationPart(context)]);

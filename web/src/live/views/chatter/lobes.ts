@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stability lobes with the cut as it is now.
 import { type Level, classRaster, radiusLevels } from '../../../chatter/raster';
-import { measure, plain } from '../../../frame/numbers';
+import { fixed, measure, plain } from '../../../frame/numbers';
 import { type Theme, theme as themeNow } from '../../../frame/theme';
 import type { ColourScale } from '../../../plot/key';
 import type { Plot } from '../../../plot/drawn';
 import { type Layer, rules } from '../../../plot/layers';
-import type { Lobes } from '../../api/types';
+import type { Lobes, LobesAnswer } from '../../api/types';
 import type { Context } from '../../shell/context';
 import { h, panel } from '../../shell/h';
 import { problem } from '../../shell/problem';
@@ -18,6 +18,8 @@ import { Plotted } from '../plotted';
 /** A speed that has moved less than this share of the map is not drawn anew. */
 const MOVED = 0.005;
 const REDRAW_MS = 1000;
+/** While the map is being computed. */
+const AGAIN_MS = 700;
 
 function scaleOf(levels: readonly Level[]): ColourScale {
   const edge = (value: number) => (Number.isFinite(value) ? plain(Math.exp(value), 3) : '');
@@ -57,14 +59,21 @@ export function lobesPart({ api, live }: Context): Part {
   let lobes: Lobes | undefined;
   let at = NaN;
   let when = 0;
+  let again = 0;
   const load = () => {
     api
-      .get<{ lobes: Lobes }>('chatter/lobes')
+      .get<LobesAnswer>('chatter/lobes')
       .then((answer) => {
-        lobes = answer.lobes;
+        if (!answer.lobes) {
+          body.replaceChildren(h('p', { class: 'none', id: 'lobes-computing' }, t('computing', { percent: fixed(100 * answer.progress, 0) })));
+          again = window.setTimeout(load, AGAIN_MS);
+          return undefined;
+        }
+        const made = answer.lobes;
+        lobes = made;
         body.replaceChildren(drawn.root);
         at = live.samples.newest('rpm');
-        return drawn.set((theme) => lobesPlot(answer.lobes, at, theme));
+        return drawn.set((theme) => lobesPlot(made, at, theme));
       })
       .catch((error: unknown) => body.replaceChildren(h('p', { class: 'none' }, t('lobes_none')), problem(error)));
   };
@@ -87,6 +96,9 @@ export function lobesPart({ api, live }: Context): Part {
       }
     },
     redraw: (theme) => void drawn.redraw(theme),
-    close: () => drawn.close(),
+    close: () => {
+      window.clearTimeout(again);
+      drawn.close();
+    },
   };
 }

@@ -125,10 +125,11 @@ export function modulationPart(context: Context): Part {
   let shown: string | undefined;
   const show = (modulation: Modulation | null) => {
     shown = JSON.stringify(modulation);
+    const none = live.hello?.chooses_speed === true ? t('modulation_chosen') : t('modulation_none');
     body.replaceChildren(
       modulation
         ? form(context, modulation)
-        : h('p', { class: 'none', id: 'modulation-none' }, t('modulation_none')),
+        : h('p', { class: 'none', id: 'modulation-none' }, none),
     );
   };
   return {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/apps/live_page/vibration_spectrum.hpp>
+
+namespace steadyrest::apps::live_page {
+namespace {
+
+constexpr double kRate_hz = 10e3;
+
+std::vector<double> waves(double seconds, const std::vector<std::pair<double, double>>& waves) {
+  std::vector<double> out(static_cast<std::size_t>(seconds * kRate_hz), 0.0);
+  for (const auto& [hz, amplitude] : waves) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] +=
+          amplitude * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(i) / kRate_hz);
+    }
+  }
+  return out;
+}
+
+/// The largest amplitude within 15 Hz, and where.
+std::pair<double, double> peak(const VibrationSpectrum::Lines& lines, double hz) {
+  std::pair<double, double> out{0.0, 0.0};
+  for (std::size_t i = 0; i < lines.hz.size(); ++i) {
+    if (std::abs(lines.hz[i] - hz) < 15.0 && lines.amplitude[i] > out.second) {
+      out = {lines.hz[i], lines.amplitude[i]};
+    }
+  }
+  return out;
+}
+
+TEST(VibrationSpectrum, ShowsWavesWithTheirAmplitudes) {
+  VibrationSpectrum spectrum;
+  const auto signal = waves(2.0, {{166.7, 2.0}, {946.0, 0.5}});
+  // In pieces as they come from the cycle.
+  for (std::size_t i = 0; i < signal.size(); i += 40) {
+    spectrum.add(std::span(signal).subspan(i, 40), kRate_hz);
+  }
+  EXPECT_TRUE(spectrum.fresh());
+  EXPECT_FALSE(spectrum.fresh());
+  for (const std::size_t most : {4000UL, 300UL}) {
+    const auto lines = spectrum.lines(2000.0, most);
+    EXPECT_LE(lines.hz.size(), most);
+    EXPECT_TRUE(std::ranges::is_sorted(lines.hz));
+    EXPECT_LE(lines.hz.back(), 2000.0);
+    // A Hann window loses 1.4 dB at most, midway between two lines.
+    const auto [tooth_hz, tooth] = peak(lines, 166.7);
+    EXPECT_NEAR(tooth_hz, 166.7, 3.0);
+    EXPECT_GT(tooth, 2.0 * 0.84);
+    EXPECT_LT(tooth, 2.0 * 1.01);
+    const auto [chatter_hz, chatter] = peak(lines, 946.0);
+    EXPECT_NEAR(chatter_hz, 946.0, 3.0);
+    EXPECT_GT(chatter, 0.5 * 0.84);
+    EXPECT_LT(chatter, 0.5 * 1.01);
+    EXPECT_LT(peak(lines, 500.0).second, 0.01);
+  }
+}
+
+TEST(VibrationSpectrum, ForgetsWhatIsOver) {
+  VibrationSpectrum spectrum;
+  spectrum.add(waves(1.0, {{946.0, 1.0}}), kRate_hz);
+  EXPECT_GT(peak(spectrum.lines(5e3, 4000), 946.0).second, 0.8);
+  spectrum.add(waves(2.0, {}), kRate_hz);
+  EXPECT_LT(peak(spectrum.lines(5e3, 4000), 946.0).second, 0.1);
+}
+
+TEST(VibrationSpectrum, IsEmptyWithoutASignal) {
+  VibrationSpectrum spectrum;
+  EXPECT_FALSE(spectrum.fresh());
+  EXPECT_TRUE(spectrum.lines(1e3, 100).hz.empty());
+  spectrum.add(waves(1.0, {{946.0, 1.0}}), kRate_hz);
+  spectrum.add({}, 0.0);
+  EXPECT_FALSE(spectrum.fresh());
+  EXPECT_TRUE(spectrum.lines(1e3, 100).hz.empty());
+  const std::vector<double> bad(3000, std::nan(""));
+  spectrum.add(bad, kRate_hz);
+  for (const double amplitude : spectrum.lines(1e3, 100).amplitude) {
+    EXPECT_EQ(amplitude, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace steadyrest::apps::live_page

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <unsupported/Eigen/FFT>
+
+namespace steadyrest::apps::live_page {
+
+/// The amplitude spectrum of a signal that comes in pieces, averaged over about a second.
+///
+/// Hann windows of about 0.2 s, half overlapping; the powers of the windows are averaged with a
+/// memory of four windows. A sine of amplitude a has a peak of a (1.4 dB less between two lines).
+class VibrationSpectrum {
+ public:
+  /// The next readings, evenly spaced. Another rate begins anew; one not above 0 empties it.
+  void add(std::span<const double> readings, double rate_hz);
+  /// A window has been added since the last call.
+  [[nodiscard]] bool fresh() noexcept { return std::exchange(fresh_, false); }
+  [[nodiscard]] double rate_hz() const noexcept { return rate_hz_; }
+
+  struct Lines {
+    std::vector<double> hz;
+    std::vector<double> amplitude;  ///< in the signal's unit
+  };
+  /// From 0 to `most_hz`, at most `most` lines; each is the largest of those that it stands for.
+  [[nodiscard]] Lines lines(double most_hz, std::size_t most) const;
+
+ private:
+  void begin(double rate_hz);
+  void transform();
+
+  double rate_hz_ = 0.0;
+  bool fresh_ = false;
+  std::vector<double> waiting_;  ///< not yet in a window, and the last half window
+  std::vector<double> window_;
+  std::vector<double> windowed_;
+  std::vector<double> power_;
+  std::vector<std::complex<double>> lines_;
+  Eigen::FFT<double> fft_;
+};
+
+}  // namespace steadyrest::apps::live_page
