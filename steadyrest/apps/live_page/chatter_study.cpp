@@ -47,7 +47,7 @@ std::vector<double> even(double from, double to, std::size_t count) {
   return out;
 }
 
-Json rounded(const std::vector<double>& values, double to) {
+Json each_rounded(const std::vector<double>& values, double to) {
   Json out = Json::array();
   for (const double value : values) {
     out.push_back(std::isfinite(value) ? Json(std::round(value / to) * to) : Json());
@@ -58,7 +58,7 @@ Json rounded(const std::vector<double>& values, double to) {
 Json rpm(const std::vector<double>& rev_s) {
   std::vector<double> out(rev_s.size());
   std::ranges::transform(rev_s, out.begin(), rpm_from_rev_s);
-  return rounded(out, 1e-2);
+  return each_rounded(out, 1e-2);
 }
 
 }  // namespace
