@@ -300,7 +300,10 @@ void add_verb_run(Session& session, Verb& verb) {
   live::add_page_options(verb, options->page);
   add_optional_program(verb, options->program,
                        "The program that the simulated machine cuts (port sim)");
-  session.on(verb, [options](Progress& /*progress*/) { return live::run(*options); });
+  session.on(verb, [options](Progress& progress) {
+    progress.clear();  // it ends when it is told to, so it has no share of a whole
+    return live::run(*options);
+  });
 }
 
 }  // namespace steadyrest::apps::cli
