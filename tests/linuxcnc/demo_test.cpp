@@ -28,7 +28,7 @@ using kernel::signal::ProgramState;
 using record::Sample;
 
 constexpr double kRadius_mm = 10.0;
-constexpr double kLimit_um = 10.0;  ///< of the machine file
+constexpr double kLimit_um = 10.0;    ///< of the machine file
 constexpr std::uint32_t kCircle = 5;  ///< its line; the first one is M52 P1
 
 struct Seen {
@@ -50,14 +50,15 @@ Seen read(const std::string& file) {
     const auto& frame = sample->frame;
     first_s = first_s < 0.0 ? frame.time_s : first_s;
     seen.seconds = frame.time_s - first_s;
-    seen.begins += before == ProgramState::stopped && frame.program == ProgramState::running ? 1 : 0;
+    seen.begins +=
+        before == ProgramState::stopped && frame.program == ProgramState::running ? 1 : 0;
     before = frame.program;
     const bool circle = frame.program == ProgramState::running && frame.program_line == kCircle &&
                         frame.motion == kernel::signal::Motion::feed;
     circle_s = circle ? circle_s + 1e-3 : 0.0;
     if (circle_s > 0.5) {
-      const double radius_mm = std::hypot(frame.axis[0].actual_mm - 100.0,
-                                          frame.axis[1].actual_mm - 60.0);
+      const double radius_mm =
+          std::hypot(frame.axis[0].actual_mm - 100.0, frame.axis[1].actual_mm - 60.0);
       seen.error_um.push_back(1e3 * std::abs(radius_mm - kRadius_mm));
       seen.speed_mm_s.push_back(frame.path_speed_mm_s);
     }
@@ -69,10 +70,11 @@ TEST(LinuxCncDemo, TheLayerHoldsTheContourLimitAgainAndAgainAndNothingIsLeft) {
   const OwnFolder folder;
   std::ofstream(folder.at("circle.ngc"))
       << "G21 G90 G94 G17 G61 G54\nS6000 M3\nG0 X10 Y0 Z0\nG3 X10 Y0 I-10 J0 P2 F3000\nM2\n";
-  const int code = linuxcnc_test::status_of(
-      "LAYER='" STEADYREST_PROGRAM "' PROGRAM='" + folder.at("circle.ngc") + "' KEEP='" +
-      folder.at("") + "' LISTEN=0 FOR_S=18 sh " STEADYREST_SOURCE_DIR "/scripts/linuxcnc/demo.sh >'" +
-      folder.at("said") + "' 2>&1");
+  const int code = linuxcnc_test::status_of("LAYER='" STEADYREST_PROGRAM "' PROGRAM='" +
+                                            folder.at("circle.ngc") + "' KEEP='" + folder.at("") +
+                                            "' LISTEN=0 FOR_S=18 sh " STEADYREST_SOURCE_DIR
+                                            "/scripts/linuxcnc/demo.sh >'" +
+                                            folder.at("said") + "' 2>&1");
   const std::string said = text_of_file(folder.at("said"));
   if (code == linuxcnc_test::kCannotRun) {
     GTEST_SKIP() << said;
@@ -87,8 +89,8 @@ TEST(LinuxCncDemo, TheLayerHoldsTheContourLimitAgainAndAgainAndNothingIsLeft) {
   EXPECT_GT(seen.seconds, 15.0);
   EXPECT_GE(seen.begins, 2U);
   ASSERT_GT(seen.error_um.size(), 5000U);
-  const auto within = std::ranges::count_if(
-      seen.error_um, [](double error_um) { return error_um <= kLimit_um; });
+  const auto within =
+      std::ranges::count_if(seen.error_um, [](double error_um) { return error_um <= kLimit_um; });
   // A layer that is kept waiting for 20 ms hands back: so a busy computer costs some cycles.
   EXPECT_GT(static_cast<double>(within), 0.95 * static_cast<double>(seen.error_um.size()));
   std::vector<double> speed = seen.speed_mm_s;

@@ -10,6 +10,7 @@
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/apps/live_page/heat_history.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
+#include <steadyrest/apps/live_page/past_runs/overview.hpp>
 #include <steadyrest/apps/live_page/stream.hpp>
 #include <steadyrest/web/server.hpp>
 
@@ -23,7 +24,8 @@ struct Route {
   web::Role role = web::Role::viewer;
 };
 
-/// The page's HTTP interface (docs/page-api.md). Its answers come one after the other.
+/// The page's HTTP interface (docs/page-api.md). Its answers come one after the other; those about
+/// records are made beside them (web::Response::later).
 class Api {
  public:
   static constexpr std::string_view kStream = "/api/v1/stream";
@@ -57,6 +59,7 @@ class Api {
   Login login_;
   StreamText stream_;
   HeatHistory heat_;
+  past_runs::Overviews overviews_;
   std::function<double()> now_s_;
 };
 
