@@ -55,8 +55,8 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
 
   /// The whole of what follows, not each of its bytes, must come within this time.
   void be_patient(std::uint64_t bytes = 0) {
-    const double s = traffic_.config.patience_s +
-                     static_cast<double>(bytes) / traffic_.config.slowest_bytes_s;
+    const double s =
+        traffic_.config.patience_s + static_cast<double>(bytes) / traffic_.config.slowest_bytes_s;
     beast::get_lowest_layer(transport_)
         .expires_after(std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * s)));
   }
@@ -137,11 +137,13 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     Response response = traffic_.handlers.answer(request);
     if (!response.later) {
       deliver(std::move(response));
-    } else if (!traffic_.slow.take(
-                   [self = this->shared_from_this(),
-                    later = std::move(response.later)](const std::stop_token& stop) {
-                     self->deliver(later(stop));
-                   })) {
+      return;
+    }
+    SlowAnswers& makes = response.minutes ? traffic_.slowest : traffic_.slow;
+    const bool taken =
+        makes.take([self = this->shared_from_this(), later = std::move(response.later)](
+                       const std::stop_token& stop) { self->deliver(later(stop)); });
+    if (!taken) {
       Response busy = error(503, "busy", "other long answers are being made",
                             "wait for them, or ask again later");
       busy.head.emplace_back("Retry-After", "5");
@@ -199,6 +201,7 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
                        parser_ && (kSecure || !traffic_.config.gate.outer_origin.empty()));
     const bool head_alone = parser_->get().method() == http::verb::head;
     if (response.file.empty() || head_alone) {
+      response.keeper.reset();
       http::response<http::string_body> message;
       message.body() = head_alone ? "" : std::move(response.body);
       send(std::move(message), response);

@@ -39,6 +39,7 @@ struct Response {
   /// Makes the answer, which takes long: beside the others, and without looking at what they share.
   /// It gives up when it is told to stop. The rest of this response then counts for nothing.
   std::function<Response(std::stop_token)> later;
+  bool minutes = false;  ///< that is how long it may take; else seconds, which wait for no minutes
 };
 
 /// The target of a request in its parts; false where it cannot be one: not from `/`, wrong escapes,

@@ -32,6 +32,7 @@ class BeastServer final : public Server {
   ~BeastServer() override {
     traffic_.answers.join();
     traffic_.slow.end();
+    traffic_.slowest.end();
     traffic_.io.stop();
     if (thread_.joinable()) {
       thread_.join();

@@ -19,9 +19,9 @@ namespace steadyrest::web {
 /// HTTP and WebSocket, plain or over TLS, on Boost.Beast.
 ///
 /// One thread does the traffic, another makes the answers, one after the other; those that say they
-/// take long (Response::later) are made beside them. Bounded: connections, streams, sizes of head and body,
-/// time. A stream's client that is slower than the stream gets the newest message and is told how
-/// many it has missed; it never delays another.
+/// take long (Response::later) are made beside them. Bounded: connections, streams, sizes of head
+/// and body, time. A stream's client that is slower than the stream gets the newest message and is
+/// told how many it has missed; it never delays another.
 class Server {
  public:
   struct Config {
@@ -37,8 +37,9 @@ class Server {
     std::size_t most_streams = 32;
     std::size_t most_head = 16'384;
     std::size_t most_body = 262'144;
-    std::size_t most_slow = 8;  ///< answers that take long, being made or waiting
-    std::size_t slow_threads = 2;
+    /// Answers that take seconds, and those that take minutes, are made in two threads each; so
+    /// many of each kind may be in work or wait.
+    std::size_t most_slow = 8;
     double patience_s = 15.0;          ///< for a whole request, or the next one
     double slowest_bytes_s = 100'000;  ///< a file is given as much time more as this takes
   };

@@ -34,7 +34,8 @@ struct Traffic {
       : config(std::move(config_in)),
         handlers(std::move(handlers_in)),
         gate(config.gate),
-        slow(config.slow_threads, config.most_slow) {}
+        slow(2, config.most_slow),
+        slowest(2, config.most_slow) {}
 
   Server::Config config;
   Server::Handlers handlers;
@@ -46,6 +47,7 @@ struct Traffic {
   asio::io_context io{1};
   asio::thread_pool answers{1};
   SlowAnswers slow;
+  SlowAnswers slowest;  ///< take minutes
 };
 
 }  // namespace steadyrest::web

@@ -26,6 +26,7 @@ using web::Role;
 constexpr std::string_view kApi = "/api/";
 constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
+constexpr std::string_view kExport = "/export";
 
 constexpr std::array<Route, 14> kRoutes = {{
     {"GET", "/api/v1/session", true},
@@ -78,6 +79,11 @@ web::Response later(std::function<web::Response(std::stop_token)> make) {
   web::Response out;
   out.later = std::move(make);
   return out;
+}
+
+web::Response minutes(web::Response of) {
+  of.minutes = true;
+  return of;
 }
 
 std::string author(const web::Caller& caller) {
@@ -158,9 +164,11 @@ web::Response Api::run(const Route& route, const Call& call) {
     });
   }
   if (route.path == kRecords) {
-    return later([this, query = call.request.query, rest = call.rest](const std::stop_token& stop) {
-      return show_record(desk_, overviews_, {.query = query, .rest = rest, .stop = stop});
-    });
+    web::Response shown =
+        later([this, query = call.request.query, rest = call.rest](const std::stop_token& stop) {
+          return show_record(desk_, overviews_, {.query = query, .rest = rest, .stop = stop});
+        });
+    return call.rest.ends_with(kExport) ? minutes(std::move(shown)) : shown;
   }
   return response_of(openapi());
 }
@@ -183,8 +191,9 @@ web::Response Api::write(const Route& route, const Call& call) {
     return apply_machine(desk_, asked, author(call.caller));
   }
   if (call.rest.ends_with(kReplay)) {
-    return later([this, name = call.rest.substr(0, call.rest.size() - kReplay.size())](
-                     const std::stop_token& stop) { return replay_record(desk_, name, stop); });
+    return minutes(
+        later([this, name = call.rest.substr(0, call.rest.size() - kReplay.size())](
+                  const std::stop_token& stop) { return replay_record(desk_, name, stop); }));
   }
   return wrong_method(call.request.path + kReplay.data());
 }

@@ -108,7 +108,8 @@ web::Response details(const std::string& file, const std::string& name) {
                      {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
                      {"dropped", totals.dropped},
                      {"closed", totals.closed}}},
-                   {"events", std::move(events)}}}});
+                   {"events", std::move(events)},
+                   {"formats", past_runs::export_formats()}}}});
 }
 
 web::Response data(const std::string& file, past_runs::Overviews& overviews,
@@ -122,8 +123,7 @@ web::Response data(const std::string& file, past_runs::Overviews& overviews,
   return course ? answer(*course) : unreadable(course.error());
 }
 
-web::Response download(const std::string& file, const std::string& name,
-                       const RecordAsked& asked) {
+web::Response download(const std::string& file, const std::string& name, const RecordAsked& asked) {
   const auto format = asked.query.find("format");
   return past_runs::export_record(
       {.file = file,

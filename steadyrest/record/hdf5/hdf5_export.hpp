@@ -27,8 +27,6 @@ namespace steadyrest::record::hdf5 {
 /// be made or written, a damaged record, and what `goes_on`, asked after each sample, has ended.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_hdf5(
     RecordReader& reader, const std::string& file,
-    const std::function<bool(std::uint64_t samples)>& goes_on = [](std::uint64_t) {
-      return true;
-    });
+    const std::function<bool(std::uint64_t samples)>& goes_on = [](std::uint64_t) { return true; });
 
 }  // namespace steadyrest::record::hdf5

@@ -27,8 +27,8 @@ using GoesOn = std::function<bool(std::uint64_t samples)>;
 /// Whether this program was built with HDF5.
 [[nodiscard]] bool has_hdf5() noexcept;
 
-/// Writes what `reader` has left into a new HDF5 file (record/hdf5); the number of samples. One at a
-/// time in the process: the library is not for several threads. Refuses a file that cannot be
+/// Writes what `reader` has left into a new HDF5 file (record/hdf5); the number of samples. One at
+/// a time in the process: the library is not for several threads. Refuses a file that cannot be
 /// written, a damaged record, and everything in a program without HDF5.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_hdf5(RecordReader& reader,
                                                                 const std::string& file,

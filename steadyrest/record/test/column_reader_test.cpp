@@ -31,8 +31,7 @@ std::vector<Sample> write_in_chunks(const std::string& file) {
 TEST(ColumnReader, GivesEachChunksColumnsBitForBitInAnyOrder) {
   const test::Folder folder;
   const auto samples = write_in_chunks(folder.file("a.sqlite"));
-  auto reader =
-      ColumnReader::open(folder.file("a.sqlite"), {"time_s", "axis.actual_mm.2"}).value();
+  auto reader = ColumnReader::open(folder.file("a.sqlite"), {"time_s", "axis.actual_mm.2"}).value();
   ASSERT_EQ(reader.chunks().size(), 3U);
   for (const std::size_t chunk : {2U, 0U, 1U}) {
     EXPECT_EQ(reader.chunks()[chunk].samples, 100U);

@@ -34,19 +34,20 @@ class WithSlowAnswers : public testing::Test {
  protected:
   void open(Server::Config config = {}) {
     config.gate.hosts = {"127.0.0.1"};
-    server = std::move(*Server::open(
-        std::move(config),
-        {.answer = [this](const Request& request) { return answer(request); },
-         .admit = [](const Request&) -> std::variant<Server::Admitted, Response> {
-           return error(404, "not_found", "no", "no");
-         },
-         .now_s = [] { return 0.0; }}));
+    server = std::move(
+        *Server::open(std::move(config),
+                      {.answer = [this](const Request& request) { return answer(request); },
+                       .admit = [](const Request&) -> std::variant<Server::Admitted, Response> {
+                         return error(404, "not_found", "no", "no");
+                       },
+                       .now_s = [] { return 0.0; }}));
   }
 
   Response answer(const Request& request) {
     Response out;
     out.body = "quick";
-    if (request.path == "/slow") {
+    if (request.path == "/slow" || request.path == "/slowest") {
+      out.minutes = request.path == "/slowest";
       out.later = [this](const std::stop_token& stop) {
         begun.fetch_add(1);
         until([&] { return let_go.load() || stop.stop_requested(); });
@@ -113,6 +114,17 @@ TEST_F(WithSlowAnswers, DelayNoQuickOne) {
   for (auto* const slow : {&first, &second, &third}) {
     EXPECT_EQ(slow->get().body, "late");
   }
+}
+
+TEST_F(WithSlowAnswers, WaitForNoneThatTakesMinutes) {
+  open();
+  auto first = asked_for("/slowest");
+  auto second = asked_for("/slowest");
+  until([this] { return begun.load() == 2; });
+  auto slow = asked_for("/slow");
+  until([this] { return begun.load() == 3; });
+  let_go.store(true);
+  EXPECT_EQ(slow.get().body, "late");
 }
 
 TEST_F(WithSlowAnswers, AreRefusedWhereThereAreTooMany) {

@@ -114,11 +114,11 @@ Outcome run(const Options& options, bool json, Progress& progress) {
 void add_verb_record_export(Session& session, Verb& verb) {
   auto options = std::make_shared<record_export::Options>();
   verb.reads("record", options->record, "Record of a run (.sqlite)")->required();
-  verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",
-              either(csv_content("a table of a record (CSV)", {std::string(record::tables::kCsvHead)}),
-                     {"an HDF5 file", [](std::string_view text) {
-                        return text.starts_with("\x89HDF\r\n\x1a\n");
-                      }}));
+  verb.writes(
+      "-o,--output", options->output, "Write the table to this file instead of stdout",
+      either(csv_content("a table of a record (CSV)", {std::string(record::tables::kCsvHead)}),
+             {"an HDF5 file",
+              [](std::string_view text) { return text.starts_with("\x89HDF\r\n\x1a\n"); }}));
   verb.add_option("--format", options->format,
                   "csv, or hdf5 with units, events and the machine file; default: hdf5 for a file "
                   "that ends in .h5 or .hdf5, else csv")

@@ -130,8 +130,7 @@ Result<Json> course_of(const CourseAsked& asked, Overviews& overviews,
   const double first_s = overview.first_s();
   const double whole_s = overview.last_s() - first_s + overview.cycle_s;
   const double from_s = first_s + std::clamp(asked.from_s, 0.0, whole_s);
-  const double to_s =
-      std::max(from_s + overview.cycle_s, first_s + std::min(asked.to_s, whole_s));
+  const double to_s = std::max(from_s + overview.cycle_s, first_s + std::min(asked.to_s, whole_s));
   Intervals intervals(from_s, to_s, std::clamp<std::size_t>(asked.points, 1, kMostPoints));
   const double block_s = overview.cycle_s * static_cast<double>(overview.block_samples);
   if (intervals.step_s() > kBlocksInInterval * block_s) {

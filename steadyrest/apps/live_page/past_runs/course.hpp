@@ -23,8 +23,8 @@ struct CourseAsked {
 /// `t_s`, and each of `columns` with `min` and `max`; null where an interval has no sample.
 ///
 /// Intervals of more than four blocks of the overview are made from it, so that an interval takes
-/// in up to one block (0.26 s at 1 kHz) beyond each of its ends; shorter ones sample by sample, from
-/// the chunks that hold them.
+/// in up to one block (0.26 s at 1 kHz) beyond each of its ends; shorter ones sample by sample,
+/// from the chunks that hold them.
 [[nodiscard]] kernel::outcome::Result<Json> course_of(const CourseAsked& asked,
                                                       Overviews& overviews,
                                                       const std::stop_token& stop = {});

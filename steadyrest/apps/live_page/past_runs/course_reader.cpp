@@ -54,8 +54,8 @@ Result<CourseReader> CourseReader::open(const std::string& file) {
 
 CourseValues CourseReader::values(std::size_t sample) const noexcept {
   const auto at = [this, sample](Column column) { return columns_.column(column)[sample]; };
-  const double following_mm = std::max(
-      {std::abs(at(following_x)), std::abs(at(following_y)), std::abs(at(following_z))});
+  const double following_mm =
+      std::max({std::abs(at(following_x)), std::abs(at(following_y)), std::abs(at(following_z))});
   return {kPercent * at(feed),
           kPercent * at(effective),
           kPercent * at(panel),

@@ -12,8 +12,10 @@ namespace steadyrest::apps::live_page::past_runs {
 
 /// What a course shows, in the order of CourseValues.
 inline constexpr std::array<const char*, 8> kCourseNames = {
-    "feed_percent", "feed_effective_percent", "panel_percent", "path_speed_mm_min",
-    "following_um", "spindle_rpm",            "offset_x_um",   "offset_z_um"};
+    "feed_percent",  "feed_effective_percent",
+    "panel_percent", "path_speed_mm_min",
+    "following_um",  "spindle_rpm",
+    "offset_x_um",   "offset_z_um"};
 /// `following_um` is the largest of the first three axes'.
 using CourseValues = std::array<double, kCourseNames.size()>;
 

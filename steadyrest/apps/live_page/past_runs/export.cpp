@@ -46,8 +46,7 @@ web::Response refused(const Refusal& refusal) {
 /// A new empty file; none where no folder takes one.
 std::shared_ptr<const Temporary> new_file(const std::string& record) {
   std::error_code fault;
-  for (const fs::path& folder :
-       {fs::path(record).parent_path(), fs::temp_directory_path(fault)}) {
+  for (const fs::path& folder : {fs::path(record).parent_path(), fs::temp_directory_path(fault)}) {
     std::string name = folder / ".export-XXXXXX";
     if (const int descriptor = ::mkstemp(name.data()); descriptor >= 0) {
       ::close(descriptor);
@@ -144,6 +143,16 @@ std::optional<web::Response> table(const ExportAsked& asked, bool hdf5, const st
 }
 
 }  // namespace
+
+std::vector<std::string> export_formats() {
+  std::vector<std::string> out;
+  for (const Format& format : kFormats) {
+    if (format.name != "hdf5" || tables::has_hdf5()) {
+      out.emplace_back(format.name);
+    }
+  }
+  return out;
+}
 
 web::Response export_record(const ExportAsked& asked, const std::stop_token& stop) {
   const std::string_view wanted = asked.format.empty() ? "sqlite" : std::string_view(asked.format);

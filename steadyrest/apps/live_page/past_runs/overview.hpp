@@ -40,7 +40,9 @@ struct Overview {
   [[nodiscard]] double first_s() const noexcept {
     return chunks.empty() ? 0.0 : chunks.front().first_s;
   }
-  [[nodiscard]] double last_s() const noexcept { return chunks.empty() ? 0.0 : chunks.back().last_s; }
+  [[nodiscard]] double last_s() const noexcept {
+    return chunks.empty() ? 0.0 : chunks.back().last_s;
+  }
 };
 
 /// The overviews that were asked for last. From several threads.

@@ -58,7 +58,8 @@ class PastRun : public testing::Test {
     writer->flush();
   }
   Json course(double from_s, double to_s, std::size_t points) {
-    auto got = course_of({.file = file, .from_s = from_s, .to_s = to_s, .points = points}, overviews);
+    auto got =
+        course_of({.file = file, .from_s = from_s, .to_s = to_s, .points = points}, overviews);
     EXPECT_TRUE(got.has_value()) << kernel::outcome::text(got.error());
     return got.value_or(Json());
   }
@@ -114,8 +115,8 @@ TEST_F(PastRun, TheEndIsShownWithoutTheBeginning) {
   writer.reset();
   auto database = record::Database::open_to_change(file).value();
   ASSERT_TRUE(database.run("UPDATE chunk_column SET data = x'00' WHERE chunk = 1"));
-  EXPECT_NEAR(course(18.9995, 19.0095, 10)["columns"]["path_speed_mm_min"]["max"][3],
-              speed(19'003), 1e-6);
+  EXPECT_NEAR(course(18.9995, 19.0095, 10)["columns"]["path_speed_mm_min"]["max"][3], speed(19'003),
+              1e-6);
   EXPECT_FALSE(
       course_of({.file = file, .from_s = 0.0, .to_s = 0.01, .points = 10}, overviews).has_value());
 }
@@ -175,9 +176,9 @@ TEST_F(PastRun, IsNotExportedWhenThePageEnds) {
   std::stop_source stop;
   stop.request_stop();
   const std::size_t before = files();
-  EXPECT_EQ(export_record({.file = file, .name = "run.sqlite", .format = "csv"}, stop.get_token())
-                .status,
-            422U);
+  EXPECT_EQ(
+      export_record({.file = file, .name = "run.sqlite", .format = "csv"}, stop.get_token()).status,
+      422U);
   EXPECT_FALSE(course_of({.file = file}, overviews, stop.get_token()).has_value());
   EXPECT_EQ(files(), before);
 }

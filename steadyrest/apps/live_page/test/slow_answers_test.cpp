@@ -31,8 +31,8 @@ class AnswersOfThePage : public testing::Test {
 
 TEST_F(AnswersOfThePage, WaitForNoRecord) {
   const std::string record = "/api/v1/records/circle-start.sqlite";
-  for (const std::string& path : {std::string("/api/v1/records"), record, record + "/data",
-                                  record + "/export"}) {
+  for (const std::string& path :
+       {std::string("/api/v1/records"), record, record + "/data", record + "/export"}) {
     EXPECT_TRUE(slow("GET", path)) << path;
   }
   EXPECT_TRUE(slow("POST", record + "/replay", "{}"));
