@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include <steadyrest/live/live_status.hpp>
 
@@ -31,6 +32,8 @@ void look_at(const supervisor::Supervisor& layer, LiveStatus& into) noexcept {
   const kernel::signal::Frame& frame = layer.frame();
   const auto in_force = layer.in_force();
   look_at_rooms(layer.estimates(), into);
+  const auto* const modulation = layer.modulation();
+  into.modulation = modulation != nullptr ? std::optional(*modulation) : std::nullopt;
   into.time_s = frame.time_s;
   into.mode_in_force = layer.mode_in_force();
   into.motion = frame.motion;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
@@ -50,6 +51,7 @@ struct LiveStatus {
   bool path_known = false;
   bool chatter_on = false;  ///< the chatter room is on
   bool modulates = false;
+  std::optional<chatter::online::Modulation> modulation;  ///< in force; none: the room is off
   double modulation_goal_ratio = 1.0;  ///< of the modulator, before drive and steps
   double modulation_phase = 0.0;       ///< in periods, [0, 1)
   double feed_per_tooth_ratio = 1.0;

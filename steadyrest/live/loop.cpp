@@ -58,6 +58,7 @@ const LoopFigures& Loop::run() noexcept {
     }
     succeed();
     pass_note_on();
+    grant_wish();
     if (!goes_on(pace_.now_s())) {
       return figures_;
     }
@@ -99,6 +100,19 @@ void Loop::pass_note_on() noexcept {
   if (const auto note = notes_.try_pop(); note && config_.on_note) {
     config_.on_note({note->text.data(), note->size});
   }
+}
+
+/// Told to the record whatever became of it: an outlier counts too.
+void Loop::grant_wish() noexcept {
+  const supervisor::Wish* const wish = wishes_.take();
+  if (wish == nullptr) {
+    return;
+  }
+  const supervisor::WishOutcome outcome = supervisor::grant(*layer_, *wish);
+  if (config_.on_wish) {
+    config_.on_wish(*wish, outcome);
+  }
+  wishes_.answer(outcome);
 }
 
 /// Sets the mode of the next cycle; false once there is none.

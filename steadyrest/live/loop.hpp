@@ -22,7 +22,9 @@
 #include <steadyrest/live/pace.hpp>
 #include <steadyrest/live/tap.hpp>
 #include <steadyrest/live/time_figures.hpp>
+#include <steadyrest/live/wish/wish_box.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/wish.hpp>
 
 namespace steadyrest::live {
 
@@ -79,6 +81,8 @@ class Loop {
     std::function<void(std::string_view reason)> on_fault = {};
     /// In the cycle: words for a record, of note().
     std::function<void(std::string_view words)> on_note = {};
+    /// In the cycle: a wish that reached the layer, and what became of it.
+    std::function<void(const supervisor::Wish&, supervisor::WishOutcome)> on_wish = {};
     /// For what is drawn of each cycle; null: nobody draws. Outlives the loop.
     Tap* tap = nullptr;
     // NOLINTEND(readability-redundant-member-init)
@@ -97,6 +101,13 @@ class Loop {
   /// Words for the record, at most LoopNote::kLongest bytes of them; from any thread. False: too
   /// many wait.
   bool note(std::string_view words);
+  /// Has the layer grant a wish between two cycles, and waits for what became of it, at most about
+  /// twice `patience_s`; from any thread but the loop's. None: the loop did not take it in that
+  /// time, and will not.
+  [[nodiscard]] std::optional<supervisor::WishOutcome> ask(const supervisor::Wish& wish,
+                                                           double patience_s = 1.0) {
+    return wishes_.ask(wish, patience_s);
+  }
   [[nodiscard]] kernel::machine::Mode mode_wanted() const noexcept { return wanted_.load(); }
   void ask_stop() noexcept { stop_.store(true); }
   /// Takes over before the next cycle: once taken() has risen, the layer before it may go.
@@ -145,6 +156,7 @@ class Loop {
 
   void succeed() noexcept;
   void pass_note_on() noexcept;
+  void grant_wish() noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
   void cycle() noexcept;
   void watch() noexcept;
@@ -165,6 +177,7 @@ class Loop {
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   std::mutex noting_;
   kernel::rt::Ring<LoopNote, 32> notes_;
+  WishBox wishes_;
   std::mutex looking_;
   kernel::rt::Snapshot<LiveStatus> status_;
   LiveStatus now_;

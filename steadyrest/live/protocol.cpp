@@ -3,11 +3,10 @@
 
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
+#include <steadyrest/live/wish/wish_json.hpp>
 
 namespace steadyrest::live {
 namespace {
-
-constexpr int kMostShown = 40;
 
 /// One line of UTF-8, whatever the words of a client or a port were.
 std::string line_of(const Json& json) {
@@ -18,10 +17,28 @@ std::string error(const std::string& what, const std::string& to_do) {
   return line_of({{"version", kProtocol}, {"error", {{"what", what}, {"to_do", to_do}}}});
 }
 
-/// Of a client's words, as much as a message needs.
-std::string shown(const Json& value) {
-  std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  return text.size() <= kMostShown ? text : text.substr(0, kMostShown) + "…";
+/// Who asks, as a record shows it.
+std::string author_of(const Json& request) {
+  const Json author = request.value("author", Json());
+  const std::string name = author.is_string() ? author.get<std::string>() : "";
+  return name.empty() ? "socket" : "socket: " + name;
+}
+
+/// A wish for the rooms: an answer with what is in force, or the verdict on a reading.
+std::string grant(const Asked& of, const Json& request, bool modulates) {
+  const auto machine = of.reloader->running();
+  const auto wish = modulates ? modulation_wish(request, machine, author_of(request))
+                              : measured_wish(request, machine, author_of(request));
+  const auto outcome = wish ? granted(of.loop.ask(*wish)) : std::unexpected(wish.error());
+  if (!outcome) {
+    return error(outcome.error().what, outcome.error().to_do);
+  }
+  if (modulates) {
+    return line_of(
+        {{"version", kProtocol},
+         {"modulation", modulation_json(std::get<chatter::online::Modulation>(wish->what))}});
+  }
+  return line_of({{"version", kProtocol}, {"verdict", verdict_json(*outcome)}});
 }
 
 }  // namespace
@@ -61,7 +78,11 @@ std::string answer(const Asked& of, std::string_view line) {
   if (ask == "reload" && of.reloader != nullptr) {
     return line_of({{"version", kProtocol}, {"reload_asked", of.reloader->ask()}});
   }
-  return error(fmt::format("{} cannot be asked; allowed: status, mode, reload", shown(ask)),
+  if ((ask == "modulate" || ask == "measured") && of.reloader != nullptr) {
+    return grant(of, request, ask == "modulate");
+  }
+  return error(fmt::format("{} cannot be asked; allowed: status, mode, reload, modulate, measured",
+                           shown(ask)),
                "give one of these as `ask`");
 }
 

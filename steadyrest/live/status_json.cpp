@@ -55,6 +55,7 @@ Json status_json(const LiveStatus& status) {
   out["feed_effective_percent"] = kPercent * status.feed_effective_ratio;
   out["spindle_percent"] = kPercent * status.spindle_ratio;
   out["spindle_effective_percent"] = kPercent * status.spindle_effective_ratio;
+  out["modulation"] = status.modulation ? modulation_json(*status.modulation) : Json(nullptr);
   out["offset_um"] = offsets(status.offset_mm);
   out["path_offset_um"] = offsets(status.path_offset_mm);
   out["reasons"] = Json::array();

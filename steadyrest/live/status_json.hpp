@@ -2,19 +2,15 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
-
-#include <nlohmann/json.hpp>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/loop.hpp>
 #include <steadyrest/live/reloader.hpp>
+#include <steadyrest/live/wish/wish_json.hpp>
 
 namespace steadyrest::live {
-
-using Json = nlohmann::ordered_json;
 
 [[nodiscard]] std::string_view word(kernel::machine::Mode mode) noexcept;
 /// None for a word that is no mode.

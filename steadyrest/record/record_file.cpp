@@ -27,10 +27,10 @@ Result<void> check_format(Database& database, const std::string& file) {
   if (!format) {
     return std::unexpected(format.error());
   }
-  if (*format != kFormat) {
+  if (*format < kOldestFormat || *format > kFormat) {
     return refuse(file,
-                  "has format " + std::to_string(*format) + "; this program reads format " +
-                      std::to_string(kFormat),
+                  "has format " + std::to_string(*format) + "; this program reads formats " +
+                      std::to_string(kOldestFormat) + " and " + std::to_string(kFormat),
                   "use the version of Steadyrest that recorded it");
   }
   return {};

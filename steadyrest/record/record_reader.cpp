@@ -69,6 +69,8 @@ std::string_view word(EventKind kind) noexcept {
       return "undelivered";
     case EventKind::reload:
       return "reload";
+    case EventKind::wish:
+      return "wish";
     case EventKind::note:
       break;
   }
@@ -153,7 +155,7 @@ Result<void> RecordReader::read_events() {
       return {};
     }
     const std::int64_t kind = query->integer(2);
-    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::reload))) {
+    if (kind < 0 || kind > static_cast<std::int64_t>(to_bits(EventKind::wish))) {
       return damaged("an event of an unknown kind");
     }
     events_.push_back({.before = static_cast<std::uint64_t>(query->integer(0)),

@@ -16,7 +16,7 @@
 
 namespace steadyrest::record {
 
-/// `mode`, `unread`, `undelivered`, `note`, `reload`; ends with 0.
+/// `mode`, `unread`, `undelivered`, `note`, `reload`, `wish`; ends with 0.
 [[nodiscard]] std::string_view word(EventKind kind) noexcept;
 
 /// Reads a record in order, bit for bit as it was written. A run that is still being written may be

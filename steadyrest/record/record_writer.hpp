@@ -26,7 +26,7 @@ class RecordWriter {
  public:
   static constexpr std::size_t kRing = 4096;  ///< samples: 4 s at 1 kHz
   static constexpr std::size_t kSegmentsPerCycle = 32;
-  static constexpr std::size_t kEventText = 120;  ///< bytes; longer texts are cut
+  static constexpr std::size_t kEventText = 240;  ///< bytes; longer texts are cut
 
   struct Config {
     std::string file;

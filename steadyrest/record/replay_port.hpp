@@ -23,8 +23,8 @@ class ReplayPort final : public kernel::port::Port {
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
-  /// The mode that was set, or the machine file that took over, before the next read(); ask until
-  /// there is none. The event lives in this port.
+  /// The mode that was set, the machine file that took over, or the wish that was granted before
+  /// the next read(); ask until there is none. The event lives in this port.
   [[nodiscard]] const Event* change_due();
   /// Nothing is left to read.
   [[nodiscard]] bool finished() const noexcept {

@@ -31,7 +31,8 @@ enum class EventKind : std::uint8_t {
   unread,       ///< the port could not read: a cycle without a frame
   undelivered,  ///< the port did not take the command of the sample before
   note,         ///< anything else, for people
-  reload        ///< another machine file from here on; the text is the whole file
+  reload,       ///< another machine file from here on; the text is the whole file
+  wish          ///< what somebody asked of the rooms; the text has its values exactly
 };
 
 struct Event {

@@ -8,7 +8,9 @@ namespace steadyrest::record {
 /// `STRY` in the file's head, so that `file` and we know a record from any other database.
 inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
-inline constexpr std::int64_t kFormat = 2;
+inline constexpr std::int64_t kFormat = 3;
+/// The oldest that is still read: it has no wishes.
+inline constexpr std::int64_t kOldestFormat = 2;
 
 /// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others, its
 /// acceleration in mm/s² above that.
@@ -18,7 +20,7 @@ inline constexpr int kAccelerationShift = 32;
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;
-PRAGMA user_version = 2;
+PRAGMA user_version = 3;
 PRAGMA journal_mode = WAL;
 PRAGMA synchronous = NORMAL;
 CREATE TABLE run (

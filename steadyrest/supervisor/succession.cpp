@@ -11,6 +11,7 @@ namespace steadyrest::supervisor {
 namespace {
 
 using kernel::machine::Axis;
+using kernel::machine::Chatter;
 using kernel::machine::Machine;
 using kernel::machine::ThermalAxis;
 using kernel::outcome::refuse;
@@ -59,6 +60,13 @@ std::string misfit(const Machine& running, const Machine& wanted) {
   return {};
 }
 
+/// What an operator may change during a run.
+bool same_modulation(const Chatter& one, const Chatter& other) noexcept {
+  return one.law == other.law && one.amplitude_ratio == other.amplitude_ratio &&
+         one.amplitude_rev_s == other.amplitude_rev_s && one.period_s == other.period_s &&
+         one.mean_ratio == other.mean_ratio && one.seed == other.seed;
+}
+
 }  // namespace
 
 Result<void> fits(const Machine& running, const Machine& wanted) {
@@ -79,6 +87,7 @@ Kept kept(const Machine& running, const Machine& wanted) noexcept {
       .motion = axes,
       .contour = limits && running.contour == wanted.contour,
       .chatter = limits && running.chatter == wanted.chatter && running.spindle == wanted.spindle,
+      .modulation = same_modulation(running.chatter, wanted.chatter),
       .thermal = limits && running.thermal == wanted.thermal && running.spindle == wanted.spindle};
 }
 

@@ -18,6 +18,9 @@ struct Kept {
   bool motion = false;
   bool contour = false;
   bool chatter = false;
+  /// The file's own modulation is the same: what was set during the run goes on, though the room
+  /// may start over.
+  bool modulation = false;
   bool thermal = false;  ///< else the heat is carried over, and the rest starts over
 };
 

@@ -134,6 +134,10 @@ class Supervisor {
   [[nodiscard]] bool modulate(const chatter::online::Modulation& modulation) noexcept {
     return chatter_ && chatter_->change(modulation);
   }
+  /// The modulation in force: the machine file's until modulate(). Null where the room is off.
+  [[nodiscard]] const chatter::online::Modulation* modulation() const noexcept {
+    return chatter_ ? &chatter_->state().modulation : nullptr;
+  }
   /// Listens to the frames' vibration from now on. When it chatters, the table's better speed
   /// becomes the modulator's constant mean: feed per tooth, slew and withdrawal are the
   /// modulator's. False, with nothing changed, where the chatter room is off.
@@ -143,6 +147,8 @@ class Supervisor {
     }
     return chatter_.has_value();
   }
+  /// It listens, and so chooses the modulator's speed itself.
+  [[nodiscard]] bool listens() const noexcept { return listener_.has_value(); }
   /// The thermal room, for probe readings and the workpiece's zero; null where it is off.
   [[nodiscard]] thermal::online::OffsetGovernor* thermal() noexcept {
     return thermal_ ? &*thermal_ : nullptr;

@@ -225,6 +225,9 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   if (kept.chatter) {
     std::swap(chatter_, before.chatter_);
     std::swap(listener_, before.listener_);
+  } else if (kept.modulation && chatter_ && before.chatter_) {
+    // In range, since it was in force.
+    [[maybe_unused]] const bool taken = chatter_->change(before.chatter_->state().modulation);
   }
   if (kept.thermal) {
     std::swap(thermal_, before.thermal_);

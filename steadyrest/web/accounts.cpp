@@ -189,8 +189,8 @@ std::optional<Caller> Accounts::check(std::string_view name, const std::string& 
     return std::nullopt;
   }
   static_cast<void>(digest({}));  // libsodium is ready
-  const auto user = std::ranges::find(users_, name, &Entry::name);
-  if (user == users_.end()) {
+  const Entry* const user = find_user(name);
+  if (user == nullptr) {
     static_cast<void>(hash_of(password));
     return std::nullopt;
   }
@@ -198,6 +198,11 @@ std::optional<Caller> Accounts::check(std::string_view name, const std::string& 
     return std::nullopt;
   }
   return Caller{.name = user->name, .role = user->role};
+}
+
+const Accounts::Entry* Accounts::find_user(std::string_view name) const noexcept {
+  const auto at = std::ranges::find(users_, name, &Entry::name);
+  return at == users_.end() ? nullptr : &*at;
 }
 
 std::optional<Caller> Accounts::of_token(std::string_view token) const {

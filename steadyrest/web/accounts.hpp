@@ -44,6 +44,8 @@ class Accounts {
   /// Takes as long for a name that does not exist.
   [[nodiscard]] std::optional<Caller> check(std::string_view name,
                                             const std::string& password) const;
+  /// Null: there is none of this name.
+  [[nodiscard]] const Entry* find_user(std::string_view name) const noexcept;
   [[nodiscard]] std::optional<Caller> of_token(std::string_view token) const;
 
   [[nodiscard]] const std::vector<Entry>& users() const noexcept { return users_; }

@@ -118,7 +118,7 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     request.content_type = head(http::field::content_type);
     request.csrf = head("X-Steadyrest-CSRF");
     request.body = from.body();
-    request.address = address_;
+    request.address = client_address(traffic_.config.gate, address_, head("X-Forwarded-For"));
     request.secure = kSecure || !traffic_.config.gate.outer_origin.empty();
     const auto target = from.target();
     return parse_target({target.data(), target.size()}, request);

@@ -86,6 +86,14 @@ std::optional<Response> Gate::refuse(const Request& request, bool writes, double
   return std::nullopt;
 }
 
+std::string client_address(const Gate::Config& config, const std::string& from,
+                           const std::string& forwarded) {
+  const std::size_t before = forwarded.find_last_of(", ");
+  const std::string last = before == std::string::npos ? forwarded : forwarded.substr(before + 1);
+  const bool known = is_number(last) || is_number("[" + last + "]");
+  return !config.outer_origin.empty() && known ? last : from;
+}
+
 void add_security_heads(Response& response, bool secure) {
   response.head.emplace_back("Content-Security-Policy", kPolicy);
   response.head.emplace_back("X-Content-Type-Options", "nosniff");

@@ -44,6 +44,11 @@ class Gate {
   RateLimit rate_;
 };
 
+/// Who asks. A proxy that was named adds the address that it sees to the end of `forwarded`, the
+/// head X-Forwarded-For; without one, or where that is no address, `from` counts.
+[[nodiscard]] std::string client_address(const Gate::Config& config, const std::string& from,
+                                         const std::string& forwarded);
+
 /// The heads of every answer: nothing but the server's own files may be loaded, no other page may
 /// show this one in a frame.
 void add_security_heads(Response& response, bool secure);

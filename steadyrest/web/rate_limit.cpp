@@ -14,12 +14,17 @@ double RateLimit::left(const std::string& key, double now_s) const {
   return std::min(config_.burst, at->second.left + more);
 }
 
-bool RateLimit::take(const std::string& key, double now_s) {
-  const std::scoped_lock lock(mutex_);
+/// Forgets those that are full again, where there is no room for a new key.
+void RateLimit::make_room(const std::string& key, double now_s) {
   if (by_key_.size() >= config_.most_keys && !by_key_.contains(key)) {
     const double full_s = config_.burst / config_.per_s;
     std::erase_if(by_key_, [&](const auto& at) { return now_s - at.second.at_s > full_s; });
   }
+}
+
+bool RateLimit::take(const std::string& key, double now_s) {
+  const std::scoped_lock lock(mutex_);
+  make_room(key, now_s);
   const double had = left(key, now_s);
   if (had < 1.0) {
     return false;
@@ -30,6 +35,7 @@ bool RateLimit::take(const std::string& key, double now_s) {
 
 bool RateLimit::has_room(const std::string& key, double now_s) {
   const std::scoped_lock lock(mutex_);
+  make_room(key, now_s);
   return left(key, now_s) >= 1.0;
 }
 

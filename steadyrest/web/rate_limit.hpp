@@ -33,6 +33,7 @@ class RateLimit {
     double at_s = 0.0;
   };
   [[nodiscard]] double left(const std::string& key, double now_s) const;
+  void make_room(const std::string& key, double now_s);
 
   Config config_;
   std::mutex mutex_;

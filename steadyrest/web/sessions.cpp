@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 
 #include <steadyrest/web/secret.hpp>
 #include <steadyrest/web/sessions.hpp>
@@ -18,8 +19,9 @@ void Sessions::make_room(double now_s) {
   }
 }
 
-Sessions::Begun Sessions::begin(const Caller& caller, double now_s) {
-  Begun out{.id = new_secret(), .session = {.caller = caller, .csrf = new_secret()}};
+Sessions::Begun Sessions::begin(const Caller& caller, double now_s, std::string mark) {
+  Begun out{.id = new_secret(),
+            .session = {.caller = caller, .csrf = new_secret(), .mark = std::move(mark)}};
   const std::scoped_lock lock(mutex_);
   make_room(now_s);
   by_digest_[digest(out.id)] = {.session = out.session, .begun_s = now_s, .used_s = now_s};
@@ -36,10 +38,12 @@ std::optional<Sessions::Session> Sessions::find(std::string_view id, double now_
   return at->second.session;
 }
 
-bool Sessions::lives(std::string_view id, double now_s) const {
+std::optional<Sessions::Session> Sessions::look_at(std::string_view id, double now_s) const {
   const std::scoped_lock lock(mutex_);
   const auto at = by_digest_.find(digest(id));
-  return at != by_digest_.end() && now_s - at->second.begun_s <= config_.longest_s;
+  return at != by_digest_.end() && now_s - at->second.begun_s <= config_.longest_s
+             ? std::optional(at->second.session)
+             : std::nullopt;
 }
 
 void Sessions::end(std::string_view id) {

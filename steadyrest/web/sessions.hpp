@@ -23,6 +23,7 @@ class Sessions {
   struct Session {
     Caller caller;
     std::string csrf;  ///< what a write must bring along: another site cannot know it
+    std::string mark;  ///< of the account as it was at the log-in
   };
   /// A session and the secret that its holder shows.
   struct Begun {
@@ -33,11 +34,11 @@ class Sessions {
   explicit Sessions(const Config& config) : config_(config) {}
   Sessions() : Sessions(Config{}) {}
 
-  [[nodiscard]] Begun begin(const Caller& caller, double now_s);
+  [[nodiscard]] Begun begin(const Caller& caller, double now_s, std::string mark = {});
   /// Nothing for one that has ended; counts as use.
   [[nodiscard]] std::optional<Session> find(std::string_view id, double now_s);
   /// The same without counting as use: a page that only watches does not stay logged in for ever.
-  [[nodiscard]] bool lives(std::string_view id, double now_s) const;
+  [[nodiscard]] std::optional<Session> look_at(std::string_view id, double now_s) const;
   void end(std::string_view id);
 
  private:

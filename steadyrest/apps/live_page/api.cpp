@@ -12,6 +12,7 @@
 #include <steadyrest/apps/live_page/assets.hpp>
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
+#include <steadyrest/apps/live_page/wish_desk.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/web/gate.hpp>
@@ -28,17 +29,19 @@ constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
 constexpr std::string_view kExport = "/export";
 
-constexpr std::array<Route, 14> kRoutes = {{
+constexpr std::array<Route, 16> kRoutes = {{
     {"GET", "/api/v1/session", true},
     {"POST", "/api/v1/session", true},
     {"DELETE", "/api/v1/session"},
     {"GET", "/api/v1/status"},
     {"POST", "/api/v1/mode", false, Role::operating},
     {"POST", "/api/v1/hand-back"},
+    {"POST", "/api/v1/modulation", false, Role::operating},
     {"GET", "/api/v1/machine"},
     {"POST", "/api/v1/machine/check"},
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
+    {"POST", "/api/v1/thermal/measured", false, Role::operating},
     {"GET", "/api/v1/records"},
     {"GET", kRecords},
     {"POST", kRecords, false, Role::engineer},
@@ -183,6 +186,12 @@ web::Response Api::write(const Route& route, const Call& call) {
   }
   if (route.path == "/api/v1/hand-back") {
     return hand_back(call);
+  }
+  if (route.path == "/api/v1/modulation") {
+    return set_modulation(desk_, asked, author(call.caller));
+  }
+  if (route.path == "/api/v1/thermal/measured") {
+    return enter_measured(desk_, asked, author(call.caller));
   }
   if (route.path == "/api/v1/machine/check") {
     return check_machine(desk_, asked);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -88,14 +89,24 @@ class Page final : public LivePage {
   }
 
  private:
-  /// Another machine file took over: what the streams were told at their begin is told again.
-  void tell_machine() {
-    if (desk_.asked.reloader == nullptr) {
-      return;
+  /// What may change of a hello.
+  struct Told {
+    std::uint64_t reload = 0;
+    std::optional<chatter::online::Modulation> modulation;
+    friend bool operator==(const Told&, const Told&) = default;
+  };
+
+  /// Another machine file or another modulation is in force: what the streams were told at their
+  /// begin is told again.
+  void tell_changes() {
+    Told now = told_;
+    if (desk_.asked.reloader != nullptr) {
+      const auto reload = desk_.asked.reloader->status();
+      now.reload = reload.taken ? reload.number : told_.reload;
     }
-    const auto reload = desk_.asked.reloader->status();
-    if (reload.taken && reload.number != told_) {
-      told_ = reload.number;
+    now.modulation = desk_.asked.loop.status().modulation;
+    if (now != told_) {
+      told_ = now;
       server_->announce(std::make_shared<const std::string>(frames_.hello()));
     }
   }
@@ -109,7 +120,7 @@ class Page final : public LivePage {
         server_->publish(std::make_shared<const std::string>(frames_.frame()));
       }
       api_.look();
-      tell_machine();
+      tell_changes();
       next = std::max(next + kFrame, std::chrono::steady_clock::now());
       std::this_thread::sleep_until(next);
     }
@@ -122,7 +133,7 @@ class Page final : public LivePage {
   StreamText frames_;
   std::unique_ptr<web::Server> server_;
   std::atomic<bool> ends_{false};
-  std::uint64_t told_ = 0;
+  Told told_;
   std::thread thread_;
 };
 

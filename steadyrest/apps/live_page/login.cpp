@@ -48,14 +48,36 @@ std::optional<Login::Who> Login::who(const web::Request& request, double now_s) 
     const auto caller = of_token(request);
     return caller ? std::optional(Who{.caller = *caller, .csrf = std::nullopt}) : std::nullopt;
   }
-  const auto session = sessions_.find(web::cookie(request, kCookie), now_s);
-  return session ? std::optional(Who{.caller = session->caller, .csrf = session->csrf})
-                 : std::nullopt;
+  const std::string id = web::cookie(request, kCookie);
+  const auto session = sessions_.find(id, now_s);
+  if (!session) {
+    return std::nullopt;
+  }
+  const auto caller = as_now(*session);
+  if (!caller) {
+    sessions_.end(id);
+    return std::nullopt;
+  }
+  return Who{.caller = *caller, .csrf = session->csrf};
+}
+
+std::optional<web::Caller> Login::as_now(const web::Sessions::Session& session) const {
+  if (!key_.empty()) {
+    return session.caller;
+  }
+  const auto accounts = web::Accounts::read(config_.accounts_file);
+  const auto* const user = accounts ? accounts->find_user(session.caller.name) : nullptr;
+  return user != nullptr && user->hash == session.mark
+             ? std::optional(web::Caller{.name = user->name, .role = user->role})
+             : std::nullopt;
 }
 
 bool Login::goes_on(const web::Request& request, double now_s) const {
-  return request.authorization.empty() ? sessions_.lives(web::cookie(request, kCookie), now_s)
-                                       : of_token(request).has_value();
+  if (!request.authorization.empty()) {
+    return of_token(request).has_value();
+  }
+  const auto session = sessions_.look_at(web::cookie(request, kCookie), now_s);
+  return session && as_now(*session);
 }
 
 web::Response Login::show(const web::Request& request, double now_s) {
@@ -69,15 +91,16 @@ web::Response Login::show(const web::Request& request, double now_s) {
 }
 
 // Read each time: who was removed cannot log in again.
-std::optional<web::Caller> Login::check(const std::string& name, const std::string& password,
-                                        const std::string& key) const {
+std::optional<Login::Known> Login::check(const std::string& name, const std::string& password,
+                                         const std::string& key) const {
   if (!key_.empty()) {
     return web::same_secret(key, key_)
-               ? std::optional(web::Caller{.name = "local", .role = web::Role::engineer})
+               ? std::optional(Known{{.name = "local", .role = web::Role::engineer}, ""})
                : std::nullopt;
   }
   const auto accounts = web::Accounts::read(config_.accounts_file);
-  return accounts ? accounts->check(name, password) : std::nullopt;
+  const auto caller = accounts ? accounts->check(name, password) : std::nullopt;
+  return caller ? std::optional(Known{*caller, accounts->find_user(name)->hash}) : std::nullopt;
 }
 
 web::Response Login::begin(const web::Request& request, double now_s) {
@@ -97,19 +120,20 @@ web::Response Login::begin(const web::Request& request, double now_s) {
     out.head.emplace_back("Retry-After", fmt::format("{}", std::ceil(wait_s)));
     return out;
   }
-  const auto caller = check(name, text(asked, "password"), text(asked, "key"));
-  if (!caller) {
+  const auto known = check(name, text(asked, "password"), text(asked, "key"));
+  if (!known) {
     static_cast<void>(failures_.take(request.address, now_s));
     static_cast<void>(failures_.take(of_name, now_s));
     return web::error(401, "wrong_password", "this is not a name with its password, nor the key",
                       "try again, or ask who keeps the accounts");
   }
-  const auto begun = sessions_.begin(*caller, now_s);
-  web::Response out = answer(
-      {{"session",
-        {{"name", caller->name}, {"role", word(caller->role)}, {"csrf", begun.session.csrf}}},
-       {"accounts", key_.empty()},
-       {"key_login", !key_.empty()}});
+  const auto& caller = known->caller;
+  const auto begun = sessions_.begin(caller, now_s, known->mark);
+  web::Response out =
+      answer({{"session",
+               {{"name", caller.name}, {"role", word(caller.role)}, {"csrf", begun.session.csrf}}},
+              {"accounts", key_.empty()},
+              {"key_login", !key_.empty()}});
   out.head.emplace_back("Set-Cookie", head_of(begun.id, request.secure, false));
   return out;
 }

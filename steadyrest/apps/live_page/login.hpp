@@ -41,11 +41,17 @@ class Login {
   [[nodiscard]] web::Response end(const web::Request& request);
 
  private:
+  struct Known {
+    web::Caller caller;
+    std::string mark;  ///< of the account as it is
+  };
   /// By the token of a script.
   [[nodiscard]] std::optional<web::Caller> of_token(const web::Request& request) const;
-  [[nodiscard]] std::optional<web::Caller> check(const std::string& name,
-                                                 const std::string& password,
-                                                 const std::string& key) const;
+  /// Of a session as the accounts are now: whoever was removed or has a new password must log in
+  /// again, and a role that has changed counts.
+  [[nodiscard]] std::optional<web::Caller> as_now(const web::Sessions::Session& session) const;
+  [[nodiscard]] std::optional<Known> check(const std::string& name, const std::string& password,
+                                           const std::string& key) const;
 
   Config config_;
   std::string key_;

@@ -52,10 +52,10 @@ Json json_of(const std::vector<passport::Finding>& findings) {
 /// A JSON value as TOML; empty where it cannot be one.
 std::string toml_of(const Json& value) {
   if (value.is_string()) {
-    return value.dump(-1, ' ', true, Json::error_handler_t::replace);  // its escapes are TOML's
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);  // its escapes are TOML's
   }
   return value.is_number() || value.is_boolean() || value.is_array()
-             ? value.dump(-1, ' ', true, Json::error_handler_t::replace)
+             ? value.dump(-1, ' ', false, Json::error_handler_t::replace)
              : "";
 }
 

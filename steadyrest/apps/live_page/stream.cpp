@@ -144,6 +144,20 @@ Json chatter_json(const LiveStatus& status) {
           {"feed_per_tooth_percent", rounded(kPercent * status.feed_per_tooth_ratio, 0.1)}};
 }
 
+/// That in force; before the first cycle that of the machine file. Null where the room is off.
+Json modulation_of(const LiveStatus& status, const kernel::machine::Machine& machine) {
+  if (status.modulation) {
+    return steadyrest::live::modulation_json(*status.modulation);
+  }
+  if (status.cycles > 0 || !machine.chatter.enabled) {
+    return nullptr;
+  }
+  return {{"law", passport::word(machine.chatter.law)},
+          {"amplitude_ratio", machine.chatter.amplitude_ratio},
+          {"period_s", machine.chatter.period_s},
+          {"mean_ratio", machine.chatter.mean_ratio}};
+}
+
 }  // namespace
 
 std::string StreamText::hello() const {
@@ -158,13 +172,6 @@ std::string StreamText::hello() const {
   for (const double ratio : machine.feed_override.ratio) {
     steps.push_back(rounded(kPercent * ratio, 0.1));
   }
-  Json modulation;
-  if (machine.chatter.enabled) {
-    modulation = {{"law", passport::word(machine.chatter.law)},
-                  {"amplitude_ratio", machine.chatter.amplitude_ratio},
-                  {"period_s", machine.chatter.period_s},
-                  {"mean_ratio", machine.chatter.mean_ratio}};
-  }
   return text_of({{"type", "hello"},
                   {"version", steadyrest::live::kProtocol},
                   {"machine", {{"name", machine.name}, {"axes", std::move(axes)}}},
@@ -175,11 +182,11 @@ std::string StreamText::hello() const {
                     {"min_percent", kPercent * machine.contour.min_ratio},
                     {"max_percent", kPercent * machine.contour.max_ratio},
                     {"steps_percent", std::move(steps)}}},
-                  {"modulation", modulation},
+                  {"modulation", modulation_of(desk_.asked.loop.status(), machine)},
                   {"thermal", machine.thermal.enabled},
                   {"listening", false},
                   {"lobes", false},
-                  {"measures", false}});
+                  {"measures", machine.thermal.enabled}});
 }
 
 std::string StreamText::frame() {

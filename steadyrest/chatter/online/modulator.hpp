@@ -25,6 +25,8 @@ struct Modulation {
   double period_s = 2.0;         ///< s, 0.02 … 600
   double mean_ratio = 1.0;       ///< of the programmed speed, 0.1 … 2
   std::uint64_t seed = 1;        ///< of the random law
+
+  friend bool operator==(const Modulation&, const Modulation&) = default;
 };
 
 /// Modulates the spindle speed by a law, through the steps of its override switch.

@@ -71,8 +71,19 @@ TEST(RefusedRecord, ADatabaseOfAnotherProgram) {
 TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
-  change(file, "PRAGMA user_version = 3");
-  EXPECT_THAT(refusal(file), testing::HasSubstr("has format 3; this program reads format 2"));
+  for (const std::string format : {"1", "4"}) {
+    change(file, "PRAGMA user_version = " + format);
+    EXPECT_THAT(refusal(file), testing::HasSubstr("has format " + format +
+                                                  "; this program reads formats 2 and 3"));
+  }
+}
+
+TEST(RefusedRecord, TheFormatBeforeIsNot) {
+  const test::Folder folder;
+  const std::string file = record(folder);
+  change(file, "PRAGMA user_version = 2");
+  EXPECT_EQ(refusal(file), "");
+  EXPECT_EQ(refusal(STEADYREST_SOURCE_DIR "/examples/records/circle-start.sqlite"), "");
 }
 
 TEST(RefusedRecord, DamageNamesThePlace) {

@@ -10,6 +10,7 @@
 #include <steadyrest/record/replay_port.hpp>
 #include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/wish_text.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 
 namespace steadyrest::trial::replay {
@@ -74,7 +75,8 @@ Result<void> reload(const std::string& file, const std::string& text,
   return {};
 }
 
-/// What was changed before this cycle; refuses a mode that is none and a file that does not fit.
+/// What was changed before this cycle; refuses a mode or a wish that is none and a file that does
+/// not fit.
 Result<void> change(const std::string& file, ReplayPort& port, Reloads reloads, Deciding& deciding,
                     Replayed& replayed) {
   while (const record::Event* const event = port.change_due()) {
@@ -85,6 +87,16 @@ Result<void> change(const std::string& file, ReplayPort& port, Reloads reloads, 
           return done;
         }
       }
+      continue;
+    }
+    if (event->kind == record::EventKind::wish) {
+      const auto recorded = supervisor::wish_of(event->text);
+      if (!recorded) {
+        return refuse(file, "has a wish that is none: " + event->text,
+                      "use the version of Steadyrest that recorded it");
+      }
+      ++replayed.wishes;
+      (void)supervisor::grant(deciding.layer, recorded->wish);
       continue;
     }
     const auto mode = mode_of(event->text);

@@ -32,6 +32,7 @@ struct Replayed {
   std::optional<std::uint64_t> gap_after;
   bool paths_complete = true;  ///< else a difference may come from a path that was cut off
   std::uint64_t reloads = 0;   ///< machine files that took over during the run
+  std::uint64_t wishes = 0;    ///< of people, that were granted again
 };
 
 enum class Reloads : std::uint8_t {

@@ -69,6 +69,17 @@ TEST(Gate, RefusesTooManyOfOneAddress) {
   EXPECT_THAT(refused->head, Contains(Pair("Retry-After", "2")));
 }
 
+TEST(ClientAddress, IsTheOneThatANamedProxySees) {
+  const Gate::Config alone;
+  const Gate::Config behind{.outer_origin = "https://mill.example"};
+  EXPECT_EQ(client_address(alone, "127.0.0.1", "10.0.0.7"), "127.0.0.1");
+  EXPECT_EQ(client_address(behind, "127.0.0.1", ""), "127.0.0.1");
+  EXPECT_EQ(client_address(behind, "127.0.0.1", "10.0.0.7"), "10.0.0.7");
+  EXPECT_EQ(client_address(behind, "127.0.0.1", "1.2.3.4, fe80::7"), "fe80::7")
+      << "the client can put anything before it";
+  EXPECT_EQ(client_address(behind, "127.0.0.1", "10.0.0.7, unknown"), "127.0.0.1");
+}
+
 TEST(Target, ComesInItsParts) {
   Request request;
   ASSERT_TRUE(parse_target("/api/v1/records/run%20a?from_s=1&search=%C3%A4&empty", request));

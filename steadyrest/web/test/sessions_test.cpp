@@ -66,7 +66,9 @@ TEST(RateLimit, HoldsABoundedNumberOfKeys) {
   EXPECT_TRUE(limit.take("a", 0.0));
   EXPECT_TRUE(limit.take("b", 0.0));
   EXPECT_FALSE(limit.take("c", 0.0));
-  EXPECT_TRUE(limit.take("c", 3.0)) << "the others are full again, and forgotten";
+  EXPECT_FALSE(limit.has_room("c", 0.0));
+  EXPECT_TRUE(limit.has_room("c", 3.0)) << "the others are full again, and forgotten";
+  EXPECT_TRUE(limit.take("c", 3.0));
 }
 
 }  // namespace

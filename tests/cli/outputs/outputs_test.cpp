@@ -42,12 +42,34 @@ class Outputs : public testing::TestWithParam<OutputRow> {
     err_ = process.err();
     return code;
   }
-  Texts made() {
-    EXPECT_EQ(run(folder_.command()), 0) << err_;
-    return folder_.results();
+  /// The files are there even if nobody reads the summary.
+  Texts made_for_nobody() {
+    EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
+    EXPECT_THAT(err_, HasSubstr("failed to write the answer to stdout"));
+    Texts results = folder_.results();
+    std::vector<testing::Matcher<const Texts::value_type&>> keys;
+    for (const std::string& name : folder_.outputs()) {
+      keys.emplace_back(Key(name));
+    }
+    EXPECT_THAT(results, UnorderedElementsAreArray(keys));
+    return results;
+  }
+  void expect_none_fits(long bytes, const Texts& old) {
+    folder_.place(old);
+    EXPECT_EQ(run(folder_.command(), {.largest_file = bytes}), 1) << bytes;
+    EXPECT_THAT(err_, HasSubstr("write failed: File too large")) << bytes;
+    EXPECT_EQ(folder_.results(), old) << bytes;
   }
   std::string err_;
 };
+
+long half_of_largest(const Texts& results) {
+  std::size_t largest = 0;
+  for (const auto& [name, text] : results) {
+    largest = std::max(largest, text.size());
+  }
+  return static_cast<long>(largest / 2);
+}
 
 /// OUT and DIR in a verb's help are the outputs that exist.
 std::set<std::string> output_flags(const std::string& help) {
@@ -74,22 +96,6 @@ TEST(OutputTable, HasEveryOutputOfEveryVerb) {
     }
   }
   EXPECT_EQ(in_help, in_table);
-}
-
-TEST_P(Outputs, AreWrittenWholeAndReplaceOlderOnes) {
-  const Texts results = made();
-  std::vector<testing::Matcher<const Texts::value_type&>> keys;
-  for (const std::string& name : folder_.outputs()) {
-    keys.emplace_back(Key(name));
-  }
-  EXPECT_THAT(results, UnorderedElementsAreArray(keys));
-  folder_.place(older(results));
-  const Texts again = made();
-  if (!GetParam().timed) {
-    EXPECT_EQ(again, results);
-  }
-  EXPECT_NE(again, older(results));
-  EXPECT_EQ(folder_.examples(), examples_);
 }
 
 // By name, by another spelling of the path, by symbolic and by hard link.
@@ -138,39 +144,22 @@ TEST_P(Outputs, ReplaceNothingOfAnotherKindWithoutForce) {
   EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
 }
 
-// A limit on file size behaves like a full disk: at the first byte and in the middle.
-TEST_P(Outputs, StayAsTheyWereWhenTheDiskIsFull) {
-  const Texts old = older(made());
-  for (const long bytes : {0L, 40L}) {
-    folder_.place(old);
-    EXPECT_EQ(run(folder_.command(), {.largest_file = bytes}), 1);
-    EXPECT_THAT(err_, HasSubstr("write failed: File too large"));
-    EXPECT_EQ(folder_.results(), old);
-  }
-  folder_.clear();
-  EXPECT_EQ(run(folder_.command(), {.largest_file = 40}), 1);
-  EXPECT_THAT(folder_.results(), IsEmpty());
-}
-
-// The first outputs fit, the largest does not: none may be renamed.
-TEST_P(Outputs, TakeTheirPlacesTogetherOrNot) {
-  const Texts results = made();
+// One test, because each verb's whole work takes seconds under the sanitizers. A limit on file size
+// behaves like a full disk: at the first byte, where the first outputs fit and the largest does
+// not, and where there was nothing before.
+TEST_P(Outputs, AreWrittenWholeTogetherOrNotAtAll) {
+  const Texts results = made_for_nobody();
   const Texts old = older(results);
-  std::size_t largest = 0;
-  for (const auto& [name, text] : results) {
-    largest = std::max(largest, text.size());
-  }
   folder_.place(old);
-  EXPECT_EQ(run(folder_.command(), {.largest_file = static_cast<long>(largest / 2)}), 1);
-  EXPECT_THAT(err_, HasSubstr("write failed: File too large"));
-  EXPECT_EQ(folder_.results(), old);
-}
-
-// The files are there even if nobody reads the summary.
-TEST_P(Outputs, AreKeptWhenStdoutIsClosed) {
-  EXPECT_EQ(run(folder_.command(), {.out = Process::Stdout::closed_pipe}), 1);
-  EXPECT_THAT(err_, HasSubstr("failed to write the answer to stdout"));
-  EXPECT_EQ(folder_.results().size(), folder_.outputs().size());
+  EXPECT_EQ(run(folder_.command()), 0) << err_;
+  EXPECT_NE(folder_.results(), old);
+  if (!GetParam().timed) {
+    EXPECT_EQ(folder_.results(), results);
+  }
+  expect_none_fits(0, old);
+  expect_none_fits(half_of_largest(results), old);
+  expect_none_fits(40, {});
+  EXPECT_EQ(folder_.examples(), examples_);
 }
 
 TEST_P(Outputs, WithoutANameAreRefused) {

@@ -19,6 +19,8 @@ OutputOption file(const std::string& name) {
 
 const std::string kMill = "examples/machines/linuxcnc-mill.toml";
 const std::string kVmc = "examples/machines/vmc-840d.toml";
+const std::string kIdeal = "examples/machines/ideal-k50.toml";
+const std::string kHalf = "examples/processes/half-down-922hz.toml";
 const std::string kSlot = "examples/processes/slot-922hz.toml";
 const std::string kPaper = "examples/paper-thermal/";
 const std::string kWork =
@@ -55,9 +57,9 @@ std::vector<OutputRow> of_chatter() {
        {kSlot},
        true},
       {"chatter plan",
-       kSlot + " --machine " + kVmc + " --speed-rpm 5000 --depth-mm 0.2 --samples 2 --laws sine",
+       kHalf + " --machine " + kIdeal + " --speed-rpm 5000 --depth-mm 0.2 --samples 2 --laws sine",
        {report()},
-       {kSlot, kVmc},
+       {kHalf, kIdeal},
        true},
       {"chatter fit",
        "examples/processes/tap-922hz.csv --axis x",

@@ -33,6 +33,7 @@ export function machine(): Machine {
           key('contour.margin_percent', 5, '%', '0 … 50', 'Share of the limit that is kept in reserve.'),
         ],
       },
+      { name: 'chatter', title: 'Spindle modulation', keys: [key('chatter.law', 'triangle', '', 'constant | triangle | sine', 'Shape of the modulation.'), key('chatter.amplitude_percent', 10, '%', '0 … 90', 'Swing to either side of the mean speed.'), key('chatter.period_s', 2, 's', '0.02 … 600', 'Period of the modulation.'), key('chatter.mean_percent', 95, '%', '10 … 200', 'Mean speed as a share of the programmed one.')] },
       { name: 'envelope', title: 'Limits of every command', keys: [key('envelope.max_feed_percent', 120, '%', '0 … 200', 'No command exceeds this.'), key('envelope.stale_after_ms', 200, 'ms', '1 … 10000', 'Older input is not acted on.'), key('envelope.layer_may_exceed_panel', false, '', '', 'May the layer ask for more than the operator’s switch?', false)] },
       { name: 'axis[0]', title: 'Axis X', keys: [key('axis[0].servo_gain_m_min_mm', 3, '(m/min)/mm', '0.1 … 20', 'Servo gain of the position loop.', false), key('axis[0].limits_mm', [-400, 400], 'mm', '', 'Travel.', false)] },
       { name: 'override.feed', title: 'Feed override switch', keys: [key('override.feed.percent', [0, 1, 2, 4, 6, 8, 10, 20, 30, 40, 50, 60, 70, 75, 80, 85, 90, 95, 100, 105, 110, 115, 120], '%', '2 … 64 values', 'What each position of the switch means.', false)] },

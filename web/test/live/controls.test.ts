@@ -6,6 +6,7 @@ import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from
 import type { Role } from '../../src/live/api/types';
 import { type Open, closeBrowser, open } from './browser';
 import { accessibilityFaults, beyond, show, tooSmall, until as untilIn } from './look';
+import { MODULATION } from './layer';
 import { Mock } from './mock';
 
 const mock = new Mock();
@@ -105,7 +106,8 @@ describe('a role that is too low', () => {
     expect(await text('.modes .why')).toBe('Needs the role operator. You are logged in as viewer.');
     await show(page, 'chatter');
     expect(await page.isDisabled('#modulation button')).toBe(true);
-    expect(await text('.modulation-panel .why')).toContain('Needs the role engineer');
+    expect(await text('.modulation-panel .why')).toContain('Needs the role operator');
+    expect(await page.locator('.modulation-panel .why').count()).toBe(1);
     await show(page, 'thermal');
     expect(await page.isDisabled('#measured button')).toBe(true);
     await show(page, 'record/circle-r10.sqlite');
@@ -195,15 +197,58 @@ describe('staged changes', () => {
 });
 
 describe('chatter', () => {
-  it('takes bounds and frequency as an operator thinks of them', async () => {
-    await as('engineer', 'chatter');
+  const SINE = { law: 'sine', amplitude_ratio: 0.2, mean_ratio: 1, period_s: 2 };
+  const fill = async () => {
     await page.waitForSelector('#modulation');
     await page.selectOption('#law', 'sine');
     await page.fill('#lower', '80');
     await page.fill('#upper', '120');
     await page.fill('#frequency', '0.5');
     expect(await text('#modulation-is')).toBe('Mean 100 %, amplitude ±20 % of it (RVA), period 2 s.');
-    await page.click('#modulation button');
+  };
+  afterEach(() => {
+    mock.layer.modulation = { ...MODULATION };
+  });
+  it('is set by an operator at once, in bounds and frequency', async () => {
+    await as('operator', 'chatter');
+    await fill();
+    expect(await page.isDisabled('#modulation-into-file')).toBe(true);
+    expect(await text('.modulation-panel .why')).toContain('Needs the role engineer');
+    await page.click('#set-modulation');
+    await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
+    expect(last()).toMatchObject({ path: 'modulation', body: SINE });
+    await page.reload();
+    await until(`document.querySelector('#law')?.value === 'sine'`);
+  });
+  it('asks first where the layer acts', async () => {
+    mock.layer.wanted = 'act';
+    await as('operator', 'chatter');
+    await fill();
+    await page.click('#set-modulation');
+    expect(await text('dialog h2')).toBe('Change the spindle speed now?');
+    expect(await text('dialog p')).toContain('New modulation: sine. Mean 100 %, amplitude ±20 % of it (RVA), period 2 s.');
+    expect(await accessibilityFaults(page)).toEqual([]);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(mock.asked).toEqual([]);
+    await page.click('#set-modulation');
+    await page.click('dialog .strong');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
+    expect(last()).toMatchObject({ path: 'modulation', body: SINE });
+  });
+  it('shows why the layer refuses a modulation', async () => {
+    await as('operator', 'chatter');
+    await page.fill('#lower', '1');
+    await page.fill('#upper', '199');
+    await page.click('#set-modulation');
+    await until(`document.querySelector('.modulation-panel .fault').textContent.includes('allowed: 0 … 0.9')`);
+  });
+  it('goes into the machine file by an engineer, as it differs from the file', async () => {
+    mock.layer.modulation = { law: 'sine', amplitude_ratio: 0.2, mean_ratio: 1, period_s: 2 };
+    await as('engineer', 'chatter');
+    await fill();
+    await page.click('#modulation-into-file');
     await page.click('#review');
     await page.waitForSelector('dialog .diff');
     expect(last()?.body).toEqual({ changes: { 'chatter.law': 'sine', 'chatter.amplitude_percent': 20, 'chatter.mean_percent': 100 } });

@@ -68,10 +68,13 @@ function along(s: number): { x: number; y: number; radius: number } {
 
 const errorAt = (speed_mm_s: number, radius: number) => (1000 * speed_mm_s ** 2) / (2 * radius * GAIN_1_S ** 2);
 
+/** Of the machine file. */
+export const MODULATION: Modulation = { law: 'triangle', amplitude_ratio: 0.1, period_s: 2, mean_ratio: 0.95 };
+
 export class Layer {
   mode: Mode = 'observe';
   wanted: Mode = 'observe';
-  modulation: Modulation | null = { law: 'triangle', amplitude_ratio: 0.1, period_s: 2, mean_ratio: 0.95 };
+  modulation: Modulation | null = { ...MODULATION };
   reload: NonNullable<Status['reload']> | null = null;
   limit_um = LIMIT_UM;
   random: () => number = Math.random;

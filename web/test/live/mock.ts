@@ -7,7 +7,7 @@ import type { AddressInfo } from 'node:net';
 import type { Duplex } from 'node:stream';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import type { Role } from '../../src/live/api/types';
+import type { Modulation, Role } from '../../src/live/api/types';
 import { RECORDS, checked, lobes, machine, record, recordData, thermal } from './answers';
 import { Layer } from './layer';
 import { type Socket, accept } from './websocket';
@@ -239,6 +239,12 @@ export class Mock {
         if (body['mode'] === 'act' && body['confirm'] !== true) throw new Refusal(422, 'refused', 'act needs confirm.');
         this.layer.wanted = body['mode'] as 'act';
         return { mode_wanted: body['mode'] };
+      case 'modulation':
+        this.need('operator');
+        if (Number(body['amplitude_ratio']) > 0.9) throw new Refusal(422, 'refused', '`amplitude_ratio` is out of range; allowed: 0 … 0.9');
+        this.layer.modulation = body as unknown as Modulation;
+        this.sayHello();
+        return { modulation: body };
       case 'thermal/measured':
         this.need('operator');
         return { verdict: Math.abs(Number(body['displacement_um'])) > 30 ? { taken: false, reason: 'thermal_reading_outlier', sentence: 'A probe reading too far from the forecast was rejected.' } : { taken: true, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' } };

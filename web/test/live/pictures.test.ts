@@ -12,7 +12,7 @@ import { compare } from './pictures';
 const FOLDER = fileURLToPath(new URL('pictures', import.meta.url));
 const OUT = process.env['STEADYREST_PICTURES_OUT'] ?? fileURLToPath(new URL('../../../out/pictures', import.meta.url));
 const UPDATE = process.env['STEADYREST_UPDATE_PICTURES'] === '1';
-const MOST = 0.004;
+const MOST = 0.006;
 const SIZE = { width: 1280, height: 1500, scale: 0.5 };
 
 const nameOf = (view: string) => view.replace(/\/.*/, '-one');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page as the program serves it, on the simulated machine, in a browser. STEADYREST_PROGRAM names the program.
-import { type ChildProcess, spawn } from 'node:child_process';
-import { copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -13,6 +13,22 @@ const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
 const machine = join(folder, 'machine.toml');
+
+/** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
+const ROOMS = `
+[chatter]
+enabled = true
+m_code_on = 0
+m_code_off = 0
+[thermal]
+enabled = true
+[[thermal.axis]]
+name = "Z"
+[[thermal.axis.mode]]
+tau_min = 15
+speeds_rpm = [0, 6000]
+levels_um = [0, 0]
+`;
 
 let run: ChildProcess;
 let address = '';
@@ -39,7 +55,7 @@ const until = (expression: string) => untilIn(opened.page, expression);
 const go = (view: string) => opened.page.evaluate(`location.hash = '#/${view}'`);
 
 beforeAll(async () => {
-  copyFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), machine);
+  writeFileSync(machine, readFileSync(join(ROOT, 'examples/machines/vmc-840d.toml'), 'utf8') + ROOMS);
   run = spawn(PROGRAM, ['run', '--machine', machine, '--program', 'examples/programs/rib-pocket.mpf', '--repeat', '--record', join(folder, 'runs'), '--socket', join(folder, 's'), '--listen', '0'], { cwd: ROOT });
   [address, key] = await started();
   opened = await open(address, `/#key=${key}`, { loggedIn: false });
@@ -78,6 +94,43 @@ it('applies a change of the machine file while it runs', async () => {
   await until(String.raw`/12\.5\sµm/.test(document.body.textContent)`);
 });
 
+it('sets the modulation at once, in act when that is confirmed, and keeps it over a change of the file', async () => {
+  await go('chatter');
+  await opened.page.click('[data-mode=act]:not(.badge)');
+  await opened.page.click('dialog .strong');
+  await until(`document.querySelector('#mode-badge').textContent === 'Act'`);
+  await until(`document.querySelector('#law')?.value === 'triangle'`);
+  await opened.page.selectOption('#law', 'sine');
+  await opened.page.fill('#lower', '90');
+  await opened.page.fill('#upper', '100');
+  await opened.page.click('#set-modulation');
+  await opened.page.click('dialog .strong');
+  await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
+  expect(readFileSync(machine, 'utf8')).not.toContain('sine');
+  await opened.page.click('#hand-back');
+  await until(`document.querySelector('#mode-badge').textContent === 'Observe'`);
+  await go('contour');
+  await opened.page.fill('[data-key="contour.limit_um"] input', '13');
+  await opened.page.click('#review');
+  await opened.page.click('#apply');
+  await opened.page.waitForSelector('dialog', { state: 'detached' });
+  await go('chatter');
+  await until(`document.querySelector('#law')?.value === 'sine'`);
+  expect(await opened.page.inputValue('#upper')).toBe('100');
+});
+
+it('takes a measured size, and says what became of it', async () => {
+  await go('thermal');
+  await opened.page.waitForSelector('#measured-axis');
+  expect(await opened.page.textContent('#measured-axis')).toBe('Z');
+  await opened.page.fill('#measured-value', '0.25');
+  await opened.page.click('#measured button');
+  await until(`document.querySelector('#verdict-of-reading').textContent.includes('re-zeroed')`);
+  await opened.page.fill('#measured-value', '5000');
+  await opened.page.click('#measured button');
+  await until(`document.querySelector('#verdict-of-reading').textContent.includes('rejected')`);
+});
+
 it('has every view, and the record of this run with who did what', async () => {
   for (const view of ['chatter', 'thermal', 'motion', 'machine']) {
     await go(view);
@@ -87,6 +140,8 @@ it('has every view, and the record of this run with who did what', async () => {
   await opened.page.click('#records a');
   await until(`document.querySelector('#events')?.textContent.includes('page: local (engineer) asked for act')`);
   expect(await text('#events')).toContain('page: local (engineer) handed back');
+  expect(await text('#events')).toContain('page: local (engineer) set the modulation: sine, ±5.263 %, period 2 s, mean 95 % of the programmed speed');
+  expect(await text('#events')).toContain('page: local (engineer) entered a measured size: Z is +5000 µm off, sd 1 µm; rejected: too far from the forecast');
   expect(opened.complaints).toEqual([]);
 });
 
@@ -96,4 +151,17 @@ it('lets nobody in who does not know the key', async () => {
   expect(wrong.status).toBe(401);
   const foreign = await fetch(`${address}/api/v1/session`, { method: 'POST', headers: { 'Content-Type': 'application/json', Origin: 'http://evil.example' }, body: JSON.stringify({ key }) });
   expect(foreign.status).toBe(403);
+});
+
+it('leaves a record that shows both, and decides the same again', async () => {
+  const ended = new Promise((done) => run.once('exit', done));
+  run.kill('SIGTERM');
+  await ended;
+  const [name] = readdirSync(join(folder, 'runs')).filter((f) => f.endsWith('.sqlite'));
+  const record = join(folder, 'runs', name ?? '');
+  const steadyrest = (...of: string[]) => execFileSync(PROGRAM, ['record', ...of], { encoding: 'utf8' });
+  const shown = steadyrest('show', record);
+  expect(shown).toContain('wish: page: local (engineer) set the modulation: sine');
+  expect(shown).toContain('wish: page: local (engineer) entered a measured size: Z is +0.25 µm off, sd 1 µm\n');
+  expect(JSON.parse(steadyrest('replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });
 });

@@ -9,6 +9,7 @@
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/record/run_folder.hpp>
+#include <steadyrest/supervisor/wish_text.hpp>
 
 namespace steadyrest::apps::cli::live {
 
@@ -68,6 +69,9 @@ void RunRecord::listen_to(steadyrest::live::Loop::Config& config) {
   };
   config.on_note = [this](std::string_view words) {
     writer_->event(record::EventKind::note, words);
+  };
+  config.on_wish = [this](const supervisor::Wish& wish, supervisor::WishOutcome outcome) {
+    writer_->event(record::EventKind::wish, supervisor::text_of(wish, outcome).view());
   };
   config.on_fault = [this](std::string_view reason) { writer_->keep(reason); };
   config.on_command = [this](const kernel::signal::Command& command) { port_.record(command); };

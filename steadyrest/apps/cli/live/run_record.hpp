@@ -26,7 +26,7 @@ class RunRecord {
   /// written. `port` outlives the record.
   [[nodiscard]] static Result<std::unique_ptr<RunRecord>> start(const Of& of, const LivePort& port);
 
-  /// The loop tells modes and commands.
+  /// The loop tells modes, wishes and commands.
   void listen_to(steadyrest::live::Loop::Config& config);
   /// The machine as the loop sees it.
   [[nodiscard]] kernel::port::Port& port() noexcept { return port_; }

@@ -33,7 +33,7 @@ class Unseen {
     on_terminal_ = ::tcgetattr(STDIN_FILENO, &before_) == 0;
     if (on_terminal_) {
       termios now = before_;
-      now.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+      now.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);  // else an interrupt leaves it so
       ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &now);
     }
   }

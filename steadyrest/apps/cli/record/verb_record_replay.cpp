@@ -58,6 +58,7 @@ Answer answer_of(const Replayed& replayed) {
   answer.json["gap_after"] = replayed.gap_after ? Json(*replayed.gap_after) : Json(nullptr);
   answer.json["paths_complete"] = replayed.paths_complete;
   answer.json["reloads"] = replayed.reloads;
+  answer.json["wishes"] = replayed.wishes;
   answer.text = fmt::format("{} cycles decided again: ", replayed.cycles);
   if (const auto& first = replayed.first_difference) {
     answer.json["first_difference"] = {{"cycle", first->cycle},

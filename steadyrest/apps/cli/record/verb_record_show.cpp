@@ -11,6 +11,7 @@
 #include <steadyrest/apps/cli/record/verb_record_show.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
+#include <steadyrest/live/wish/wish_words.hpp>
 #include <steadyrest/record/record_reader.hpp>
 
 namespace steadyrest::apps::cli {
@@ -52,6 +53,18 @@ Result<Seen> look(record::RecordReader& reader, Progress& progress) {
   }
 }
 
+/// The whole machine file and the exact values are for --json.
+std::string words_of(const record::Event& event) {
+  switch (event.kind) {
+    case EventKind::reload:
+      return "another machine file took over";
+    case EventKind::wish:
+      return steadyrest::live::wish_words(event.text);
+    default:
+      return event.text;
+  }
+}
+
 Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
   const auto& run = reader.run();
   const auto& totals = reader.totals();
@@ -84,14 +97,13 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
   }
   answer.text += reasons.text();
   for (const record::Event& event : reader.events()) {
+    const std::string words = words_of(event);
     answer.json["events"].push_back({{"time_s", event.time_s},
                                      {"before", event.before},
                                      {"kind", record::word(event.kind)},
-                                     {"text", event.text}});
-    // The whole machine file is for --json.
-    answer.text += fmt::format(
-        "{:.3f} s {}: {}\n", event.time_s, record::word(event.kind),
-        event.kind == EventKind::reload ? "another machine file took over" : event.text);
+                                     {"text", event.text},
+                                     {"words", words}});
+    answer.text += fmt::format("{:.3f} s {}: {}\n", event.time_s, record::word(event.kind), words);
   }
   return answer;
 }

@@ -161,6 +161,30 @@ TEST_F(PageApi, ASessionEndsWithItsLogOut) {
   EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 401U);
 }
 
+TEST_F(PageApi, ASessionFollowsItsAccount) {
+  log_in("anna");
+  auto request = PageDesk::request("GET", "/api/v1/stream");
+  request.cookie = desk.cookie();
+  auto stream = desk.api().admit(request);
+  ASSERT_TRUE(std::holds_alternative<web::Server::Admitted>(stream));
+  const auto change = [this](auto with) {
+    auto accounts = web::Accounts::read(file).value();
+    with(accounts);
+    ASSERT_TRUE(accounts.write(file));
+  };
+  const std::string apply = "/api/v1/machine/apply";
+  EXPECT_NE(desk.ask("POST", apply, "{}").status, 403U);
+  change([](web::Accounts& a) { a.remove_user("anna"); });
+  EXPECT_FALSE(std::get<web::Server::Admitted>(stream).goes_on());
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 401U);
+  change([](web::Accounts& a) { ASSERT_TRUE(a.set_user("anna", "a new secret", Role::viewer)); });
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 401U) << "its session has ended";
+  log_in("otto");
+  change(
+      [](web::Accounts& a) { ASSERT_TRUE(a.set_user("otto", "a new secret", Role::operating)); });
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 401U) << "of the old password";
+}
+
 TEST_F(PageApi, NamesTheMethodsOfAnAddress) {
   log_in("anna");
   const auto got = desk.ask("PUT", "/api/v1/session");

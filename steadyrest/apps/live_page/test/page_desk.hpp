@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,8 +9,9 @@
 
 #include <steadyrest/apps/live_page/api.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
-#include <steadyrest/live/test/desk.hpp>
+#include <steadyrest/live/test/wish/rooms_desk.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/supervisor/wish_text.hpp>
 
 namespace steadyrest::apps::live_page::test {
 
@@ -17,8 +19,13 @@ namespace steadyrest::apps::live_page::test {
 /// loop runs when a test runs it.
 class PageDesk {
  public:
-  explicit PageDesk(const std::string& accounts = {})
-      : loop_(*machine_.port, *machine_.layer, machine_.pace, config()),
+  enum class Of : std::uint8_t {
+    contour,  ///< 100 cycles with the contour room alone
+    rooms     ///< all rooms, until it is told to stop
+  };
+  explicit PageDesk(const std::string& accounts = {}, Of of = Of::contour)
+      : most_cycles_(of == Of::rooms ? 0 : 100),
+        loop_(*machine_.port, layer_of(machine_, of), machine_.pace, config()),
         desk_{.asked = {.loop = loop_, .port = "sim"},
               .tap = tap_,
               .machine = machine_.machine,
@@ -74,13 +81,23 @@ class PageDesk {
 
   double now_s = 0.0;
   std::vector<std::string> notes;
+  std::vector<std::string> wishes;
 
  private:
+  static supervisor::Supervisor& layer_of(steadyrest::live::test::Desk& machine, Of of) {
+    if (of == Of::rooms) {
+      steadyrest::live::test::switch_rooms_on(machine);
+    }
+    return *machine.layer;
+  }
   steadyrest::live::Loop::Config config() {
     steadyrest::live::Loop::Config out{.period_s = machine_.machine.control.interpolator_period_s,
                                        .contour_limit_mm = 0.01,
-                                       .most_cycles = 100};
+                                       .most_cycles = most_cycles_};
     out.on_note = [this](std::string_view words) { notes.emplace_back(words); };
+    out.on_wish = [this](const supervisor::Wish& wish, supervisor::WishOutcome outcome) {
+      wishes.emplace_back(supervisor::text_of(wish, outcome).view());
+    };
     out.tap = &tap_;
     return out;
   }
@@ -92,6 +109,7 @@ class PageDesk {
 
   kernel::file::testing::OwnFolder folder_;
   steadyrest::live::test::Desk machine_;
+  std::uint64_t most_cycles_;
   steadyrest::live::Tap tap_;
   steadyrest::live::Loop loop_;
   Desk desk_;

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/record/database.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 #include <steadyrest/trial/replay/testing/recorded_cut.hpp>
 
@@ -69,6 +74,114 @@ TEST_F(Replay, FollowsAMachineFileThatTookOver) {
   EXPECT_EQ(ignored.reloads, 1U);
   ASSERT_TRUE(ignored.first_difference);
   EXPECT_GE(ignored.first_difference->cycle, 400U);
+}
+
+/// The chatter room modulates in every cut; Z has a thermal model.
+Machine with_rooms() {
+  Machine machine = trial::test::machine_of("vmc-840d.toml");
+  machine.chatter.enabled = true;
+  machine.chatter.m_code_on = machine.chatter.m_code_off = 0;
+  machine.thermal.enabled = true;
+  machine.thermal.slope_mm_s = 1.0;
+  machine.thermal.max_offset_mm = 0.05;
+  machine.envelope.max_offset_mm = 0.05;
+  kernel::machine::ThermalAxis z;
+  z.name = "Z";
+  z.mode.emplace_back();
+  z.mode[0].tau_s = 600.0;
+  z.mode[0].speed_rev_s = {0.0, 100.0};
+  z.mode[0].level_mm = {0.0, 0.010};
+  machine.thermal.axis = {z};
+  return machine;
+}
+
+supervisor::Wish modulation(double mean_ratio) {
+  return {.what = chatter::online::Modulation{.law = chatter::online::Law::sine,
+                                              .amplitude_ratio = 0.1 / 3.0,
+                                              .period_s = 1.0 / 3.0,
+                                              .mean_ratio = mean_ratio},
+          .author = supervisor::ShortText<64>("page: otto (operator)")};
+}
+
+supervisor::Wish reading(double displacement_mm) {
+  return {.what = supervisor::Measured{.axis = 2,
+                                       .name = supervisor::ShortText<16>("Z"),
+                                       .displacement_mm = displacement_mm,
+                                       .sd_mm = 0.0003},
+          .author = {}};
+}
+
+void change_record(const std::string& file, const char* sql) {
+  auto database = record::Database::open_to_change(file);
+  ASSERT_TRUE(database);
+  ASSERT_TRUE(database->run(sql));
+}
+
+// The same record without the event is decided otherwise from that cycle on.
+TEST_F(Replay, GrantsWhatSomebodyAskedForInTheSameCycle) {
+  const Machine machine = with_rooms();
+  const std::vector<std::pair<supervisor::Wish, const char*>> asked = {
+      {modulation(2.0 / 3.0), "command.spindle"}, {reading(0.0007), "command.offset"}};
+  for (const auto& [wish, field] : asked) {
+    std::filesystem::remove(file_);
+    const auto cut =
+        testing::record_cut(file_, machine, kAll, 0, {}, {}, {{.at = 400, .wish = wish}});
+    ASSERT_EQ(cut.outcomes, std::vector{supervisor::WishOutcome::taken});
+    EXPECT_EQ(cut.dropped, 0U);
+    const auto replayed = replay(file_, machine).value();
+    EXPECT_EQ(replayed.wishes, 1U);
+    EXPECT_EQ(replayed.cycles, cut.cycles);
+    EXPECT_FALSE(replayed.first_difference);
+    change_record(file_, "DELETE FROM event WHERE kind = 5");
+    const auto without = replay(file_, machine).value();
+    ASSERT_TRUE(without.first_difference);
+    EXPECT_GE(without.first_difference->cycle, 400U);
+    EXPECT_THAT(without.first_difference->fields,
+                ::testing::Contains(::testing::StartsWith(field)));
+  }
+}
+
+// An outlier moves nothing at once, but it counts in the window that judges the model.
+TEST_F(Replay, GrantsWhatWasRejectedToo) {
+  const Machine machine = with_rooms();
+  std::vector<testing::WishAt> wishes;
+  wishes.reserve(6);
+  for (std::uint64_t i = 0; i < 6; ++i) {
+    wishes.push_back({.at = 300 + 10 * i, .wish = reading(1.0)});
+  }
+  const auto cut = testing::record_cut(file_, machine, kAll, 0, {}, {}, wishes);
+  EXPECT_THAT(cut.outcomes, ::testing::Each(supervisor::WishOutcome::rejected));
+  EXPECT_FALSE(replay(file_, machine).value().first_difference);
+  change_record(file_, "DELETE FROM event WHERE kind = 5");
+  EXPECT_TRUE(replay(file_, machine).value().first_difference) << "the model is found unfit";
+}
+
+// Other limits: the chatter room starts over with the operator's modulation.
+TEST_F(Replay, AnOperatorsModulationOutlivesAReload) {
+  const std::string plain =
+      kernel::file::testing::text_of_file(trial::test::kExamples + "machines/vmc-840d.toml") +
+      "\n[chatter]\nenabled = true\nm_code_on = 0\nm_code_off = 0\n";
+  std::string text = plain;
+  const std::string most = "max_spindle_percent = 120\n";
+  text.replace(text.find(most), most.size(), "max_spindle_percent = 110\n");
+  const Machine began = passport::parse(plain, "plain").value();
+  const auto cut = testing::record_cut(file_, began, kAll, 0, {}, {.at = 500, .text = text},
+                                       {{.at = 400, .wish = modulation(0.9)}});
+  EXPECT_EQ(cut.outcomes.size(), 1U);
+  const auto replayed = replay(file_, began).value();
+  EXPECT_EQ(replayed.reloads, 1U);
+  EXPECT_EQ(replayed.wishes, 1U);
+  EXPECT_EQ(replayed.cycles, cut.cycles);
+  EXPECT_FALSE(replayed.first_difference);
+}
+
+TEST_F(Replay, RefusesAWishThatIsNone) {
+  const Machine machine = with_rooms();
+  testing::record_cut(file_, machine, 300, 0, {}, {}, {{.at = 200, .wish = reading(0.0)}});
+  change_record(file_, "UPDATE event SET text = 'measure 2 Z much' WHERE kind = 5");
+  const auto replayed = replay(file_, machine);
+  ASSERT_FALSE(replayed);
+  EXPECT_THAT(replayed.error().what, ::testing::HasSubstr("a wish that is none: measure 2 Z much"));
 }
 
 TEST_F(Replay, RefusesAMachineFileThatCannotHaveTakenOver) {

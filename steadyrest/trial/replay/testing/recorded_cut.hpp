@@ -14,6 +14,7 @@
 #include <steadyrest/record/recording_port.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
+#include <steadyrest/supervisor/wish_text.hpp>
 #include <steadyrest/trial/test/examples.hpp>
 
 namespace steadyrest::trial::replay::testing {
@@ -22,6 +23,7 @@ struct RecordedCut {
   std::uint64_t cycles = 0;
   std::uint64_t dropped = 0;
   std::uint64_t reduced = 0;  ///< cycles in which the layer took feed away
+  std::vector<supervisor::WishOutcome> outcomes;
 };
 
 /// A machine file that takes over during the cut.
@@ -30,11 +32,18 @@ struct Takeover {
   std::string text;
 };
 
+/// What somebody asks for during the cut.
+struct WishAt {
+  std::uint64_t at = 0;  ///< cycle
+  supervisor::Wish wish;
+};
+
 /// Cuts the example circle with the layer acting, and records it. `lose_at`: the cycle that the
 /// record loses; 0: none.
 inline RecordedCut record_cut(const std::string& file, const kernel::machine::Machine& machine,
                               std::uint64_t most_cycles, std::uint64_t lose_at = 0,
-                              record::RunInfo info = {}, const Takeover& takeover = {}) {
+                              record::RunInfo info = {}, const Takeover& takeover = {},
+                              const std::vector<WishAt>& wishes = {}) {
   nc::interpret::Config config;
   config.dialect = nc::read::Dialect::sinumerik;
   nc::plan::PathBuilder builder(machine);
@@ -64,6 +73,13 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
       next.take_over(layer, supervisor::kept(machine, wanted));
       layer = std::move(next);
       writer->event(record::EventKind::reload, writer->hold(takeover.text));
+    }
+    for (const WishAt& asked : wishes) {
+      if (asked.at == cut.cycles) {
+        const auto outcome = supervisor::grant(layer, asked.wish);
+        cut.outcomes.push_back(outcome);
+        writer->event(record::EventKind::wish, supervisor::text_of(asked.wish, outcome).view());
+      }
     }
     const auto command = layer.cycle(port, {}).value();
     if (++cut.cycles == lose_at) {

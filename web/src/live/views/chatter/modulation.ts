@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modulator's panel: law, bounds and frequency, as an operator thinks of them.
+// The modulator's panel: law, bounds and frequency, as an operator thinks of them; set at once, or put into the file.
 import { plain } from '../../../frame/numbers';
 import type { KeyValue, Law, Modulation } from '../../api/types';
 import { type Context, gate } from '../../shell/context';
-import { field, h, panel, select, setText } from '../../shell/h';
+import { confirmed } from '../../shell/dialogs';
+import { button, field, h, panel, select, setText } from '../../shell/h';
+import { problemText } from '../../shell/problem';
+import { may } from '../../state/role';
 import { t } from '../../texts/texts';
 import type { Part } from '../part';
 
@@ -44,10 +47,44 @@ export function boundsFault({ lower_percent, upper_percent, frequency_hz }: Boun
   return frequency_hz > 0 ? '' : t('bad_frequency');
 }
 
-const number = (input: HTMLInputElement) => Number(input.value.trim().replace(',', '.') || NaN);
+/** What nobody has touched stays exact: a field shows four figures. */
+const number = (input: HTMLInputElement, shown: number) => (input.value === input.defaultValue ? shown : Number(input.value.trim().replace(',', '.') || NaN));
 const input = (name: string, value: number) => h('input', { id: name, value: plain(value, 4).replace('−', '-'), inputmode: 'decimal', autocomplete: 'off' });
 
-function form(context: Context, now: Modulation, set: (m: Modulation) => void): HTMLElement {
+const isWords = (m: Modulation) => t('modulation_is', { mean: plain(100 * m.mean_ratio, 4), amplitude: plain(100 * m.amplitude_ratio, 3), period: plain(m.period_s, 3) });
+
+/** At once, for this run. A layer that acts moves the spindle with it, so that takes a second word. */
+async function setNow({ api, live, say }: Context, m: Modulation): Promise<string> {
+  const status = live.frame?.status;
+  const acts = status?.mode === 'act' || status?.mode_wanted === 'act';
+  const what = () => t('modulation_what', { machine: live.hello?.machine.name ?? '', modulation: `${t(`law_${m.law}`)}. ${isWords(m)}` });
+  if (acts && !(await confirmed(t('modulation_ask'), what(), t('modulation_yes')))) {
+    return '';
+  }
+  try {
+    await api.post('modulation', { ...m });
+    say(t('modulation_set'));
+    return '';
+  } catch (error) {
+    return problemText(error);
+  }
+}
+
+/** Staged beside the file's other changes: what differs from the file, whatever is in force. */
+async function putIntoFile(context: Context, m: Modulation): Promise<string> {
+  try {
+    const { sections } = context.machine ?? (await context.loadMachine());
+    const keys = sections.flatMap((s) => s.keys);
+    for (const [key, value] of Object.entries(keysOf(m))) {
+      context.staged.set(key, value, keys.find((k) => k.key === key)?.value ?? null);
+    }
+    return '';
+  } catch (error) {
+    return problemText(error);
+  }
+}
+
+function form(context: Context, now: Modulation): HTMLElement {
   const at = boundsOf(now);
   let { law } = now;
   const [lower, upper, hz] = [input('lower', at.lower_percent), input('upper', at.upper_percent), input('frequency', at.frequency_hz)];
@@ -55,27 +92,31 @@ function form(context: Context, now: Modulation, set: (m: Modulation) => void): 
   laws.id = 'law';
   const words = h('p', { class: 'hint', id: 'modulation-is' });
   const fault = h('p', { class: 'fault', role: 'alert' });
-  const bounds = (): Bounds => ({ lower_percent: number(lower), upper_percent: number(upper), frequency_hz: number(hz) });
+  const bounds = (): Bounds => ({ lower_percent: number(lower, at.lower_percent), upper_percent: number(upper, at.upper_percent), frequency_hz: number(hz, at.frequency_hz) });
   const tell = () => {
     const why = boundsFault(bounds());
     setText(fault, why);
     if (why === '') {
-      const m = modulationOf(law, bounds());
-      setText(words, t('modulation_is', { mean: plain(100 * m.mean_ratio, 4), amplitude: plain(100 * m.amplitude_ratio, 3), period: plain(m.period_s, 3) }));
+      setText(words, isWords(modulationOf(law, bounds())));
+    }
+  };
+  const use = (by: (context: Context, m: Modulation) => Promise<string>) => {
+    tell();
+    if (boundsFault(bounds()) === '') {
+      void by(context, modulationOf(law, bounds())).then((why) => setText(fault, why));
     }
   };
   [lower, upper, hz].forEach((i) => i.addEventListener('input', tell));
-  const made = h('form', { class: 'fields', id: 'modulation' }, field(t('law'), laws), field(t('lower_bound'), lower), field(t('upper_bound'), upper), field(t('modulation_hz'), hz), h('button', { type: 'submit', class: 'strong' }, t('set')));
+  const file = h('div', {}, button(t('into_file'), () => use(putIntoFile), { id: 'modulation-into-file' }));
+  // One reason is enough.
+  const gated = may(context.session.role, 'operator') ? gate(context.session, 'engineer', file) : file;
+  const made = h('form', { class: 'fields', id: 'modulation' }, field(t('law'), laws), field(t('lower_bound'), lower), field(t('upper_bound'), upper), field(t('modulation_hz'), hz), h('button', { type: 'submit', class: 'strong', id: 'set-modulation' }, t('set_now')), gated);
   made.addEventListener('submit', (event) => {
     event.preventDefault();
-    const why = boundsFault(bounds());
-    setText(fault, why);
-    if (why === '') {
-      set(modulationOf(law, bounds()));
-    }
+    use(setNow);
   });
   tell();
-  return gate(context.session, 'engineer', h('div', {}, made, words, fault));
+  return gate(context.session, 'operator', h('div', {}, made, words, fault));
 }
 
 export function modulationPart(context: Context): Part {
@@ -86,16 +127,12 @@ export function modulationPart(context: Context): Part {
     shown = JSON.stringify(modulation);
     body.replaceChildren(
       modulation
-        ? form(context, modulation, (m) => {
-            for (const [key, value] of Object.entries(keysOf(m))) {
-              context.staged.set(key, value, keysOf(modulation)[key] ?? null);
-            }
-          })
+        ? form(context, modulation)
         : h('p', { class: 'none', id: 'modulation-none' }, t('modulation_none')),
     );
   };
   return {
-    root: panel(t('modulation'), 'modulation-panel', body),
+    root: panel(t('modulation'), 'modulation-panel', h('p', { class: 'hint' }, t('modulation_hint')), body),
     update: () => {
       const { hello } = live;
       // What somebody is typing stays.
