@@ -14,9 +14,9 @@ constexpr int kNice = 10;
 
 /// Of this thread alone, as Linux has it.
 void lower_priority() {
-  static thread_local const int lowered =
+  static thread_local const int kLowered =
       ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
-  static_cast<void>(lowered);
+  static_cast<void>(kLowered);
 }
 
 }  // namespace
