@@ -14,6 +14,7 @@
 
 #include <steadyrest/apps/live_page/past_runs/export.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/record/record_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/tables/record_table.hpp>
