@@ -11,6 +11,7 @@ REPORT ?= out/$(basename $(notdir $(PROGRAM)))
 help:
 	@echo "make run     cut $(PROGRAM) on the simulated machine, without and with the layer"
 	@echo "make demo    the page of a layer at work on the simulated machine"
+	@echo "              PORT=linuxcnc make demo: on LinuxCNC's simulator"
 	@echo "make fast    the fast tests (under two minutes once built)"
 	@echo "make test    everything: format, house, both compilers, sanitizers, clang-tidy, web, all tests"
 	@echo "make bench   the benchmarks"
@@ -36,7 +37,11 @@ run: build
 	@build/release/bin/steadyrest cut $(PROGRAM) --machine $(MACHINE) --report $(REPORT)
 	@echo "Report: $(REPORT)/report.html"
 
-demo: build
+demo:
+	@[ "$(PORT)" != linuxcnc ] || sh scripts/setup.sh --linuxcnc
+	@# A tree that was configured without LinuxCNC has no port for it.
+	@! grep -qs LINUXCNC_HAL_LIBRARY-NOTFOUND build/release/CMakeCache.txt || cmake --preset release --log-level=WARNING -Wno-dev
+	@$(MAKE) --no-print-directory build
 	@sh scripts/demo.sh
 
 fast: setup-test

@@ -5,6 +5,7 @@
 #   LISTEN             [ADDRESS:]PORT of the page; by default 8080 of this computer
 set -eu
 cd "$(dirname "$0")/.."
+[ "${PORT:-sim}" != linuxcnc ] || exec sh scripts/linuxcnc/demo.sh
 machine=${MACHINE:-examples/machines/vmc-840d.toml}
 program=${PROGRAM:-examples/programs/rib-pocket.mpf}
 folder=$(mktemp -d)

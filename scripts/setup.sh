@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Installs by name what a bare Debian 12 lacks; does nothing, and needs no network, when all is there.
-#   scripts/setup.sh          what `make run` needs
-#   scripts/setup.sh --test   what `make test` needs in addition
+#   scripts/setup.sh              what `make run` needs
+#   scripts/setup.sh --linuxcnc   what `PORT=linuxcnc make demo` needs in addition
+#   scripts/setup.sh --test       what `make test` needs in addition
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -12,7 +13,9 @@ packages="
   zlib1g-dev libssl-dev libsodium-dev libsqlite3-dev libhdf5-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
 "
-if [ "${1:-}" = --test ]; then
+if [ "${1:-}" = --linuxcnc ]; then
+  packages="$packages python3 linuxcnc-uspace linuxcnc-uspace-dev"
+elif [ "${1:-}" = --test ]; then
   packages="$packages
     clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 chromium linuxcnc-uspace linuxcnc-uspace-dev
   "

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { defineConfig } from 'vitest/config';
 import { viteSingleFile } from 'vite-plugin-singlefile';
+import { looksPlugin } from './src/frame/looks_css';
 
 export default defineConfig({
-  plugins: [viteSingleFile({ removeViteModuleLoader: true })],
+  plugins: [looksPlugin(), viteSingleFile({ removeViteModuleLoader: true })],
   test: { testTimeout: 240_000, hookTimeout: 240_000, fileParallelism: false },
   build: {
     rollupOptions: { input: 'page.html' },

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The live page: `index.html` and its assets, which the program embeds and serves.
 import { defineConfig } from 'vite';
+import { looksPlugin } from './src/frame/looks_css';
 
 export default defineConfig({
   base: '/',
   plugins: [
+    looksPlugin(),
     {
       name: 'index-html',
       enforce: 'post',

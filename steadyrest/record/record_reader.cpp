@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
-#include <filesystem>
 #include <limits>
 #include <span>
-#include <system_error>
 #include <utility>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/in_turn.hpp>
 #include <steadyrest/record/packing.hpp>
+#include <steadyrest/record/record_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/schema.hpp>
 
@@ -22,8 +21,7 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 using kernel::signal::PathSegment;
 
-/// The writer never puts more into a chunk or a part.
-constexpr std::int64_t kMost = 1 << 20;
+constexpr std::int64_t kMost = kMostInPart;
 
 constexpr std::int64_t kDelayMask = (1 << (kAccelerationShift - kDelayShift)) - 1;
 
@@ -35,45 +33,6 @@ kernel::port::Capability capability_of(std::int64_t bits) {
           .path_offset_delay_s = 1e-6 * static_cast<double>((bits >> kDelayShift) & kDelayMask),
           .path_offset_acceleration_mm_s2 = static_cast<double>(bits >> kAccelerationShift),
           .latched_word = (bits & 16) != 0};
-}
-
-Result<void> check_format(Database& database, const std::string& file) {
-  const auto application = database.number("PRAGMA application_id");
-  if (!application) {
-    return std::unexpected(application.error());
-  }
-  if (*application != kApplication) {
-    return refuse(file, "is no record of a run", "name a file that Steadyrest has recorded");
-  }
-  const auto format = database.number("PRAGMA user_version");
-  if (!format) {
-    return std::unexpected(format.error());
-  }
-  if (*format < kOldestFormat || *format > kFormat) {
-    return refuse(file,
-                  "has format " + std::to_string(*format) + "; this program reads formats " +
-                      std::to_string(kOldestFormat) + " to " + std::to_string(kFormat),
-                  "use the version of Steadyrest that recorded it");
-  }
-  return {};
-}
-
-/// SQLite sees a missing page only when it is read. While a log lies beside the file, pages may be
-/// there.
-Result<void> check_size(Database& database, const std::string& file) {
-  const auto pages = database.number("PRAGMA page_count");
-  const auto page_bytes = database.number("PRAGMA page_size");
-  if (!pages || !page_bytes) {
-    return std::unexpected(pages ? page_bytes.error() : pages.error());
-  }
-  std::error_code fault;
-  const auto log = std::filesystem::file_size(file + "-wal", fault);
-  const bool logged = !fault && log > 0;
-  const auto bytes = std::filesystem::file_size(file, fault);
-  if (!fault && !logged && std::cmp_less(bytes, *pages * *page_bytes)) {
-    return refuse(file, "is damaged: it is cut off", "restore it from a copy, or delete it");
-  }
-  return {};
 }
 
 std::size_t segment_fields() {
@@ -133,14 +92,9 @@ std::unexpected<Refusal> RecordReader::damaged(const std::string& what) const {
 }
 
 Result<RecordReader> RecordReader::open(const std::string& file) {
-  auto database = Database::open(file);
+  auto database = open_record(file);
   if (!database) {
     return std::unexpected(std::move(database.error()));
-  }
-  if (auto fit = in_turn([&] { return check_format(*database, file); },
-                         [&] { return check_size(*database, file); });
-      !fit) {
-    return std::unexpected(std::move(fit.error()));
   }
   auto chunks =
       database->prepare("SELECT chunk, samples FROM chunk WHERE chunk > ? ORDER BY chunk");

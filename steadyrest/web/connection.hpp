@@ -2,8 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <variant>
@@ -11,7 +13,6 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
-#include <unistd.h>
 
 #include <steadyrest/web/stream_client.hpp>
 #include <steadyrest/web/traffic.hpp>
@@ -53,10 +54,11 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
   using Parser = http::request_parser<http::string_body>;
 
   /// The whole of what follows, not each of its bytes, must come within this time.
-  void be_patient() {
+  void be_patient(std::uint64_t bytes = 0) {
+    const double s =
+        traffic_.config.patience_s + static_cast<double>(bytes) / traffic_.config.slowest_bytes_s;
     beast::get_lowest_layer(transport_)
-        .expires_after(
-            std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * traffic_.config.patience_s)));
+        .expires_after(std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * s)));
   }
 
   void read() {
@@ -133,6 +135,24 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
       return;
     }
     Response response = traffic_.handlers.answer(request);
+    if (!response.later) {
+      deliver(std::move(response));
+      return;
+    }
+    SlowAnswers& makes = response.minutes ? traffic_.slowest : traffic_.slow;
+    const bool taken =
+        makes.take([self = this->shared_from_this(), later = std::move(response.later)](
+                       const std::stop_token& stop) { self->deliver(later(stop)); });
+    if (!taken) {
+      Response busy = error(503, "busy", "other long answers are being made",
+                            "wait for them, or ask again later");
+      busy.head.emplace_back("Retry-After", "5");
+      deliver(std::move(busy));
+    }
+  }
+
+  /// From any thread.
+  void deliver(Response response) {
     asio::post(traffic_.io,
                [self = this->shared_from_this(), response = std::move(response)]() mutable {
                  self->write(std::move(response));
@@ -164,7 +184,7 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     message.prepare_payload();
     const bool goes_on = message.keep_alive();
     auto kept = std::make_shared<http::response<Body>>(std::move(message));
-    be_patient();
+    be_patient(of.file.empty() ? 0 : kept->payload_size().value_or(0));
     http::async_write(transport_, *kept,
                       [self = this->shared_from_this(), kept, goes_on](beast::error_code fault,
                                                                        std::size_t /*size*/) {
@@ -180,7 +200,8 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     add_security_heads(response,
                        parser_ && (kSecure || !traffic_.config.gate.outer_origin.empty()));
     const bool head_alone = parser_->get().method() == http::verb::head;
-    if (response.file.empty()) {
+    if (response.file.empty() || head_alone) {
+      response.keeper.reset();
       http::response<http::string_body> message;
       message.body() = head_alone ? "" : std::move(response.body);
       send(std::move(message), response);
@@ -189,7 +210,7 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     http::response<http::file_body> message;
     beast::error_code fault;
     message.body().open(response.file.c_str(), beast::file_mode::scan, fault);
-    ::unlink(response.file.c_str());
+    response.keeper.reset();
     if (fault) {
       write(error(500, "failed", "the file cannot be read", "try again"));
       return;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,7 +33,13 @@ struct Response {
   std::string content_type = "application/json";
   std::string body;
   std::vector<std::pair<std::string, std::string>> head;
-  std::string file;  ///< its contents are the body; removed once they are sent
+  std::string file;  ///< its contents are the body
+  /// Holds the file until it has been opened; then it may go.
+  std::shared_ptr<const void> keeper;
+  /// Makes the answer, which takes long: beside the others, and without looking at what they share.
+  /// It gives up when it is told to stop. The rest of this response then counts for nothing.
+  std::function<Response(std::stop_token)> later;
+  bool minutes = false;  ///< that is how long it may take; else seconds, which wait for no minutes
 };
 
 /// The target of a request in its parts; false where it cannot be one: not from `/`, wrong escapes,

@@ -31,6 +31,8 @@ class BeastServer final : public Server {
   BeastServer& operator=(const BeastServer&) = delete;
   ~BeastServer() override {
     traffic_.answers.join();
+    traffic_.slow.end();
+    traffic_.slowest.end();
     traffic_.io.stop();
     if (thread_.joinable()) {
       thread_.join();

@@ -18,10 +18,10 @@ namespace steadyrest::web {
 
 /// HTTP and WebSocket, plain or over TLS, on Boost.Beast.
 ///
-/// One thread does the traffic, another makes the answers, one after the other: a slow answer
-/// delays the next one, never a stream. Bounded: connections, streams, sizes of head and body,
-/// time. A stream's client that is slower than the stream gets the newest message and is told how
-/// many it has missed; it never delays another.
+/// One thread does the traffic, another makes the answers, one after the other; those that say they
+/// take long (Response::later) are made beside them. Bounded: connections, streams, sizes of head
+/// and body, time. A stream's client that is slower than the stream gets the newest message and is
+/// told how many it has missed; it never delays another.
 class Server {
  public:
   struct Config {
@@ -37,7 +37,11 @@ class Server {
     std::size_t most_streams = 32;
     std::size_t most_head = 16'384;
     std::size_t most_body = 262'144;
-    double patience_s = 15.0;  ///< for a whole request, or the next one
+    /// Answers that take seconds, and those that take minutes, are made in two threads each; so
+    /// many of each kind may be in work or wait.
+    std::size_t most_slow = 8;
+    double patience_s = 15.0;          ///< for a whole request, or the next one
+    double slowest_bytes_s = 100'000;  ///< a file is given as much time more as this takes
   };
   /// A stream may begin: its first message, and whether it may still go on, asked every second.
   struct Admitted {

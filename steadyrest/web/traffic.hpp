@@ -10,6 +10,7 @@
 #include <boost/asio/ssl.hpp>
 
 #include <steadyrest/web/server.hpp>
+#include <steadyrest/web/slow_answers.hpp>
 
 /// What the server's connections share; inside this room.
 namespace steadyrest::web {
@@ -31,7 +32,11 @@ class Stream {
 
 struct Traffic {
   Traffic(Server::Config config_in, Server::Handlers handlers_in)
-      : config(std::move(config_in)), handlers(std::move(handlers_in)), gate(config.gate) {}
+      : config(std::move(config_in)),
+        handlers(std::move(handlers_in)),
+        gate(config.gate),
+        slow(2, config.most_slow),
+        slowest(2, config.most_slow) {}
 
   Server::Config config;
   Server::Handlers handlers;
@@ -42,6 +47,8 @@ struct Traffic {
   // Behind what its handlers' owners still touch when they go with it.
   asio::io_context io{1};
   asio::thread_pool answers{1};
+  SlowAnswers slow;
+  SlowAnswers slowest;  ///< take minutes
 };
 
 }  // namespace steadyrest::web

@@ -12,7 +12,7 @@ ini=$(readlink -f "$1"); name=$(basename "$ini")
 D=$(mktemp -d /var/tmp/loads.XXXXXX); export D name
 mkdir -p "$D/home" "$D/tmp"
 cp -rL "$(dirname "$ini")" "$D/cfg"; mkdir -p "$D/cfg/bin"
-cp "$here/hold" "$D/cfg/bin/"; chmod 755 "$D/cfg/bin/hold"
+cp "$here/../../scripts/linuxcnc/hold" "$D/cfg/bin/"; chmod 755 "$D/cfg/bin/hold"
 sed -i 's/^\( *DISPLAY *=\).*/\1 hold/;/axis_manualtoolchange.hal/d;/^TOOL_TABLE/s/=.*/= loads.tbl/;/^PARAMETER_FILE/s/=.*/= loads.var/;/^DB_PROGRAM/d;/^INTRO_/d' "$D/cfg/$name"
 echo "T1 P1 Z0 D0" >"$D/cfg/loads.tbl"
 for p in 5161 5162 5163 5164 5165 5166 5167 5168 5169 5181 5182 5183 5184 5185 5186 5187 5188 5189 5210 \

@@ -20,8 +20,8 @@ for f in $hal; do
   cp "$here/$f" "$D/cfg/"; done
 # The sampler is loaded once: lag_log.hal has its channel added here.
 case $hal in *lag_log.hal*) sed -i '/^loadrt sampler/s/4000,4000/4000,4000,60000/;/^loadrt sampler/s/$/,fffbbf/' "$D/cfg/layer.hal" ;; esac
-cp "$here/$drive" "$here/bring_up.py" "$D/cfg/"; [ -n "${PROBE:-}" ] && cp "$PROBE" "$D/cfg/probe"; [ -n "${MACHINE:-}" ] && cp "$MACHINE" "$D/cfg/machine.toml"
-cp "$here/hold" "$D/cfg/bin/"; chmod 755 "$D/cfg/bin/hold"
+cp "$here/$drive" "$here/../../scripts/linuxcnc/bring_up.py" "$D/cfg/"; [ -n "${PROBE:-}" ] && cp "$PROBE" "$D/cfg/probe"; [ -n "${MACHINE:-}" ] && cp "$MACHINE" "$D/cfg/machine.toml"
+cp "$here/../../scripts/linuxcnc/hold" "$D/cfg/bin/"; chmod 755 "$D/cfg/bin/hold"
 sed -e "s/@VX@/${VX:-200}/;s/@VY@/${VY:-200}/;s/@VZ@/${VZ:-200}/;s/@AX@/${AX:-2000}/;s/@AY@/${AY:-2000}/" \
   -e "s/@AZ@/${AZ:-2000}/;s/@MAX_OVERRIDE@/${MAX_OVERRIDE:-1.0}/;s/@VPATH@/${VPATH_MM_S:-250}/;s/@APATH@/${APATH:-3000}/" "$here/mill.ini" |
   sed "s/^HALFILE = mill.hal/$(printf 'HALFILE = %s\\n' $hal)/" >"$D/cfg/mill.ini"

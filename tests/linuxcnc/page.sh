@@ -10,7 +10,7 @@ command -v linuxcnc >/dev/null && [ -f $stock ] || { echo "linuxcnc or its examp
 [ "$(id -u)" = 0 ] && unshare --ipc --pid --fork --mount true 2>/dev/null || { echo "namespaces are not permitted" >&2; exit 77; }
 D=$(mktemp -d /var/tmp/page.XXXXXX); export D
 mkdir -p "$D/bin" "$D/home" "$D/tmp"
-cp "$1" "$D/bin/steadyrest"; cp "$here/at_screen.py" "$here/bring_up.py" "$D/"
+cp "$1" "$D/bin/steadyrest"; cp "$here/at_screen.py" "$here/../../scripts/linuxcnc/bring_up.py" "$D/"
 # A linuxcnc without a screen: as the real one, but for DISPLAY and the HAL file that opens a window.
 cat >"$D/bin/linuxcnc" <<'END'
 #!/bin/bash
@@ -19,7 +19,7 @@ sed 's/^\( *DISPLAY *=\).*/\1 hold/;/axis_manualtoolchange.hal/d;/^INTRO_/d' "$1
 /usr/bin/linuxcnc -r "$PWD/headless.ini" </dev/null >"$D/linuxcnc.log" 2>&1
 rm -f headless.ini
 END
-cp "$here/hold" "$D/"; chmod 755 "$D/bin/linuxcnc" "$D/hold" "$D/bin/steadyrest"
+cp "$here/../../scripts/linuxcnc/hold" "$D/"; chmod 755 "$D/bin/linuxcnc" "$D/hold" "$D/bin/steadyrest"
 { echo 'set -eu'
   awk '/^```bash$/ {inside = 1; next} /^```$/ {inside = 0} inside {print}
        /^<!-- test: / {sub(/^<!-- test: /, ""); sub(/ -->$/, ""); sub(/at_screen.py/, "\"$D/at_screen.py\""); sub(/^python3/, "/usr/bin/python3"); print}' "$2"

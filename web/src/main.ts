@@ -3,6 +3,7 @@ import { chatterPages } from './chatter/pages';
 import { cutView } from './cut/view';
 import { element } from './frame/dom';
 import { start } from './frame/start';
+import 'virtual:looks.css';
 import './frame/style.css';
 import './frame/table.css';
 import './plot/plot.css';

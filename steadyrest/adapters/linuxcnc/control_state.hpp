@@ -30,7 +30,7 @@ struct ControlState {
   bool text_is_file = true;  ///< what it has opened of it is what the file holds now
   bool stopped = true;       ///< no program runs
   ControlAxes position{};    ///< of the machine, while it is stopped
-  int work_offset = 1;       ///< 1: G54 … 9: G59.3
+  int work_offset = 1;       ///< 1: G54 … 9: G59.3; 0: not said yet
   ControlAxes work_offset_mm{};
   double rotation_deg = 0.0;
   ControlAxes g92_mm{};

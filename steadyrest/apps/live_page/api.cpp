@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
+#include <stop_token>
 #include <utility>
 
 #include <fmt/core.h>
@@ -26,6 +28,7 @@ using web::Role;
 constexpr std::string_view kApi = "/api/";
 constexpr std::string_view kRecords = "/api/v1/records/";
 constexpr std::string_view kReplay = "/replay";
+constexpr std::string_view kExport = "/export";
 
 constexpr std::array<Route, 19> kRoutes = {{
     {"GET", "/api/v1/session", true},
@@ -76,6 +79,18 @@ web::Response asset(const web::Request& request) {
   const bool reads = request.method == "GET" || request.method == "HEAD";
   const Asset* const found = reads ? find_asset(request.path) : nullptr;
   return found != nullptr ? response_of(*found) : wrong_method(request.path);
+}
+
+/// What is made beside the other answers: it has a copy of the request.
+web::Response later(std::function<web::Response(std::stop_token)> make) {
+  web::Response out;
+  out.later = std::move(make);
+  return out;
+}
+
+web::Response minutes(web::Response of) {
+  of.minutes = true;
+  return of;
 }
 
 std::string author(const web::Caller& caller) {
@@ -162,10 +177,18 @@ web::Response Api::run(const Route& route, const Call& call) {
     return route.path.ends_with("plan") ? study_.plan() : study_.lobes();
   }
   if (route.path == "/api/v1/records") {
-    return list_records(desk_, call.request);
+    return later([this, query = call.request.query](const std::stop_token& stop) {
+      return list_records(desk_, query, stop);
+    });
   }
-  return route.path == kRecords ? show_record(desk_, call.request, call.rest)
-                                : response_of(openapi());
+  if (route.path == kRecords) {
+    web::Response shown =
+        later([this, query = call.request.query, rest = call.rest](const std::stop_token& stop) {
+          return show_record(desk_, overviews_, {.query = query, .rest = rest, .stop = stop});
+        });
+    return call.rest.ends_with(kExport) ? minutes(std::move(shown)) : shown;
+  }
+  return response_of(openapi());
 }
 
 web::Response Api::write(const Route& route, const Call& call) {
@@ -192,7 +215,9 @@ web::Response Api::write(const Route& route, const Call& call) {
     return apply_machine(desk_, asked, author(call.caller));
   }
   if (call.rest.ends_with(kReplay)) {
-    return replay_record(desk_, call.rest.substr(0, call.rest.size() - kReplay.size()));
+    return minutes(
+        later([this, name = call.rest.substr(0, call.rest.size() - kReplay.size())](
+                  const std::stop_token& stop) { return replay_record(desk_, name, stop); }));
   }
   return wrong_method(call.request.path + kReplay.data());
 }

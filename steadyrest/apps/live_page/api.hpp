@@ -11,6 +11,7 @@
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/apps/live_page/heat_history.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
+#include <steadyrest/apps/live_page/past_runs/overview.hpp>
 #include <steadyrest/apps/live_page/stream.hpp>
 #include <steadyrest/web/server.hpp>
 
@@ -24,7 +25,8 @@ struct Route {
   web::Role role = web::Role::viewer;
 };
 
-/// The page's HTTP interface (docs/page-api.md). Its answers come one after the other.
+/// The page's HTTP interface (docs/page-api.md). Its answers come one after the other; those about
+/// records are made beside them (web::Response::later).
 class Api {
  public:
   static constexpr std::string_view kStream = "/api/v1/stream";
@@ -62,6 +64,7 @@ class Api {
   StreamText stream_;
   HeatHistory heat_;
   ChatterStudy study_;
+  past_runs::Overviews overviews_;
   std::function<double()> now_s_;
 };
 

@@ -9,10 +9,10 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/adapters/linuxcnc/config/marked_lines.hpp>
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/machine_keys.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/file/unified_diff.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/edit/key_edit.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -141,8 +141,7 @@ Json json_of(const Desk& desk, const Checked& checked) {
   for (const Refusal& refusal : checked.refusals) {
     refusals.push_back(json_of(refusal));
   }
-  return {{"diff", adapters::linuxcnc::config::unified_diff(desk.machine_file, checked.before,
-                                                            checked.after)},
+  return {{"diff", kernel::file::unified_diff(desk.machine_file, checked.before, checked.after)},
           {"text", checked.after},
           {"sha256_before", web::digest(checked.before)},
           {"refusals", refusals},

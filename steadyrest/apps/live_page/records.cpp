@@ -2,15 +2,16 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <steadyrest/apps/live_page/record_course.hpp>
+#include <steadyrest/apps/live_page/past_runs/course.hpp>
+#include <steadyrest/apps/live_page/past_runs/export.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
 #include <steadyrest/live/wish/wish_words.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -71,13 +72,13 @@ Json json_of(const record::RunFile& file, const RecordReader& reader) {
           {"fault", name.starts_with("fault-")}};
 }
 
-double number(const web::Request& request, const char* key, double otherwise) {
-  const auto at = request.query.find(key);
+double number(const Query& query, const char* key, double otherwise) {
+  const auto at = query.find(key);
   double value = otherwise;
-  if (at != request.query.end()) {
+  if (at != query.end()) {
     std::from_chars(at->second.data(), at->second.data() + at->second.size(), value);
   }
-  return value;
+  return std::isfinite(value) ? value : otherwise;
 }
 
 /// The whole machine file is long, and it is not what people look for here.
@@ -117,50 +118,43 @@ web::Response details(const std::string& file, const std::string& name) {
                      {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
                      {"dropped", totals.dropped},
                      {"closed", totals.closed}}},
-                   {"events", std::move(events)}}}});
+                   {"events", std::move(events)},
+                   {"formats", past_runs::export_formats()}}}});
 }
 
-web::Response data(const std::string& file, const web::Request& request) {
-  const double points = std::clamp(number(request, "points", 1000.0), 1.0, 4000.0);
-  auto course = course_of({.file = file,
-                           .from_s = number(request, "from_s", -1e18),
-                           .to_s = number(request, "to_s", 1e18),
-                           .points = static_cast<std::size_t>(points)});
+web::Response data(const std::string& file, past_runs::Overviews& overviews,
+                   const RecordAsked& asked) {
+  const double points = std::clamp(number(asked.query, "points", 1000.0), 1.0, 4000.0);
+  auto course = past_runs::course_of({.file = file,
+                                      .from_s = number(asked.query, "from_s", -1e18),
+                                      .to_s = number(asked.query, "to_s", 1e18),
+                                      .points = static_cast<std::size_t>(points)},
+                                     overviews, asked.stop);
   return course ? answer(*course) : unreadable(course.error());
 }
 
-/// A copy that the answer may remove once it is sent: the record itself, whole, which `steadyrest
-/// record export` turns into CSV and HDF5.
-web::Response download(const std::string& file, const std::string& name) {
-  std::string copy = fs::temp_directory_path() / "steadyrest-record-XXXXXX";
-  const int descriptor = ::mkstemp(copy.data());
-  if (descriptor < 0) {
-    return web::error(500, "failed", "there is no room for a copy", "free some space in /tmp");
-  }
-  ::close(descriptor);
-  std::error_code fault;
-  fs::copy_file(file, copy, fs::copy_options::overwrite_existing, fault);
-  if (fault) {
-    fs::remove(copy, fault);
-    return web::error(500, "failed", "the record cannot be copied", "see its permissions");
-  }
-  web::Response out;
-  out.content_type = "application/vnd.sqlite3";
-  out.file = copy;
-  out.head.emplace_back("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
-  return out;
+web::Response download(const std::string& file, const std::string& name, const RecordAsked& asked) {
+  const auto format = asked.query.find("format");
+  return past_runs::export_record(
+      {.file = file,
+       .name = name,
+       .format = format == asked.query.end() ? std::string() : format->second},
+      asked.stop);
 }
 
 }  // namespace
 
-web::Response list_records(const Desk& desk, const web::Request& request) {
+web::Response list_records(const Desk& desk, const Query& query, const std::stop_token& stop) {
   Json list = Json::array();
-  const auto search = request.query.find("search");
-  const std::string words = search != request.query.end() ? small(search->second) : "";
+  const auto search = query.find("search");
+  const std::string words = search != query.end() ? small(search->second) : "";
   const auto files = desk.records.empty() ? kernel::outcome::Result<std::vector<record::RunFile>>()
                                           : record::run_files(desk.records);
   if (files) {
     for (const record::RunFile& file : *files) {
+      if (stop.stop_requested()) {
+        break;
+      }
       const auto reader = RecordReader::open(file.file);
       if (!reader) {
         continue;  // it may be removed or begun at this moment
@@ -176,10 +170,11 @@ web::Response list_records(const Desk& desk, const web::Request& request) {
   return answer({{"folder", !desk.records.empty()}, {"records", std::move(list)}});
 }
 
-web::Response show_record(const Desk& desk, const web::Request& request, const std::string& rest) {
-  const std::size_t slash = rest.find('/');
-  const std::string name = rest.substr(0, slash);
-  const std::string what = slash == std::string::npos ? "" : rest.substr(slash + 1);
+web::Response show_record(const Desk& desk, past_runs::Overviews& overviews,
+                          const RecordAsked& asked) {
+  const std::size_t slash = asked.rest.find('/');
+  const std::string name = asked.rest.substr(0, slash);
+  const std::string what = slash == std::string::npos ? "" : asked.rest.substr(slash + 1);
   const auto file = file_of(desk, name);
   if (!file) {
     return no_record(name);
@@ -188,12 +183,13 @@ web::Response show_record(const Desk& desk, const web::Request& request, const s
     return details(*file, name);
   }
   if (what == "data") {
-    return data(*file, request);
+    return data(*file, overviews, asked);
   }
-  return what == "export" ? download(*file, name) : no_record(rest);
+  return what == "export" ? download(*file, name, asked) : no_record(asked.rest);
 }
 
-web::Response replay_record(const Desk& desk, const std::string& name) {
+web::Response replay_record(const Desk& desk, const std::string& name,
+                            const std::stop_token& stop) {
   const auto file = file_of(desk, name);
   if (!file) {
     return no_record(name);
@@ -206,7 +202,8 @@ web::Response replay_record(const Desk& desk, const std::string& name) {
   if (!machine) {
     return unreadable(machine.error());
   }
-  const auto replayed = trial::replay::replay(*file, *machine);
+  const auto replayed = trial::replay::replay(
+      *file, *machine, [&stop](double /*share*/) { return !stop.stop_requested(); });
   if (!replayed) {
     return unreadable(replayed.error());
   }

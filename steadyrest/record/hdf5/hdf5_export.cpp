@@ -219,7 +219,7 @@ std::string_view unit_of(std::string_view column) noexcept {
 }
 
 Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
-                                 const std::function<void(std::uint64_t)>& progress) {
+                                 const std::function<bool(std::uint64_t)>& goes_on) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the refusal says it
   const auto failed = [&file] {
     return refuse(file, "cannot be written as HDF5", "look for room on the disk and permission");
@@ -249,7 +249,9 @@ Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
     for (std::size_t i = 0; i < sample->vibrations; ++i) {
       vibration.add(to_bits(sample->vibration[i]));
     }
-    progress(++samples);
+    if (!goes_on(++samples)) {
+      return refuse("the table was given up", "begin it again");
+    }
     if (samples % kChunk == 0 &&
         !(vibration.good() && std::ranges::all_of(columns, &Column::good))) {
       break;

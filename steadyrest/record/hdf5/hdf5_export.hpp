@@ -24,9 +24,9 @@ namespace steadyrest::record::hdf5 {
 [[nodiscard]] std::string_view unit_of(std::string_view column) noexcept;
 
 /// Writes what `reader` has left into a new file; the number of samples. Refuses a file that cannot
-/// be made or written, and a damaged record.
+/// be made or written, a damaged record, and what `goes_on`, asked after each sample, has ended.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_hdf5(
     RecordReader& reader, const std::string& file,
-    const std::function<void(std::uint64_t samples)>& progress = [](std::uint64_t) {});
+    const std::function<bool(std::uint64_t samples)>& goes_on = [](std::uint64_t) { return true; });
 
 }  // namespace steadyrest::record::hdf5

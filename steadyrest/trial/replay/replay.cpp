@@ -192,7 +192,7 @@ class Watched final : public kernel::port::Port {
 }  // namespace
 
 Result<Replayed> replay(const std::string& file, const kernel::machine::Machine& machine,
-                        const std::function<void(double share)>& progress, Reloads reloads) {
+                        const std::function<bool(double share)>& goes_on, Reloads reloads) {
   auto opened = ReplayPort::open(file);
   if (!opened) {
     return std::unexpected(std::move(opened.error()));
@@ -226,8 +226,9 @@ Result<Replayed> replay(const std::string& file, const kernel::machine::Machine&
     }
     ++expected;
     compare(port.sample(), decided ? *decided : *watched.refused(), replayed);
-    if (replayed.cycles % kCyclesBetweenProgress == 0) {
-      progress(static_cast<double>(replayed.cycles) / samples);
+    if (replayed.cycles % kCyclesBetweenProgress == 0 &&
+        !goes_on(static_cast<double>(replayed.cycles) / samples)) {
+      return kernel::outcome::refuse("the replay was given up", "begin it again");
     }
   }
   if (port.fault()) {

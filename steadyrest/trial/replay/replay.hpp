@@ -44,10 +44,11 @@ enum class Reloads : std::uint8_t {
 /// bit for bit. The recorded machine answers to the recorded commands: after the first difference
 /// the rest is only a guess.
 ///
-/// Refuses a record that cannot be read, and a machine that the supervisor refuses.
+/// Refuses a record that cannot be read, a machine that the supervisor refuses, and what `goes_on`,
+/// asked every now and then, has ended.
 [[nodiscard]] kernel::outcome::Result<Replayed> replay(
     const std::string& file, const kernel::machine::Machine& machine,
-    const std::function<void(double share)>& progress = [](double) {},
+    const std::function<bool(double share)>& goes_on = [](double) { return true; },
     Reloads reloads = Reloads::follow);
 
 }  // namespace steadyrest::trial::replay

@@ -38,7 +38,7 @@ TEST_F(AccountsFile, KnowsItsUsersAndTokensAgain) {
   EXPECT_EQ(read->check("anna", "correct horsf"), std::nullopt);
   EXPECT_EQ(read->check("bert", "correct horse"), std::nullopt);
   EXPECT_EQ(read->of_token(*token), (Caller{"logger", Role::viewer}));
-  EXPECT_EQ(read->of_token("x" + token->substr(1)), std::nullopt);
+  EXPECT_EQ(read->of_token((token->front() == 'x' ? "y" : "x") + token->substr(1)), std::nullopt);
   EXPECT_EQ(read->of_token(""), std::nullopt);
 }
 

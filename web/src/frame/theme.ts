@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+import { COLOURS, type Look, SCHEME, type Scheme } from './looks';
 
-export type Scheme = 'light' | 'dark';
-/** High contrast is dark, with stronger colours. */
-export type Look = Scheme | 'contrast';
+export type { Look, Scheme };
 
-/** Colours of the plots; those of the page are in style.css. */
+/** Colours of the plots; from those of the pages (looks.ts), and a palette. */
 export interface Theme {
   scheme: Scheme;
   /** On paper plots are drawn as vectors. */
@@ -20,41 +19,18 @@ export interface Theme {
   other: readonly string[];
 }
 
-const THEMES: Record<Look, Omit<Theme, 'printing'>> = {
-  light: {
-    scheme: 'light',
-    text: '#1d2329',
-    faint: '#59636e',
-    rule: '#d8dde2',
-    paper: '#ffffff',
-    rapid: '#c3c9cf',
-    limit: '#1d2329',
-    run: { without: '#b4501e', with: '#1b6aa5' },
-    other: ['#1b6aa5', '#59a0cf', '#b4501e', '#2e7d4f', '#8a5fb0', '#a08a1f', '#c0518b', '#4f5b66', '#1d2329'],
-  },
-  dark: {
-    scheme: 'dark',
-    text: '#e4e8ec',
-    faint: '#9aa5b1',
-    rule: '#333b44',
-    paper: '#14181d',
-    rapid: '#4a535d',
-    limit: '#e4e8ec',
-    run: { without: '#f2955c', with: '#69b3e7' },
-    other: ['#69b3e7', '#3f7fae', '#f2955c', '#6cc090', '#b797dc', '#d3bd4e', '#e58bba', '#a9b4be', '#e4e8ec'],
-  },
-  contrast: {
-    scheme: 'dark',
-    text: '#ffffff',
-    faint: '#e6e6e6',
-    rule: '#6a6a6a',
-    paper: '#000000',
-    rapid: '#9a9a9a',
-    limit: '#ffffff',
-    run: { without: '#ffb347', with: '#5cd6ff' },
-    other: ['#5cd6ff', '#8fb8ff', '#ffb347', '#7dff9b', '#dcaaff', '#ffee58', '#ff9ad5', '#d9d9d9', '#ffffff'],
-  },
+const OTHER: Record<Look, readonly string[]> = {
+  light: ['#1b6aa5', '#59a0cf', '#b4501e', '#2e7d4f', '#8a5fb0', '#a08a1f', '#c0518b', '#4f5b66', '#1d2329'],
+  dark: ['#69b3e7', '#3f7fae', '#f2955c', '#6cc090', '#b797dc', '#d3bd4e', '#e58bba', '#a9b4be', '#e4e8ec'],
+  contrast: ['#5cd6ff', '#8fb8ff', '#ffb347', '#7dff9b', '#dcaaff', '#ffee58', '#ff9ad5', '#d9d9d9', '#ffffff'],
 };
+
+function themeOf(look: Look): Omit<Theme, 'printing'> {
+  const { text, faint, rule, paper, rapid, without, with: layer } = COLOURS[look];
+  return { scheme: SCHEME[look], text, faint, rule, paper, rapid, limit: text, run: { without, with: layer }, other: OTHER[look] };
+}
+
+const THEMES: Record<Look, Omit<Theme, 'printing'>> = { light: themeOf('light'), dark: themeOf('dark'), contrast: themeOf('contrast') };
 
 let chosen: Look | undefined;
 

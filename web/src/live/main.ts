@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import 'virtual:looks.css';
 import '../frame/style.css';
 import '../frame/table.css';
 import '../plot/plot.css';
-import './style/look.css';
 import './style/shell.css';
 import './style/dialogs.css';
 import './style/views.css';

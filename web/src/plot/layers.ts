@@ -2,7 +2,7 @@
 // What a plot is made of: lines, bands, dots, rasters, spans, rules, ticks.
 import type { Maybe } from '../frame/data';
 import type { Theme } from '../frame/theme';
-import { FONT } from './font';
+import { FONT } from '../frame/looks';
 import { BUCKETS, thin } from './thin';
 
 export interface Dot {

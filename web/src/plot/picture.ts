@@ -3,7 +3,7 @@
 import { capital } from '../frame/html';
 import type { Theme } from '../frame/theme';
 import type { echarts } from './echarts';
-import { FONT } from './font';
+import { FONT } from '../frame/looks';
 import { type ColourScale, type Key, keysOf } from './key';
 import type { Plot } from './drawn';
 

@@ -6,7 +6,7 @@ import type { Theme } from '../frame/theme';
 import { axisOption } from './axes';
 import { type Plot, drawnIn, remember } from './drawn';
 import { echarts } from './echarts';
-import { FONT } from './font';
+import { FONT } from '../frame/looks';
 import { type Box, withEqualAspect } from './equal_aspect';
 import { ink, keyLine, keysOf, scaleLine } from './key';
 import { seriesOf } from './layers';

@@ -124,6 +124,7 @@ export function record(): RecordDetail {
       { t_s: 1833.9, kind: 'end', text: 'The run ends; everything was handed back.' },
     ],
     totals: { cycles: 1_834_000, overruns: 0, over_limit_s: 0.21, work_p50_us: 41.2, reasons: { contour_limit: 412_000, none: 1_204_000 } },
+    formats: ['sqlite', 'csv', 'hdf5'],
   };
 }
 

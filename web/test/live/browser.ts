@@ -32,10 +32,12 @@ export interface Options {
   /** A session's cookie, so that no log-in is needed. */
   loggedIn?: boolean;
   settings?: object;
+  /** Pixels of the screen for one of the page. */
+  scale?: number;
 }
 
-export async function open(address: string, path = '/', { width = 1440, height = 900, loggedIn = true, settings = { language: 'en', look: 'light', units: 'mm' } }: Options = {}): Promise<Open> {
-  const context = await (await launched()).newContext({ viewport: { width, height }, locale: 'en-GB', acceptDownloads: true });
+export async function open(address: string, path = '/', { width = 1440, height = 900, loggedIn = true, settings = { language: 'en', look: 'light', units: 'mm' }, scale = 1 }: Options = {}): Promise<Open> {
+  const context = await (await launched()).newContext({ viewport: { width, height }, deviceScaleFactor: scale, locale: 'en-GB', timezoneId: 'UTC', acceptDownloads: true });
   if (loggedIn) {
     await context.addCookies([{ name: 'steadyrest_session', value: 'mock', url: address, httpOnly: true, sameSite: 'Strict' }]);
   }

@@ -331,9 +331,11 @@ describe('records', () => {
     await page.click('#earlier');
     await page.selectOption('#quantity', 'feed_percent');
     await until(`document.querySelector('#course-name').textContent === 'Feed override, %'`);
-    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export')]);
-    expect(download.url()).toMatch(/\/export$/);
-    expect((await readFile(await download.path())).length).toBeGreaterThan(0);
+    for (const format of ['sqlite', 'csv', 'hdf5']) {
+      const [download] = await Promise.all([page.waitForEvent('download'), page.click(`#export-${format}`)]);
+      expect(download.url()).toMatch(new RegExp(`/export\\?format=${format}$`));
+      expect((await readFile(await download.path())).length).toBeGreaterThan(0);
+    }
     await page.click('#replay');
     await until(`document.querySelector('#replayed').textContent.includes('all the same')`);
   });

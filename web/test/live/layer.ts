@@ -78,6 +78,7 @@ export class Layer {
   reload: NonNullable<Status['reload']> | null = null;
   limit_um = LIMIT_UM;
   pathKnown = true;
+  random: () => number = Math.random;
   private time = 1200;
   private cycles = 0;
   private way = 0;
@@ -133,7 +134,7 @@ export class Layer {
     this.error += (errorAt(speed, radius) - this.error) * 0.03;
     const round = (v: number, d: number) => Number(v.toFixed(d));
     samples.t_s.push(round(this.time, 4));
-    samples.contour_error_um.push(round(Math.abs(this.error + 0.4 * Math.sin(180 * this.time) + 0.5 * (Math.random() - 0.5)), 2));
+    samples.contour_error_um.push(round(Math.abs(this.error + 0.4 * Math.sin(180 * this.time) + 0.5 * (this.random() - 0.5)), 2));
     samples.feed_asked_percent.push(asked);
     samples.feed_percent.push(allowed);
     samples.feed_effective_percent.push(round(this.feed, 1));
@@ -179,7 +180,7 @@ export class Layer {
   spectrum(): Spectrum {
     const hz = Array.from({ length: 256 }, (_, i) => 8 * i);
     const peak = (f: number, at: number, width: number, height: number) => height / (1 + ((f - at) / width) ** 2);
-    const amplitude = hz.map((f) => 0.02 + 0.01 * Math.random() + peak(f, 173, 6, 0.35) + peak(f, 346, 6, 0.2) + peak(f, 922, 10, 0.8 + 0.1 * Math.random()));
+    const amplitude = hz.map((f) => 0.02 + 0.01 * this.random() + peak(f, 173, 6, 0.35) + peak(f, 346, 6, 0.2) + peak(f, 922, 10, 0.8 + 0.1 * this.random()));
     return { type: 'spectrum', rate_hz: 4096, hz, amplitude, tooth_hz: 173, chatter_hz: 922 };
   }
 }

@@ -56,6 +56,8 @@ export class Mock {
   withLobes = true;
   /** Share of the map and of the plan that is computed; 1: all. */
   studied = 1;
+  /** No time passes but by play(). */
+  still = false;
   /** Refuses connections, as while the network is down. */
   offline = false;
   private session: { name: string; role: Role } | undefined;
@@ -98,13 +100,23 @@ export class Mock {
     this.sockets.forEach((s) => s.send(this.layer.hello()));
   }
 
+  /** So many frames at once, of 0.2 s each, and a spectrum. */
+  play(frames: number): void {
+    for (let i = 0; i < frames; ++i) {
+      const frame = this.layer.frame(200);
+      this.sockets.forEach((s) => s.send(frame));
+    }
+    const spectrum = this.layer.spectrum();
+    this.sockets.forEach((s) => s.send(spectrum));
+  }
+
   private tick(): void {
     const now = Date.now();
-    const cycles = Math.min(now - this.sent, 200);
+    const cycles = this.still ? 0 : Math.min(now - this.sent, 200);
     this.sent = now;
     this.frames += 1;
     const frame = this.layer.frame(cycles);
-    const spectrum = this.frames % 8 === 0 ? this.layer.spectrum() : undefined;
+    const spectrum = this.frames % 8 === 0 && !this.still ? this.layer.spectrum() : undefined;
     for (const socket of this.sockets) {
       socket.send(frame);
       if (spectrum) socket.send(spectrum);

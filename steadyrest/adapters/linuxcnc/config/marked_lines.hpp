@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,10 +48,5 @@ struct Unmarked {
 [[nodiscard]] std::string own_file(std::string_view text, const std::string& ini_name);
 enum class Own { no, yes, edited };
 [[nodiscard]] Own is_own_file(std::string_view text);
-
-/// A unified diff. A text that is not there is /dev/null's. Empty where nothing differs.
-[[nodiscard]] std::string unified_diff(const std::string& file,
-                                       const std::optional<std::string>& before,
-                                       const std::optional<std::string>& after);
 
 }  // namespace steadyrest::adapters::linuxcnc::config

@@ -4,9 +4,9 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/adapters/linuxcnc/config/marked_lines.hpp>
 #include <steadyrest/adapters/linuxcnc/config/setup.hpp>
 #include <steadyrest/apps/cli/linuxcnc/verb_linuxcnc_setup.hpp>
+#include <steadyrest/kernel/file/unified_diff.hpp>
 
 // Everything is planned before anything is written; the difference shown is the one that is made.
 namespace steadyrest::apps::cli {
@@ -35,7 +35,7 @@ Answer answer_of(const config::SetupPlan& plan, const Options& options) {
   answer.json["notes"] = Json::array();
   std::string files;
   for (const config::FileChange& change : plan.files) {
-    const std::string diff = config::unified_diff(change.file, change.before, change.after);
+    const std::string diff = kernel::file::unified_diff(change.file, change.before, change.after);
     answer.json["files"].push_back(
         {{"file", change.file}, {"change", change_of(change)}, {"diff", diff}});
     answer.text += diff;

@@ -61,12 +61,15 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
       return std::unexpected(read.error());
     }
   }
-  const auto last = static_cast<int>(nc::interpret::kWorkOffsets);
-  start.active_offset = static_cast<std::size_t>(std::clamp(state.work_offset, 1, last) - 1);
-  start.work_offset[start.active_offset] = state.work_offset_mm;
-  start.rotation_deg[start.active_offset] = state.rotation_deg;
-  start.g92 = state.g92_mm;
-  start.g92_on = std::ranges::any_of(state.g92_mm, [](double value) { return value != 0.0; });
+  // LinuxCNC shows no offset before one is set or chosen; until then those of the file hold.
+  if (state.work_offset > 0) {
+    const auto last = static_cast<int>(nc::interpret::kWorkOffsets);
+    start.active_offset = static_cast<std::size_t>(std::min(state.work_offset, last) - 1);
+    start.work_offset[start.active_offset] = state.work_offset_mm;
+    start.rotation_deg[start.active_offset] = state.rotation_deg;
+    start.g92 = state.g92_mm;
+    start.g92_on = std::ranges::any_of(state.g92_mm, [](double value) { return value != 0.0; });
+  }
   start.tool_offset = state.tool_offset_mm;
   start.tool_in_spindle = state.tool;
   start.start = state.position;

@@ -4,31 +4,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <steadyrest/apps/cli/record/verb_record_export.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
-#include <steadyrest/record/columns.hpp>
-#if STEADYREST_HAS_HDF5
-#include <steadyrest/record/hdf5/hdf5_export.hpp>
-#endif
 #include <steadyrest/record/record_reader.hpp>
+#include <steadyrest/record/tables/record_table.hpp>
 
 namespace steadyrest::apps::cli {
 namespace record_export {
 namespace {
-
-using record::ColumnName;
-
-constexpr const char* kHead = "number,path,vibrations,time_s";
 
 struct Options {
   std::string record;
@@ -36,40 +27,13 @@ struct Options {
   std::string format;  ///< empty: by the output's ending
 };
 
-std::string head(record::Sample& sample) {
-  std::string line;
-  record::sample_columns(sample, [&line](const ColumnName& name, auto& /*value*/) {
-    line += (line.empty() ? "" : ",") + name.text();
-  });
-  return line + "\n";
-}
-
-/// Each number as the shortest text that reads back as the same; enumerations and yes/no as
-/// numbers.
-void put_row(record::Sample& sample, std::string& line) {
-  line.clear();
-  record::sample_columns(sample, [&line](const ColumnName& /*name*/, auto& value) {
-    using Value = std::decay_t<decltype(value)>;
-    if (!line.empty()) {
-      line += ',';
-    }
-    if constexpr (std::is_same_v<Value, double>) {
-      fmt::format_to(std::back_inserter(line), "{}", value);
-    } else if constexpr (std::is_signed_v<Value>) {
-      fmt::format_to(std::back_inserter(line), "{}", std::int64_t{value});
-    } else {
-      fmt::format_to(std::back_inserter(line), "{}", record::to_bits(value));
-    }
-  });
-  line += '\n';
-}
-
-void show(std::uint64_t samples, const record::RecordReader& reader, Progress& progress) {
+bool show(std::uint64_t samples, const record::RecordReader& reader, Progress& progress) {
   if (samples % 1024 == 0) {
     progress.update(static_cast<double>(samples) /
                         static_cast<double>(std::max(reader.totals().samples, samples)),
                     "writing");
   }
+  return true;
 }
 
 Answer answer_of(std::uint64_t samples) {
@@ -83,38 +47,32 @@ Outcome csv(record::RecordReader& reader, const Options& options, bool json, Pro
   if (!out) {
     return refused(out.error());
   }
-  const auto sample = std::make_unique<record::Sample>();
-  out->write(head(*sample));
-  std::uint64_t samples = 0;
-  for (std::string line;;) {
-    const auto more = reader.next(*sample);
-    if (!more) {
-      return refused(more.error());
-    }
-    if (!*more) {
-      break;
-    }
-    put_row(*sample, line);
-    out->write(line);
-    show(++samples, reader, progress);
+  const auto samples = record::tables::write_csv(
+      reader, [&out](std::string_view line) { out->write(line); },
+      [&](std::uint64_t n) { return show(n, reader, progress); });
+  if (!samples) {
+    return refused(samples.error());
   }
   if (const auto written = out->commit(); !written) {
     return refused(written.error());
   }
-  return answer_of(samples);
+  return answer_of(*samples);
 }
 
-#if STEADYREST_HAS_HDF5
 /// The library writes only to a file; its bytes are then written as every output is.
 Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& progress) {
+  if (!record::tables::has_hdf5()) {
+    return refused(bad_input(options.output, "this program was built without HDF5",
+                             "build it with libhdf5-dev installed, or write CSV"));
+  }
   auto out = kernel::file::OutputFile::open(options.output);
   if (!out) {
     return refused(out.error());
   }
   const kernel::file::Temporary part(fmt::format("{}.{}.part", options.output, ::getpid()),
                                      kernel::file::Temporary::Kind::file);
-  const auto samples = record::hdf5::write_hdf5(
-      reader, part.path(), [&](std::uint64_t n) { show(n, reader, progress); });
+  const auto samples = record::tables::write_hdf5(
+      reader, part.path(), [&](std::uint64_t n) { return show(n, reader, progress); });
   if (!samples) {
     return refused(samples.error());
   }
@@ -131,12 +89,6 @@ Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& pro
   }
   return answer_of(*samples);
 }
-#else
-Outcome hdf5(record::RecordReader& /*reader*/, const Options& options, Progress& /*progress*/) {
-  return refused(bad_input(options.output, "this program was built without HDF5",
-                           "build it with libhdf5-dev installed, or write CSV"));
-}
-#endif
 
 bool is_hdf5(const Options& options) {
   return options.format.empty()
@@ -162,11 +114,11 @@ Outcome run(const Options& options, bool json, Progress& progress) {
 void add_verb_record_export(Session& session, Verb& verb) {
   auto options = std::make_shared<record_export::Options>();
   verb.reads("record", options->record, "Record of a run (.sqlite)")->required();
-  verb.writes("-o,--output", options->output, "Write the table to this file instead of stdout",
-              either(csv_content("a table of a record (CSV)", {record_export::kHead}),
-                     {"an HDF5 file", [](std::string_view text) {
-                        return text.starts_with("\x89HDF\r\n\x1a\n");
-                      }}));
+  verb.writes(
+      "-o,--output", options->output, "Write the table to this file instead of stdout",
+      either(csv_content("a table of a record (CSV)", {std::string(record::tables::kCsvHead)}),
+             {"an HDF5 file",
+              [](std::string_view text) { return text.starts_with("\x89HDF\r\n\x1a\n"); }}));
   verb.add_option("--format", options->format,
                   "csv, or hdf5 with units, events and the machine file; default: hdf5 for a file "
                   "that ends in .h5 or .hdf5, else csv")

@@ -94,7 +94,10 @@ Outcome run(const Options& options, Progress& progress) {
   }
   const auto replayed = trial::replay::replay(
       options.record, *machine,
-      [&progress](double share) { progress.update(share, "deciding again"); },
+      [&progress](double share) {
+        progress.update(share, "deciding again");
+        return true;
+      },
       options.machine.empty() ? trial::replay::Reloads::follow : trial::replay::Reloads::ignore);
   if (!replayed) {
     return refused(replayed.error());

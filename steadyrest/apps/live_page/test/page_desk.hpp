@@ -61,7 +61,8 @@ class PageDesk {
   web::Response ask(web::Request of) {
     of.cookie = cookie_;
     of.csrf = csrf_;
-    return api_.answer(of);
+    web::Response got = api_.answer(of);
+    return got.later ? got.later({}) : got;
   }
   web::Response ask(const std::string& method, const std::string& path,
                     const std::string& body = {}) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/apps/live_page/test/page_desk.hpp>
+#include <steadyrest/record/record_reader.hpp>
 
 namespace steadyrest::apps::live_page {
 namespace {
@@ -60,10 +61,18 @@ TEST_F(RecordsOnPage, AreDecidedAgain) {
 }
 
 TEST_F(RecordsOnPage, AreDownloadedWhole) {
-  const auto got = desk.ask("GET", "/api/v1/records/circle-start.sqlite/export");
-  EXPECT_EQ(std::filesystem::file_size(got.file),
-            std::filesystem::file_size(desk.desk().records + "/circle-start.sqlite"));
-  std::filesystem::remove(got.file);
+  const Json record = desk.json("GET", "/api/v1/records/circle-start.sqlite")["record"];
+  auto request = PageDesk::request("GET", "/api/v1/records/circle-start.sqlite/export");
+  for (const std::string format : record["formats"]) {
+    request.query["format"] = format;
+    const auto got = desk.ask(request);
+    EXPECT_EQ(got.status, 200U) << format << got.body;
+    EXPECT_GT(std::filesystem::file_size(got.file), 10'000U) << format;
+  }
+  const auto itself = desk.ask("GET", "/api/v1/records/circle-start.sqlite/export");
+  const auto copy = record::RecordReader::open(itself.file);
+  ASSERT_TRUE(copy.has_value());
+  EXPECT_EQ(copy->totals().samples, record["totals"]["samples"]);
 }
 
 TEST_F(RecordsOnPage, HaveNoOtherNames) {

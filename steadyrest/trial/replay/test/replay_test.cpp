@@ -73,7 +73,7 @@ TEST_F(Replay, FollowsAMachineFileThatTookOver) {
   EXPECT_EQ(replayed.reloads, 1U);
   EXPECT_EQ(replayed.cycles, cut.cycles);
   EXPECT_FALSE(replayed.first_difference);
-  const auto ignored = replay(file_, machine, [](double) {}, Reloads::ignore).value();
+  const auto ignored = replay(file_, machine, [](double) { return true; }, Reloads::ignore).value();
   EXPECT_EQ(ignored.reloads, 1U);
   ASSERT_TRUE(ignored.first_difference);
   EXPECT_GE(ignored.first_difference->cycle, 400U);

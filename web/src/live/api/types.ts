@@ -289,6 +289,7 @@ export interface RecordDetail {
   run: Record<string, unknown>;
   events: { t_s: number; kind: string; text: string }[];
   totals: Record<string, unknown>;
+  formats?: string[];
 }
 export interface RecordData {
   t_s: number[];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is drawn many times a second is drawn straight onto a canvas: a chart library would build its whole scene anew each time.
 import type { Theme } from '../../frame/theme';
-import { FONT } from '../../plot/font';
+import { FONT } from '../../frame/looks';
 import { h } from '../shell/h';
 
 export interface Area {

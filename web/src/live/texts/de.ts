@@ -268,7 +268,7 @@ export const de: Texts = {
   from: 'Ab',
   quantity: 'Größe',
   export: 'Export',
-  export_range: 'Die ganze Aufzeichnung. `steadyrest record export` macht CSV oder HDF5 daraus.',
+  export_range: 'Die ganze Aufzeichnung: wie sie ist, oder als Tabelle mit einer Zeile je Steuerungstakt.',
   replay: 'Nachrechnen',
   replay_hint: 'Entscheidet jeden Takt aus den aufgezeichneten Eingängen neu und vergleicht.',
   replay_same: '{cycles} Takte nachgerechnet: alle gleich.',

@@ -277,7 +277,7 @@ export const en = {
   from: 'From',
   quantity: 'Quantity',
   export: 'Export',
-  export_range: 'The whole record. `steadyrest record export` turns it into CSV or HDF5.',
+  export_range: 'The whole record: as it is, or as a table with a line for each control cycle.',
   replay: 'Replay',
   replay_hint: 'Decides every cycle again from the recorded inputs and compares.',
   replay_same: '{cycles} cycles decided again: all the same.',

@@ -268,7 +268,7 @@ export const ru: Texts = {
   from: 'С',
   quantity: 'Величина',
   export: 'Экспорт',
-  export_range: 'Вся запись. `steadyrest record export` делает из неё CSV или HDF5.',
+  export_range: 'Вся запись: как есть или в виде таблицы, по строке на каждый такт управления.',
   replay: 'Пересчёт',
   replay_hint: 'Заново принимает решение в каждом такте по записанным входам и сравнивает.',
   replay_same: 'Пересчитано тактов: {cycles}; все совпали.',

@@ -268,7 +268,7 @@ export const zh: Texts = {
   from: '起始',
   quantity: '物理量',
   export: '导出',
-  export_range: '整个记录。`steadyrest record export` 可将其转为 CSV 或 HDF5。',
+  export_range: '整个记录：原样导出，或导出为表格，每个控制周期一行。',
   replay: '重算',
   replay_hint: '根据记录的输入重新作出每个周期的决策并比较。',
   replay_same: '已重算 {cycles} 个周期：全部一致。',

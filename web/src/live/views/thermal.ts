@@ -60,6 +60,7 @@ function historyParts(context: Context): [Part, Part, Part, Part] {
     about.replaceChildren(facts(thermal));
   };
   const load = () => {
+    about.parentElement?.toggleAttribute('hidden', context.live.hello?.thermal === false);
     if (context.live.hello?.thermal === false) {
       place.replaceChildren(h('p', { class: 'none' }, t('thermal_none')));
       return;

@@ -116,31 +116,5 @@ TEST(MarkedLines, UndoIsExactForAnyText) {
   }));
 }
 
-// `patch` is the judge of the diff.
-TEST(UnifiedDiff, IsWhatPatchReads) {
-  if (std::system("command -v patch >/dev/null") != 0) {
-    GTEST_SKIP() << "patch is not installed";
-  }
-  EXPECT_EQ(unified_diff("f", "same\n", "same\n"), "");
-  EXPECT_EQ(unified_diff("f", "a\nb\n", "a\nc\n"), "--- f\n+++ f\n@@ -1,2 +1,2 @@\n a\n-b\n+c\n");
-  EXPECT_TRUE(rc::check([] {
-    const kernel::file::testing::OwnFolder folder;
-    const std::string before =
-        "0\n1\n2\n3\n4\n5\n" + *any_text(false) + "6\n7\n8\n9\n10\n11\n12\n13\n";
-    std::string after = before;
-    after.insert(after.find("2\n"), "new\n");
-    if (*rc::gen::arbitrary<bool>()) {
-      after += *rc::gen::element<std::string>("end", "end\n");
-      after.erase(after.find("9\n"), 2);
-    }
-    folder.file("f", before);
-    folder.file("diff", unified_diff("f", before, after));
-    const std::string command =
-        "cd '" + folder.path().string() + "' && patch -s -F0 -p0 <diff >/dev/null 2>&1";
-    RC_ASSERT(std::system(command.c_str()) == 0);
-    RC_ASSERT(kernel::file::testing::text_of_file(folder.at("f")) == after);
-  }));
-}
-
 }  // namespace
 }  // namespace steadyrest::adapters::linuxcnc::config

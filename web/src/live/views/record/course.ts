@@ -104,14 +104,14 @@ class Slider {
 
 const SLIDING_MS = 120;
 
-export function recordCourse({ api }: Context, name: string): Part {
+/** `exports` are shown below it. */
+export function recordCourse({ api }: Context, name: string, exports: HTMLElement): Part {
   const base = `records/${encodeURIComponent(name)}`;
   const drawn = new Plotted('course', 'high');
   const body = h('div', {}, drawn.root);
   let column: ColumnName = COLUMNS[0];
   let asked = 0;
   let timer = 0;
-  const link = h('a', { class: 'button', download: '', id: 'export', href: `/api/v1/${base}/export` }, 'SQLite');
   const load = async (range?: Range) => {
     const mine = ++asked;
     const part = range ? `from_s=${range.from}&to_s=${range.to}&` : '';
@@ -139,7 +139,7 @@ export function recordCourse({ api }: Context, name: string): Part {
   quantity.id = 'quantity';
   void load().then((data) => data && slider.start(data.t_s.at(-1) ?? 0));
   return {
-    root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, h('div', { class: 'actions exports' }, h('span', {}, t('export')), link, h('span', { class: 'hint' }, t('export_range')))),
+    root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, exports),
     redraw: (theme) => void drawn.redraw(theme),
     close: () => {
       window.clearTimeout(timer);

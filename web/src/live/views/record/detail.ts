@@ -8,6 +8,7 @@ import { problem, problemText } from '../../shell/problem';
 import { addressOf } from '../../shell/route';
 import { t } from '../../texts/texts';
 import { recordCourse } from './course';
+import { exportLinks } from './export';
 import { type Part, columns } from '../part';
 
 function valueOf(value: unknown): string {
@@ -74,12 +75,14 @@ export function recordDetail(context: Context, name: string): LiveView {
   const run = h('div', {}, h('p', { class: 'none' }, t('loading')));
   const events = h('div', {});
   const totals = h('div', {});
-  const course = recordCourse(context, name);
+  const exports = exportLinks(name);
+  const course = recordCourse(context, name, exports.root);
   const load = () => {
     context.api
       .get<{ record: RecordDetail }>(`records/${encodeURIComponent(name)}`)
       .then(({ record }) => {
         run.replaceChildren(list(record.run ?? {}));
+        exports.offer(record.formats ?? ['sqlite']);
         events.replaceChildren(eventTable(record.events ?? []));
         totals.replaceChildren(list(record.totals ?? {}));
       })

@@ -1,21 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 
-#include <steadyrest/adapters/linuxcnc/config/marked_lines.hpp>
-#include <steadyrest/adapters/linuxcnc/config/text_lines.hpp>
+#include <steadyrest/kernel/file/unified_diff.hpp>
 
-// A configuration's files have hundreds of lines, and a setup changes a few: the plain quadratic
+// The files of a machine have hundreds of lines, and a change concerns a few: the plain quadratic
 // table is small once the common head and tail are cut off.
-namespace steadyrest::adapters::linuxcnc::config {
+namespace steadyrest::kernel::file {
 namespace {
 
 struct DiffLine {
   char sign = ' ';
   std::string text;
 };
+
+/// With their ends; only the last may have none.
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> out;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
+    out.emplace_back(text.substr(0, size));
+    text.remove_prefix(size);
+  }
+  return out;
+}
 
 /// The longest common subsequence of the two middles.
 void middle(const std::vector<std::string>& a, const std::vector<std::string>& b, std::size_t first,
@@ -125,4 +138,4 @@ std::string unified_diff(const std::string& file, const std::optional<std::strin
                      out);
 }
 
-}  // namespace steadyrest::adapters::linuxcnc::config
+}  // namespace steadyrest::kernel::file

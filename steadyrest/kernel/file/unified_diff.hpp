@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace steadyrest::kernel::file {
+
+/// A unified diff of two texts, for people to see and for `patch`. A text that is not there is
+/// /dev/null's. Empty where nothing differs.
+[[nodiscard]] std::string unified_diff(const std::string& file,
+                                       const std::optional<std::string>& before,
+                                       const std::optional<std::string>& after);
+
+}  // namespace steadyrest::kernel::file
