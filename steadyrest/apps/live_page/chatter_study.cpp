@@ -204,8 +204,8 @@ Result<Json> ChatterStudy::make_lobes() {
   return Json{
       {"map",
        {{"speed_rpm", rpm(speeds)},
-        {"depth_mm", rounded(depths, 1e-4)},
-        {"log_radius", rounded(log_radius, 1e-4)}}},
+        {"depth_mm", each_rounded(depths, 1e-4)},
+        {"log_radius", each_rounded(log_radius, 1e-4)}}},
       {"border", {{"speed_rpm", std::move(border_rpm)}, {"depth_mm", std::move(border_mm)}}},
       {"depth_mm", depth_mm}};
 }
