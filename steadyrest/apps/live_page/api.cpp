@@ -206,7 +206,7 @@ web::Response Api::write(const Route& route, const Call& call) {
     return set_modulation(desk_, asked, author(call.caller));
   }
   if (route.path == "/api/v1/thermal/measured") {
-    return enter_measured(desk_, asked, author(call.caller));
+    return enter_measured(desk_, heat_, asked, author(call.caller));
   }
   if (route.path == "/api/v1/machine/check") {
     return check_machine(desk_, asked);

@@ -16,10 +16,11 @@ using kernel::machine::ThermalAxis;
 using kernel::units::um_from_mm;
 
 constexpr double kEvery_s = 10.0;
-constexpr std::size_t kMost = 4320;    ///< of twelve hours
-constexpr std::size_t kShown = 1080;   ///< points of a plot
-constexpr std::size_t kLately = 60;    ///< ten minutes, that the forecast repeats
-constexpr double kTime_s = 1e-3;       ///< digits of a time
+constexpr std::size_t kMost = 4320;   ///< of twelve hours
+constexpr std::size_t kShown = 1080;  ///< points of a plot
+constexpr std::size_t kLately = 60;   ///< ten minutes, that the forecast repeats
+constexpr double kTime_s = 1e-3;      ///< digits of a time
+constexpr std::size_t kMostReadings = 50;
 constexpr double kOutlook_s = 3600.0;  ///< of the forecast
 
 Json modes_json(const ThermalAxis& axis) {
@@ -104,6 +105,15 @@ Json next_json(const std::optional<Outlook>& outlook, const Machine& machine) {
 
 }  // namespace
 
+void HeatHistory::add_reading(Json reading) {
+  reading["t_s"] = rounded(desk_.asked.loop.status().time_s, kTime_s);
+  const std::scoped_lock lock(mutex_);
+  readings_.push_back(std::move(reading));
+  if (readings_.size() > kMostReadings) {
+    readings_.pop_front();
+  }
+}
+
 void HeatHistory::update(double now_s) {
   const steadyrest::live::LiveStatus status = desk_.asked.loop.status();
   const steadyrest::live::HeatNow& now = desk_.tap.heat();
@@ -151,8 +161,12 @@ Stretch HeatHistory::between(const Entry& from, const Entry& to) {
 
 HeatHistory::Seen HeatHistory::seen() const {
   const std::scoped_lock lock(mutex_);
-  Seen out{
-      .entries = {}, .lately = {}, .corrections = corrections_, .now = now_, .corrects = corrects_};
+  Seen out{.entries = {},
+           .lately = {},
+           .corrections = corrections_,
+           .now = now_,
+           .corrects = corrects_,
+           .readings = Json(readings_)};
   // Every n-th from the newest on: sums of what the room was given lose nothing between them.
   const std::size_t stride = (entries_.size() + kShown - 1) / kShown;
   for (std::size_t back = 0; back < entries_.size(); back += stride) {
@@ -227,7 +241,7 @@ web::Response HeatHistory::show() const {
                        {"outlook", outlook_json(ahead, machine)},
                        {"corrections", corrections_json(seen.corrections, ahead, machine)},
                        {"next", next_json(ahead, machine)},
-                       {"readings", Json::array()}};
+                       {"readings", seen.readings}};
   return answer({{"thermal", std::move(thermal_json)}});
 }
 

@@ -22,6 +22,9 @@ class HeatHistory {
 
   /// Some 30 times a second.
   void update(double now_s);
+  /// A measured size that somebody has entered: `axis`, `displacement_um`, and its verdict. The
+  /// newest fifty are kept.
+  void add_reading(Json reading);
   /// `share_k`, `passports`, `history`, `cyclogram`, `outlook`, `corrections`, `next`, `readings`.
   [[nodiscard]] web::Response show() const;
 
@@ -40,6 +43,7 @@ class HeatHistory {
     Corrections corrections;
     steadyrest::live::HeatNow now;
     bool corrects = false;
+    Json readings;
   };
 
   void note(double now_s, const steadyrest::live::LiveStatus& status);
@@ -56,6 +60,7 @@ class HeatHistory {
   Corrections corrections_;
   steadyrest::live::HeatNow now_;
   bool corrects_ = false;
+  std::deque<Json> readings_;
 };
 
 }  // namespace steadyrest::apps::live_page

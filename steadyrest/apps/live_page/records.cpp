@@ -11,9 +11,9 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/live_page/past_runs/course.hpp>
+#include <steadyrest/apps/live_page/past_runs/event_words.hpp>
 #include <steadyrest/apps/live_page/past_runs/export.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
-#include <steadyrest/live/wish/wish_words.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/run_folder.hpp>
@@ -81,18 +81,6 @@ double number(const Query& query, const char* key, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
 
-/// The whole machine file is long, and it is not what people look for here.
-std::string words_of(const record::Event& event) {
-  switch (event.kind) {
-    case record::EventKind::reload:
-      return "another machine file took over";
-    case record::EventKind::wish:
-      return steadyrest::live::wish_words(event.text);
-    default:
-      return event.text;
-  }
-}
-
 web::Response details(const std::string& file, const std::string& name) {
   const auto reader = RecordReader::open(file);
   if (!reader) {
@@ -102,8 +90,9 @@ web::Response details(const std::string& file, const std::string& name) {
   const auto& totals = reader->totals();
   Json events = Json::array();
   for (const record::Event& event : reader->events()) {
-    events.push_back(
-        {{"t_s", event.time_s}, {"kind", record::word(event.kind)}, {"text", words_of(event)}});
+    events.push_back({{"t_s", event.time_s},
+                      {"kind", record::word(event.kind)},
+                      {"text", past_runs::event_words(event)}});
   }
   return answer({{"record",
                   {{"run",

@@ -28,15 +28,24 @@ web::Response set_modulation(const Desk& desk, const Json& asked, const std::str
                                     std::get<chatter::online::Modulation>(wish->what))}});
 }
 
-web::Response enter_measured(const Desk& desk, const Json& asked, const std::string& author) {
+web::Response enter_measured(const Desk& desk, HeatHistory& heat, const Json& asked,
+                             const std::string& author) {
   const auto wish =
       steadyrest::live::measured_wish(asked, machine_in_force(desk), "page: " + author);
   if (!wish) {
     return refused(wish.error());
   }
   const auto done = steadyrest::live::granted(desk.asked.loop.ask(*wish));
-  return done ? answer({{"verdict", steadyrest::live::verdict_json(*done)}})
-              : refused(done.error());
+  if (!done) {
+    return refused(done.error());
+  }
+  const Json verdict = steadyrest::live::verdict_json(*done);
+  Json reading = verdict;
+  reading["axis"] = asked["axis"];
+  reading["displacement_um"] = asked["displacement_um"];
+  reading["author"] = author;
+  heat.add_reading(std::move(reading));
+  return answer({{"verdict", verdict}});
 }
 
 }  // namespace steadyrest::apps::live_page

@@ -18,18 +18,6 @@ struct DiffLine {
   std::string text;
 };
 
-/// With their ends; only the last may have none.
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> out;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
-    out.emplace_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return out;
-}
-
 /// The longest common subsequence of the two middles.
 void middle(const std::vector<std::string>& a, const std::vector<std::string>& b, std::size_t first,
             std::size_t a_end, std::size_t b_end, std::vector<DiffLine>& out) {
@@ -111,6 +99,17 @@ std::string hunk(const std::vector<DiffLine>& lines, std::size_t begin, std::siz
 }
 
 }  // namespace
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> out;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
+    out.emplace_back(text.substr(0, size));
+    text.remove_prefix(size);
+  }
+  return out;
+}
 
 std::string unified_diff(const std::string& file, const std::optional<std::string>& before,
                          const std::optional<std::string>& after) {

@@ -3,8 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace steadyrest::kernel::file {
+
+/// Lines with their ends; only the last may have none. Joined they are the text again.
+[[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
 
 /// A unified diff of two texts, for people to see and for `patch`. A text that is not there is
 /// /dev/null's. Empty where nothing differs.

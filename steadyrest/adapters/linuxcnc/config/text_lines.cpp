@@ -36,17 +36,6 @@ kernel::outcome::Result<std::string> read_text(const std::string& path) {
   return text;
 }
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> out;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::size_t size = end == std::string_view::npos ? text.size() : end + 1;
-    out.emplace_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return out;
-}
-
 std::string_view trimmed(std::string_view text) noexcept {
   const std::size_t first = text.find_first_not_of(kBlank);
   return first == std::string_view::npos

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <steadyrest/kernel/file/unified_diff.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::linuxcnc::config {
@@ -13,8 +14,7 @@ namespace steadyrest::adapters::linuxcnc::config {
 /// A configuration's file as text. Refused: none there, a folder, over 4 MB, binary.
 [[nodiscard]] kernel::outcome::Result<std::string> read_text(const std::string& path);
 
-/// Lines with their ends; only the last may have none. Joined they are the text again.
-[[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
+using kernel::file::lines_of;
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 

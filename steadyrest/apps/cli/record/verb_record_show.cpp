@@ -10,8 +10,8 @@
 
 #include <steadyrest/apps/cli/record/verb_record_show.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/live_page/past_runs/event_words.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
-#include <steadyrest/live/wish/wish_words.hpp>
 #include <steadyrest/record/record_reader.hpp>
 
 namespace steadyrest::apps::cli {
@@ -53,18 +53,6 @@ Result<Seen> look(record::RecordReader& reader, Progress& progress) {
   }
 }
 
-/// The whole machine file and the exact values are for --json.
-std::string words_of(const record::Event& event) {
-  switch (event.kind) {
-    case EventKind::reload:
-      return "another machine file took over";
-    case EventKind::wish:
-      return steadyrest::live::wish_words(event.text);
-    default:
-      return event.text;
-  }
-}
-
 Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
   const auto& run = reader.run();
   const auto& totals = reader.totals();
@@ -97,7 +85,8 @@ Answer answer_of(const record::RecordReader& reader, const Seen& seen) {
   }
   answer.text += reasons.text();
   for (const record::Event& event : reader.events()) {
-    const std::string words = words_of(event);
+    // The whole machine file and the exact values are for --json.
+    const std::string words = live_page::past_runs::event_words(event);
     answer.json["events"].push_back({{"time_s", event.time_s},
                                      {"before", event.before},
                                      {"kind", record::word(event.kind)},

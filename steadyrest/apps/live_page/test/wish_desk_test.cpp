@@ -91,6 +91,13 @@ TEST_F(WishDesk, AnOperatorEntersAMeasuredSize) {
   EXPECT_EQ(outlier["taken"], false);
   EXPECT_EQ(outlier["reason"], "thermal_reading_outlier");
   EXPECT_THAT(outlier["sentence"].get<std::string>(), HasSubstr("rejected"));
+  const Json kept = desk.json("GET", "/api/v1/thermal")["thermal"]["readings"];
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0]["axis"], "Z");
+  EXPECT_EQ(kept[0]["displacement_um"], 0.5);
+  EXPECT_EQ(kept[0]["taken"], true);
+  EXPECT_EQ(kept[1]["reason"], "thermal_reading_outlier");
+  EXPECT_EQ(kept[1]["author"], "otto (operator)");
   stop();
   EXPECT_THAT(desk.wishes, ElementsAre("measure 2 Z 5e-04 0.001 taken page: otto (operator)",
                                        "measure 2 Z 5 0.001 rejected page: otto (operator)"));
