@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/live/wish/wish_json.hpp>
@@ -44,10 +45,11 @@ std::string grant(const Asked& of, const Json& request, bool modulates) {
 }  // namespace
 
 std::string answer(const Asked& of, std::string_view line) {
-  const Json request = Json::parse(line, nullptr, false);
-  if (!request.is_object()) {
+  const auto read = kernel::file::json_object(line);
+  if (!read) {
     return error("the line is no JSON object", R"(send {"version":1,"ask":"status"})");
   }
+  const Json& request = *read;
   if (request.value("version", Json()) != Json(kProtocol)) {
     return error(fmt::format("version {} is not spoken here; allowed: {}",
                              shown(request.value("version", Json())), kProtocol),

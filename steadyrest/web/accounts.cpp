@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/web/accounts.hpp>
 #include <steadyrest/web/secret.hpp>
@@ -112,11 +113,11 @@ Result<Accounts> Accounts::read(const std::string& file) {
   if (!text) {
     return std::unexpected(std::move(text.error()));
   }
-  const Json root = Json::parse(*text, nullptr, false);
+  const auto root = kernel::file::json_object(*text);
   Accounts out;
-  if (!root.is_object() || root.value("version", Json()) != Json(kVersion) ||
-      !read_list(root, "users", "argon2id", out.users_) ||
-      !read_list(root, "tokens", "sha256", out.tokens_)) {
+  if (!root || root->value("version", Json()) != Json(kVersion) ||
+      !read_list(*root, "users", "argon2id", out.users_) ||
+      !read_list(*root, "tokens", "sha256", out.tokens_)) {
     return refuse(file, "is no file of accounts", kAdd);
   }
   return out;

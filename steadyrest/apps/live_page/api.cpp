@@ -14,6 +14,7 @@
 #include <steadyrest/apps/live_page/machine_desk.hpp>
 #include <steadyrest/apps/live_page/records.hpp>
 #include <steadyrest/apps/live_page/wish_desk.hpp>
+#include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/web/gate.hpp>
@@ -39,7 +40,7 @@ constexpr std::array<Route, 19> kRoutes = {{
     {"POST", "/api/v1/hand-back"},
     {"POST", "/api/v1/modulation", false, Role::operating},
     {"GET", "/api/v1/machine"},
-    {"POST", "/api/v1/machine/check"},
+    {"POST", "/api/v1/machine/check", false, Role::engineer},
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
     {"GET", "/api/v1/motion"},
@@ -192,10 +193,11 @@ web::Response Api::run(const Route& route, const Call& call) {
 }
 
 web::Response Api::write(const Route& route, const Call& call) {
-  const Json asked = Json::parse(call.request.body, nullptr, false);
-  if (!asked.is_object()) {
+  const auto body = kernel::file::json_object(call.request.body);
+  if (!body) {
     return web::error(400, "bad_request", "the body is no JSON object", "send {…}");
   }
+  const Json& asked = *body;
   if (route.path == "/api/v1/mode") {
     return set_mode(call, asked);
   }
@@ -209,10 +211,13 @@ web::Response Api::write(const Route& route, const Call& call) {
     return enter_measured(desk_, heat_, asked, author(call.caller));
   }
   if (route.path == "/api/v1/machine/check") {
-    return check_machine(desk_, asked);
+    return later([this, asked](const std::stop_token&) { return check_machine(desk_, asked); });
   }
   if (route.path == "/api/v1/machine/apply") {
-    return apply_machine(desk_, asked, author(call.caller));
+    return later([this, asked, by = author(call.caller)](const std::stop_token&) {
+      const std::scoped_lock lock(applying_);
+      return apply_machine(desk_, asked, by);
+    });
   }
   if (call.rest.ends_with(kReplay)) {
     return minutes(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,6 +60,7 @@ class Api {
   [[nodiscard]] web::Response set_mode(const Call& call, const Json& asked);
   [[nodiscard]] web::Response hand_back(const Call& call);
 
+  std::mutex applying_;  ///< one change of the machine file at a time
   const Desk& desk_;
   Login login_;
   StreamText stream_;

@@ -7,6 +7,7 @@
 
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
+#include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/web/gate.hpp>
 #include <steadyrest/web/secret.hpp>
 
@@ -104,12 +105,12 @@ std::optional<Login::Known> Login::check(const std::string& name, const std::str
 }
 
 web::Response Login::begin(const web::Request& request, double now_s) {
-  const Json asked = Json::parse(request.body, nullptr, false);
-  if (!asked.is_object()) {
+  const auto asked = kernel::file::json_object(request.body);
+  if (!asked) {
     return web::error(400, "bad_request", "the body is no JSON object",
                       R"(send {"name":…,"password":…} or {"key":…})");
   }
-  const std::string name = text(asked, "name");
+  const std::string name = text(*asked, "name");
   // Of an account from anywhere, and of an address with any account.
   const std::string of_name = "name " + name;
   if (!failures_.has_room(request.address, now_s) || !failures_.has_room(of_name, now_s)) {
@@ -120,7 +121,7 @@ web::Response Login::begin(const web::Request& request, double now_s) {
     out.head.emplace_back("Retry-After", fmt::format("{}", std::ceil(wait_s)));
     return out;
   }
-  const auto known = check(name, text(asked, "password"), text(asked, "key"));
+  const auto known = check(name, text(*asked, "password"), text(*asked, "key"));
   if (!known) {
     static_cast<void>(failures_.take(request.address, now_s));
     static_cast<void>(failures_.take(of_name, now_s));

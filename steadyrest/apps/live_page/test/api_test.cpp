@@ -185,6 +185,18 @@ TEST_F(PageApi, ASessionFollowsItsAccount) {
   EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 401U) << "of the old password";
 }
 
+// Copies of such a value would go as deep down the stack.
+TEST_F(PageApi, RefusesWhatIsNestedWithoutEnd) {
+  log_in("anna");
+  const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+  for (const Route& route : Api::routes()) {
+    if (route.method == "POST") {
+      const auto got = desk.ask("POST", address_of(route), R"({"mode":)" + deep + "}");
+      EXPECT_EQ(got.status, 400U) << route.path;
+    }
+  }
+}
+
 TEST_F(PageApi, NamesTheMethodsOfAnAddress) {
   log_in("anna");
   const auto got = desk.ask("PUT", "/api/v1/session");
