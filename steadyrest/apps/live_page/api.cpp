@@ -40,7 +40,7 @@ constexpr std::array<Route, 19> kRoutes = {{
     {"POST", "/api/v1/hand-back"},
     {"POST", "/api/v1/modulation", false, Role::operating},
     {"GET", "/api/v1/machine"},
-    {"POST", "/api/v1/machine/check", false, Role::engineer},
+    {"POST", "/api/v1/machine/check", false, Role::operating},
     {"POST", "/api/v1/machine/apply", false, Role::engineer},
     {"GET", "/api/v1/thermal"},
     {"GET", "/api/v1/motion"},
