@@ -123,6 +123,7 @@ describe('a stream that drops', () => {
     mock.logIn('viewer');
     const { page, context } = await open(address);
     await until(page, `document.querySelector('#connection').textContent === 'Live'`);
+    await page.click('#settings');
     await page.click('#log-out');
     await page.waitForSelector('#by-password');
     await page.fill('[name=name]', 'olga');
