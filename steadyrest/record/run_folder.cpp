@@ -27,7 +27,7 @@ std::uint64_t size_of(const fs::path& file) {
   return error ? 0 : bytes;
 }
 
-constexpr auto kLately = std::chrono::seconds(10);
+constexpr auto kLately = std::chrono::seconds(5);
 
 constexpr std::string_view kEnding = ".sqlite";
 

@@ -28,7 +28,7 @@ struct RunFile {
 /// cannot be read.
 [[nodiscard]] kernel::outcome::Result<std::vector<RunFile>> run_files(const std::string& folder);
 
-/// Whether the file was written to in the last 10 s. A writer commits every second, so a record
+/// Whether the file was written to in the last 5 s. A writer commits every second, so a record
 /// that was not closed and is not written to has ended with its writer.
 [[nodiscard]] bool written_lately(const std::string& file);
 
