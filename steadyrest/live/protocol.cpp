@@ -61,8 +61,8 @@ std::string answer(const Asked& of, std::string_view line) {
     status["mode_wanted"] = word(of.loop.mode_wanted());  // asked for since the last cycle
     status["port"] = of.port;
     status["reload"] = of.reloader != nullptr ? reload_json(of.reloader->status()) : Json();
-    if (of.of_port) {
-      status.update(of.of_port());
+    if (of.more_keys) {
+      status.update(of.more_keys());
     }
     return line_of({{"version", kProtocol}, {"status", std::move(status)}});
   }

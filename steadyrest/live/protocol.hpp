@@ -19,8 +19,8 @@ struct Asked {
   Loop& loop;
   std::string_view port;         ///< of the machine file
   Reloader* reloader = nullptr;  ///< null: the machine file is not read again
-  /// More keys of the status, of the port; empty: none.
-  std::function<Json()> of_port = {};  // NOLINT(readability-redundant-member-init)
+  /// More keys of the status, of the port and the record; empty: none. From any thread.
+  std::function<Json()> more_keys = {};  // NOLINT(readability-redundant-member-init)
 };
 
 /// The answer to a client's line; an error says what was seen, what is allowed and what to do.

@@ -57,6 +57,16 @@ void look_ahead(const Frame& frame, PathAhead& into) noexcept {
 
 }  // namespace
 
+void Tap::watch(bool on) noexcept {
+  if (on && !watched_.load(std::memory_order_relaxed)) {
+    while (samples_->try_pop()) {
+    }
+    while (readings_->try_pop()) {
+    }
+  }
+  watched_.store(on, std::memory_order_relaxed);
+}
+
 void Tap::put(const LiveStatus& status, const Frame& frame) noexcept {
   if (!watched_.load(std::memory_order_relaxed)) {
     return;

@@ -69,8 +69,9 @@ class Tap {
  public:
   Tap() : samples_(std::make_unique<Samples>()), readings_(std::make_unique<Readings>()) {}
 
-  /// Only while somebody watches; from any thread.
-  void watch(bool on) noexcept { watched_.store(on, std::memory_order_relaxed); }
+  /// Only while somebody watches; of the thread that takes. When watching begins, what is left of
+  /// an earlier time is dropped.
+  void watch(bool on) noexcept;
 
   /// In the cycle, with the frame as it was read: its path lies there.
   void put(const LiveStatus& status, const kernel::signal::Frame& frame) noexcept;

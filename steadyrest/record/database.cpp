@@ -15,6 +15,9 @@ using kernel::outcome::Refusal;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
+/// After a writer that was killed the first reader recovers its log, and the others wait for that.
+constexpr int kMostWait_ms = 10'000;
+
 Refusal fault(sqlite3* database, const std::string& file) {
   const int code = sqlite3_errcode(database);
   const std::string said = sqlite3_errmsg(database);
@@ -145,7 +148,11 @@ Result<Database> Database::open(const std::string& file) {
   if (!std::filesystem::is_regular_file(file, error)) {
     return refuse(file, "there is no such file", "name a file that Steadyrest has recorded");
   }
-  return open(file, SQLITE_OPEN_READONLY);
+  auto database = open(file, SQLITE_OPEN_READONLY);
+  if (database) {
+    sqlite3_busy_timeout(database->database_.get(), kMostWait_ms);
+  }
+  return database;
 }
 
 Result<Database> Database::open_to_change(const std::string& file) {

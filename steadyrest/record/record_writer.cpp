@@ -204,10 +204,17 @@ class RecordWriter::Thread {
 
   /// The first failure ends the record.
   void keep(Result<void> written) {
-    if (!written && !cycle_.failed) {
+    if (written || cycle_.failed) {
+      return;
+    }
+    const Refusal fault = std::move(written.error());
+    {
       const std::scoped_lock lock(mutex_);
-      fault_ = std::move(written.error());
+      fault_ = fault;
       cycle_.failed = true;
+    }
+    if (config_.on_fault) {
+      config_.on_fault(fault);
     }
   }
 

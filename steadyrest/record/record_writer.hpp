@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,9 @@ class RecordWriter {
     /// removed first. 0: none.
     std::uint64_t max_bytes = 0;
     double keep_last_s = 30.0;  ///< [1, 3600]: what keep() copies
+    /// Told once, of the writer's thread, when the record ends before its run; empty: nobody.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::function<void(const kernel::outcome::Refusal&)> on_fault = {};
   };
 
   /// Makes the file. Refuses one that exists, and a folder that cannot be written.

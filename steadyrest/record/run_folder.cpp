@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <iterator>
@@ -24,6 +26,8 @@ std::uint64_t size_of(const fs::path& file) {
   const auto bytes = fs::file_size(file, error);
   return error ? 0 : bytes;
 }
+
+constexpr auto kLately = std::chrono::seconds(10);
 
 constexpr std::string_view kEnding = ".sqlite";
 
@@ -96,6 +100,17 @@ Result<std::vector<RunFile>> run_files(const std::string& folder) {
   // A second run of the same second has the longer name and comes after the first.
   std::ranges::sort(files, {}, [](const RunFile& file) { return stem_of(file.file); });
   return files;
+}
+
+// By the times of the files alone: a lock would also be a reader's, and to look for it would drop
+// those of this process.
+bool written_lately(const std::string& file) {
+  const auto now = fs::file_time_type::clock::now();
+  return std::ranges::any_of(std::array{file, file + "-wal"}, [&](const std::string& at) {
+    std::error_code error;
+    const auto written = fs::last_write_time(at, error);
+    return !error && std::chrono::abs(now - written) < kLately;
+  });
 }
 
 void rotate(const std::string& current, std::uint64_t max_bytes) {

@@ -28,6 +28,10 @@ struct RunFile {
 /// cannot be read.
 [[nodiscard]] kernel::outcome::Result<std::vector<RunFile>> run_files(const std::string& folder);
 
+/// Whether the file was written to in the last 10 s. A writer commits every second, so a record
+/// that was not closed and is not written to has ended with its writer.
+[[nodiscard]] bool written_lately(const std::string& file);
+
 /// Removes the oldest runs from the folder of `current` until the rest holds at most `max_bytes`.
 /// Never removes `current` or a file with a name that is not run_name()'s. What cannot be removed
 /// stays.

@@ -44,6 +44,10 @@ struct Desk {
   kernel::machine::Machine machine;  ///< that the run began with
   std::string machine_file;
   std::string records;  ///< folder of past runs; empty: none
+  /// The name of the record that this run is writing now; an empty name: it writes none. From any
+  /// thread.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::function<std::string()> writing = {};
   /// What `doctor` finds in a machine file.
   std::function<std::vector<passport::Finding>(const kernel::machine::Machine&)> findings;
   double cycle_s = 0.001;

@@ -57,7 +57,14 @@ std::optional<std::string> file_of(const Desk& desk, const std::string& name) {
   return std::nullopt;
 }
 
-Json json_of(const record::RunFile& file, const RecordReader& reader) {
+/// By this run, or by another that still is at it.
+bool is_written(const Desk& desk, const std::string& file, const RecordReader& reader) {
+  return !reader.totals().closed &&
+         ((desk.writing && fs::path(file).filename() == desk.writing()) ||
+          record::written_lately(file));
+}
+
+Json json_of(const Desk& desk, const record::RunFile& file, const RecordReader& reader) {
   const auto& run = reader.run();
   const auto& totals = reader.totals();
   const std::string name = fs::path(file.file).filename();
@@ -69,6 +76,7 @@ Json json_of(const record::RunFile& file, const RecordReader& reader) {
           {"samples", totals.samples},
           {"bytes", file.bytes},
           {"closed", totals.closed},
+          {"writing", is_written(desk, file.file, reader)},
           {"fault", name.starts_with("fault-")}};
 }
 
@@ -81,7 +89,7 @@ double number(const Query& query, const char* key, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
 
-web::Response details(const std::string& file, const std::string& name) {
+web::Response details(const Desk& desk, const std::string& file, const std::string& name) {
   const auto reader = RecordReader::open(file);
   if (!reader) {
     return unreadable(reader.error());
@@ -106,7 +114,8 @@ web::Response details(const std::string& file, const std::string& name) {
                     {{"samples", totals.samples},
                      {"seconds", static_cast<double>(totals.samples) * run.cycle_s},
                      {"dropped", totals.dropped},
-                     {"closed", totals.closed}}},
+                     {"closed", totals.closed},
+                     {"writing", is_written(desk, file, *reader)}}},
                    {"events", std::move(events)},
                    {"formats", past_runs::export_formats()}}}});
 }
@@ -148,7 +157,7 @@ web::Response list_records(const Desk& desk, const Query& query, const std::stop
       if (!reader) {
         continue;  // it may be removed or begun at this moment
       }
-      Json entry = json_of(file, *reader);
+      Json entry = json_of(desk, file, *reader);
       const std::string all = small(entry["name"].get<std::string>() + "\n" +
                                     reader->run().machine + "\n" + reader->run().program);
       if (words.empty() || all.find(words) != std::string::npos) {
@@ -169,7 +178,7 @@ web::Response show_record(const Desk& desk, past_runs::Overviews& overviews,
     return no_record(name);
   }
   if (what.empty()) {
-    return details(*file, name);
+    return details(desk, *file, name);
   }
   if (what == "data") {
     return data(*file, overviews, asked);

@@ -207,8 +207,8 @@ std::string StreamText::frame() {
   Json keys = steadyrest::live::status_json(status);
   keys["mode_wanted"] = steadyrest::live::word(desk_.asked.loop.mode_wanted());
   keys["port"] = desk_.asked.port;
-  if (desk_.asked.of_port) {
-    keys.update(desk_.asked.of_port());
+  if (desk_.asked.more_keys) {
+    keys.update(desk_.asked.more_keys());
   }
   const double rate_hz = desk_.tap.take_vibration(readings_);
   spectrum_.add(readings_, rate_hz);

@@ -57,6 +57,24 @@ TEST(Tap, HasEveryCycleOnceAndThePathAhead) {
             5.0);
 }
 
+TEST(Tap, HasNothingOfTheTimeBeforeSomebodyWatches) {
+  Desk desk;
+  Tap tap;
+  tap.watch(true);
+  Loop loop(*desk.port, *desk.layer, desk.pace, tapped(desk, tap, 200));
+  loop.run();
+  tap.watch(true);  // still
+  std::vector<TapSample> samples;
+  tap.take(samples);
+  EXPECT_EQ(samples.size(), 200U);
+  Loop more(*desk.port, *desk.layer, desk.pace, tapped(desk, tap, 50));
+  more.run();
+  tap.watch(false);
+  tap.watch(true);
+  tap.take(samples);
+  EXPECT_TRUE(samples.empty());
+}
+
 TEST(Tap, CarriesTheVibrationOfEachCycleInOrder) {
   Tap tap;
   kernel::signal::Frame frame;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <barrier>
 #include <csignal>
+#include <string>
+#include <thread>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -30,9 +34,8 @@ constexpr int kCommitted = 1000;
   }
 }
 
-TEST(KilledWriter, LeavesEveryTransactionThatItMade) {
-  const test::Folder folder;
-  const std::string file = folder.file("a.sqlite");
+/// Its log lies beside the record and has to be recovered.
+void kill_a_writer(const std::string& file) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   const pid_t child = fork();
@@ -45,6 +48,12 @@ TEST(KilledWriter, LeavesEveryTransactionThatItMade) {
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   close(ends[0]);
   close(ends[1]);
+}
+
+TEST(KilledWriter, LeavesEveryTransactionThatItMade) {
+  const test::Folder folder;
+  const std::string file = folder.file("a.sqlite");
+  ASSERT_NO_FATAL_FAILURE(kill_a_writer(file));
 
   auto reader = RecordReader::open(file).value();
   EXPECT_FALSE(reader.totals().closed);
@@ -55,6 +64,29 @@ TEST(KilledWriter, LeavesEveryTransactionThatItMade) {
     EXPECT_EQ(test::bits_of(sample), test::bits_of(test::any_sample(random)));
   }
   EXPECT_FALSE(reader.next(sample).value());
+}
+
+// Whoever opens the record first recovers the log, and nobody else can read it meanwhile.
+TEST(KilledWriter, LeavesARecordThatSeveralReadersOpenAtOnce) {
+  constexpr int kRounds = 50;
+  const test::Folder folder;
+  const std::string file = folder.file("a.sqlite");
+  ASSERT_NO_FATAL_FAILURE(kill_a_writer(file));
+  for (int round = 0; round < kRounds; ++round) {
+    std::barrier together(2);
+    std::array<std::string, 2> refused;
+    const auto read = [&](std::string& into) {
+      together.arrive_and_wait();
+      const auto reader = RecordReader::open(file);
+      into = reader ? "" : reader.error().what;
+      together.arrive_and_wait();  // the next round recovers again
+    };
+    {
+      const std::jthread other([&] { read(refused[1]); });
+      read(refused[0]);
+    }
+    ASSERT_EQ(refused[0] + refused[1], "") << round;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -44,6 +45,24 @@ TEST(RunFolder, ASecondRunInASecondHasANumberAndIsLater) {
   rotate(folder.file("run-20260101T000000Z-2.sqlite"), 1);
   EXPECT_FALSE(std::filesystem::exists(folder.file("run-20260101T000000Z.sqlite")));
   EXPECT_TRUE(std::filesystem::exists(folder.file("run-20260101T000000Z-2.sqlite")));
+}
+
+TEST(RunFolder, ARecordIsWrittenToWhileItOrItsLogChanges) {
+  const test::Folder folder;
+  const std::string file = folder.file("a.sqlite");
+  EXPECT_FALSE(written_lately(file)) << "there is none";
+  put(file, 1);
+  EXPECT_TRUE(written_lately(file));
+  const auto shift = [&](int seconds) {
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(seconds));
+  };
+  shift(-60);
+  EXPECT_FALSE(written_lately(file));
+  shift(60);
+  EXPECT_FALSE(written_lately(file)) << "the clock was set back since";
+  put(file + "-wal", 1);
+  EXPECT_TRUE(written_lately(file));
 }
 
 TEST(RunFolder, ListsRecordsByName) {

@@ -36,7 +36,9 @@ export class App {
   private stream: Stream | undefined;
   private connection: Connection = { state: 'connecting' };
   private mode: Mode | undefined;
-  private missedBefore = 0;
+  /** When the last message came, and since when there have been none; of the wall clock, as a log-in may lie between. */
+  private heard: number | undefined;
+  private lost: number | undefined;
   private drawn = 0;
   private figures = 0;
 
@@ -114,6 +116,7 @@ export class App {
       // Said already: several answers may say so at once.
       return;
     }
+    this.lost ??= this.heard;
     this.stream?.close();
     this.closeView();
     document.querySelectorAll('dialog').forEach((d) => d.close());
@@ -154,14 +157,15 @@ export class App {
             this.context.machine = undefined;
           }
         }
+        this.heard = Date.now();
         this.watchMode();
-        this.sayWhatIsMissing();
+        if (message.type === 'frame') {
+          this.sayItIsBack();
+        }
       },
-      up: () => {
-        this.missedBefore = this.connection.state === 'down' ? live.missing.seconds : NaN;
-        this.connection = { state: 'live' };
-      },
+      up: () => (this.connection = { state: 'live' }),
       down: () => {
+        this.lost ??= this.heard;
         if (this.connection.state !== 'down') {
           this.connection = { state: 'down', since: new Date() };
           this.toast.say(t('lost'), true);
@@ -188,12 +192,21 @@ export class App {
     }
   }
 
-  /** Once the first samples after a break are in. */
-  private sayWhatIsMissing(): void {
-    const missing = this.context?.live.missing.seconds ?? 0;
-    if (!Number.isNaN(this.missedBefore) && missing > this.missedBefore) {
-      this.toast.say(t('back', { seconds: (missing - this.missedBefore).toFixed(1) }), true);
-      this.missedBefore = NaN;
+  /** With the first frame after a break. */
+  private sayItIsBack(): void {
+    if (this.lost !== undefined) {
+      this.toast.say(t('back', { seconds: ((Date.now() - this.lost) / 1000).toFixed(1) }), true);
+      this.lost = undefined;
+    }
+  }
+
+  private async logOut(): Promise<void> {
+    try {
+      await this.api.logOut();
+    } finally {
+      this.loggedOut(t('logged_out'));
+      // Whoever leaves misses nothing.
+      this.heard = this.lost = undefined;
     }
   }
 
@@ -215,7 +228,7 @@ export class App {
     }
     this.head = new Head(context);
     const main = h('main', { id: 'view', tabindex: -1 });
-    const menu = nav(context, { change: (s) => this.changeSettings(s), logOut: () => void this.api.logOut().finally(() => this.loggedOut(t('logged_out'))) });
+    const menu = nav(context, { change: (s) => this.changeSettings(s), logOut: () => void this.logOut() });
     const skip = h('a', { class: 'skip', href: '#view', onclick: (event) => { event.preventDefault(); main.focus(); } }, t('skip'));
     this.host.replaceChildren(skip, this.head.root, h('div', { class: 'second' }, menu, this.head.modes), main, stagedBar(context));
     this.head.machine();

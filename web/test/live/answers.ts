@@ -109,9 +109,9 @@ export function encoders(): EncoderAxis[] {
 }
 
 export const RECORDS: RecordRow[] = [
-  { name: 'rib-pocket-2026-01-02.sqlite', start_utc: '2026-01-02T08:04:05Z', machine: 'VMC with SINUMERIK 840D', program: 'rib-pocket.mpf', seconds: 1834, samples: 1_834_000, bytes: 91_400_000, closed: true, fault: false },
-  { name: 'circle-r10.sqlite', start_utc: '2026-01-01T17:30:00Z', machine: 'VMC with SINUMERIK 840D', program: 'circle-r10.mpf', seconds: 62, samples: 62_000, bytes: 3_300_000, closed: true, fault: true },
-  { name: 'slot <test>.sqlite', start_utc: '2025-12-30T11:00:00Z', machine: 'Lathe 16K20F3, retrofitted', program: 'slot.mpf', seconds: 411, samples: 411_000, bytes: 20_900_000, closed: false, fault: false },
+  { name: 'rib-pocket-2026-01-02.sqlite', start_utc: '2026-01-02T08:04:05Z', machine: 'VMC with SINUMERIK 840D', program: 'rib-pocket.mpf', seconds: 1834, samples: 1_834_000, bytes: 91_400_000, closed: true, writing: false, fault: false },
+  { name: 'circle-r10.sqlite', start_utc: '2026-01-01T17:30:00Z', machine: 'VMC with SINUMERIK 840D', program: 'circle-r10.mpf', seconds: 62, samples: 62_000, bytes: 3_300_000, closed: true, writing: false, fault: true },
+  { name: 'slot <test>.sqlite', start_utc: '2025-12-30T11:00:00Z', machine: 'Lathe 16K20F3, retrofitted', program: 'slot.mpf', seconds: 411, samples: 411_000, bytes: 20_900_000, closed: false, writing: true, fault: false },
 ];
 
 export function record(): RecordDetail {

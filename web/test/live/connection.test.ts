@@ -85,7 +85,7 @@ describe('a stream that drops', () => {
     await until(page, `document.querySelector('#connection').textContent === 'Live'`);
     await page.waitForSelector('#missing:not([hidden])');
     expect(await page.textContent('#missing')).toMatch(/^\d+\.\d s missing$/);
-    expect(await page.textContent('.toasts [role=alert]')).toMatch(/^The connection is back\. \d+\.\d s of data are missing\.$/);
+    expect(await page.textContent('.toasts [role=alert]')).toMatch(/^The connection is back\. There was none for [1-9]\d*\.\d s, and the data of that time are missing\.$/);
     await page.click('#missing');
     await until(page, `document.querySelector('.toasts').textContent.includes('did not arrive')`);
     await context.close();
@@ -97,6 +97,41 @@ describe('a stream that drops', () => {
     mock.logOut();
     mock.drop();
     await page.waitForSelector('#by-password', { timeout: 8000 });
+    await context.close();
+  });
+  it('says after a new log-in how long there was none', async () => {
+    mock.logIn('viewer');
+    const { page, context } = await open(address);
+    await until(page, `document.querySelector('#connection').textContent === 'Live'`);
+    const lost = Date.now();
+    mock.logOut();
+    mock.drop();
+    await page.waitForSelector('#by-password', { timeout: 8000 });
+    await page.waitForTimeout(1500);
+    await page.fill('[name=name]', 'olga');
+    await page.fill('[name=password]', 'right');
+    const asked = Date.now();
+    await page.keyboard.press('Enter');
+    await until(page, `document.querySelector('.toasts [role=alert]').textContent.startsWith('The connection is back')`);
+    const seconds = Number(/none for ([\d.]+) s/.exec((await page.textContent('.toasts [role=alert]')) ?? '')?.[1]);
+    // Of the wall clock: from the last frame to the first one of the new stream.
+    expect(seconds).toBeGreaterThan((asked - lost) / 1000 - 0.1);
+    expect(seconds).toBeLessThan((Date.now() - lost) / 1000 + 0.2);
+    await context.close();
+  });
+  it('is not spoken of after a log-out by intent', async () => {
+    mock.logIn('viewer');
+    const { page, context } = await open(address);
+    await until(page, `document.querySelector('#connection').textContent === 'Live'`);
+    await page.click('#settings');
+    await page.click('#log-out');
+    await page.waitForSelector('#by-password');
+    await page.fill('[name=name]', 'olga');
+    await page.fill('[name=password]', 'right');
+    await page.keyboard.press('Enter');
+    await until(page, `document.querySelector('#connection')?.textContent === 'Live'`);
+    await page.waitForTimeout(500);
+    expect(await page.textContent('.toasts')).toBe('');
     await context.close();
   });
 });

@@ -76,6 +76,7 @@ export class Layer {
   wanted: Mode = 'observe';
   modulation: Modulation | null = { ...MODULATION };
   reload: NonNullable<Status['reload']> | null = null;
+  recordFault: string | null = null;
   limit_um = LIMIT_UM;
   pathKnown = true;
   random: () => number = Math.random;
@@ -156,7 +157,7 @@ export class Layer {
       spindle_percent: 100, spindle_effective_percent: 100,
       offset_um: this.mode === 'act' ? [0, 1.2, -4.1] : [0, 0, 0], path_offset_um: [0, 0, 0],
       reasons: reasons.map(([of, name]) => ({ of, reason: name, sentence: sentences[name] ?? '' })),
-      reload: this.reload, port_fault: null,
+      reload: this.reload, port_fault: null, record_fault: this.recordFault,
     };
   }
 

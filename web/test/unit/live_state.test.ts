@@ -48,6 +48,22 @@ describe('the stream', () => {
     // The trail is broken there, not joined by a line that the tool never went.
     expect(Array.from({ length: live.trail.size }, (_, i) => live.trail.at('x', i)).filter(Number.isNaN).length).toBe(1);
   });
+  it('counts nothing of the time before its first frame', () => {
+    const { live, layer } = started();
+    const stale = layer.frame(3, 7).samples;
+    layer.skip(2000);
+    const frame = layer.frame(30, 7);
+    frame.lost_cycles = 5;
+    for (const name of Object.keys(stale) as (keyof typeof stale)[]) {
+      (frame.samples[name] as unknown[]).unshift(...stale[name]);
+    }
+    take(live, frame);
+    expect([live.missing, live.samples.size]).toEqual([{ seconds: 0, frames: 0, cycles: 0 }, 30]);
+    layer.skip(50);
+    take(live, layer.frame(30, 1));
+    expect(live.missing.seconds).toBeCloseTo(0.05, 3);
+    expect(live.missing.frames).toBe(1);
+  });
   it('starts again with the clock of the control', () => {
     const { live, layer } = started();
     take(live, layer.frame(33));

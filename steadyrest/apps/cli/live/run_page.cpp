@@ -94,15 +94,17 @@ Result<void> RunPage::open(const Of& of) {
   if (!config) {
     return std::unexpected(config.error());
   }
-  desk_ = std::make_unique<live_page::Desk>(
-      live_page::Desk{.asked = of.asked,
-                      .tap = tap_,
-                      .machine = of.machine,
-                      .machine_file = of.machine_file,
-                      .records = options_.records.empty() ? of.record_folder : options_.records,
-                      .findings = start_findings,
-                      .cycle_s = of.cycle_s,
-                      .chatter = of.chatter});
+  desk_ = std::make_unique<live_page::Desk>(live_page::Desk{
+      .asked = of.asked,
+      .tap = tap_,
+      .machine = of.machine,
+      .machine_file = of.machine_file,
+      .records = options_.records.empty() ? of.record_folder : options_.records,
+      .writing = [record =
+                      of.record] { return record != nullptr ? record->writing() : std::string(); },
+      .findings = start_findings,
+      .cycle_s = of.cycle_s,
+      .chatter = of.chatter});
   auto page = live_page::LivePage::open(*config, *desk_);
   if (!page) {
     return std::unexpected(std::move(page.error()));

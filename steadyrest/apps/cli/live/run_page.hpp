@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <steadyrest/apps/cli/live/run_record.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/apps/live_page/live_page.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -43,6 +44,7 @@ class RunPage {
     const kernel::machine::Machine& machine;
     std::string machine_file;
     std::string record_folder;
+    const RunRecord* record = nullptr;  ///< null: none is written
     double cycle_s = 0.001;
     std::optional<live_page::ChatterDesk> chatter;
   };

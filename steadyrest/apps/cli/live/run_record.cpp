@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -23,6 +24,14 @@ std::string free_name(const std::filesystem::path& folder, const std::string& ut
     file = folder / record::run_name(utc, again);
   }
   return file.string();
+}
+
+/// At once, since a run may take days.
+void say_ended(const kernel::outcome::Refusal& fault) noexcept {
+  std::fputs(("steadyrest: warning: the record ended, the run goes on: " +
+              kernel::outcome::text(fault) + "\n")
+                 .c_str(),
+             stderr);
 }
 
 }  // namespace
@@ -54,7 +63,8 @@ Result<std::unique_ptr<RunRecord>> RunRecord::start(const Of& of, const LivePort
   std::error_code fault;
   std::filesystem::create_directories(of.folder, fault);
   std::string file = free_name(of.folder, info.start_utc);
-  auto writer = record::RecordWriter::make({.file = file, .info = std::move(info)});
+  auto writer =
+      record::RecordWriter::make({.file = file, .info = std::move(info), .on_fault = say_ended});
   if (!writer) {
     return std::unexpected(writer.error());
   }
@@ -78,6 +88,15 @@ void RunRecord::listen_to(steadyrest::live::Loop::Config& config) {
   config.on_command = [this](const kernel::signal::Command& command) { port_.record(command); };
 }
 
+std::string RunRecord::writing() const {
+  return writer_->failed() ? "" : std::filesystem::path(file_).filename().string();
+}
+
+Json RunRecord::fault() const {
+  const auto fault = writer_->fault();
+  return fault ? Json(fault->what) : Json(nullptr);
+}
+
 void RunRecord::put(Answer& answer) {
   writer_->flush();
   const auto fault = writer_->fault();
@@ -88,6 +107,14 @@ void RunRecord::put(Answer& answer) {
   if (fault) {
     answer.text += "the record ended before the run: " + fault->what + "\n";
   }
+}
+
+std::function<Json()> status_keys(const LivePort& port, const RunRecord* record) {
+  return [&port, record] {
+    Json keys = port.shows ? port.shows() : Json::object();
+    keys["record_fault"] = record != nullptr ? record->fault() : Json(nullptr);
+    return keys;
+  };
 }
 
 }  // namespace steadyrest::apps::cli::live

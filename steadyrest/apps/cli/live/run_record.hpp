@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -32,6 +33,10 @@ class RunRecord {
   /// The machine as the loop sees it.
   [[nodiscard]] kernel::port::Port& port() noexcept { return port_; }
   [[nodiscard]] record::RecordWriter& writer() noexcept { return *writer_; }
+  /// The name of the record being written; empty once it has ended. From any thread.
+  [[nodiscard]] std::string writing() const;
+  /// Why the record ended before its run; null: it did not. From any thread.
+  [[nodiscard]] Json fault() const;
   /// The key `record`, and its text.
   void put(Answer& answer);
 
@@ -43,5 +48,8 @@ class RunRecord {
   record::RecordingPort port_;
   std::string file_;
 };
+
+/// Keys of the status, from any thread: those of the port, and `record_fault`. Both outlive them.
+[[nodiscard]] std::function<Json()> status_keys(const LivePort& port, const RunRecord* record);
 
 }  // namespace steadyrest::apps::cli::live

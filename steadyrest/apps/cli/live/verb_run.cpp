@@ -216,6 +216,15 @@ Reloader::Config reloader_config(const Options& options, const Prepared& of, Run
       .signal = SIGHUP};
 }
 
+Result<std::unique_ptr<RunRecord>> start_record(const Options& options, const Prepared& of) {
+  return RunRecord::start({.folder = options.record,
+                           .machine_file = options.machine,
+                           .machine = of.machine.name,
+                           .program_file = options.program.file,
+                           .listener = listener_text(of.listener)},
+                          of.port);
+}
+
 Answer answer_of(const LoopFigures& figures, const Prepared& of,
                  const steadyrest::live::RealTime& real_time, RunRecord* record) {
   Answer answer;
@@ -252,12 +261,7 @@ Outcome run(const Options& options, Progress& progress) {
     return refused(checked.error());
   }
   steadyrest::live::MonotonicPace pace(config.period_s);
-  auto made = RunRecord::start({.folder = options.record,
-                                .machine_file = options.machine,
-                                .machine = prepared->machine.name,
-                                .program_file = options.program.file,
-                                .listener = listener_text(prepared->listener)},
-                               prepared->port);
+  auto made = start_record(options, *prepared);
   if (!made) {
     return refused(made.error());
   }
@@ -274,7 +278,7 @@ Outcome run(const Options& options, Progress& progress) {
   const steadyrest::live::Asked asked{.loop = loop,
                                       .port = passport::word(prepared->machine.port),
                                       .reloader = &reloader,
-                                      .of_port = prepared->port.shows};
+                                      .more_keys = status_keys(prepared->port, record)};
   const auto socket = steadyrest::live::ControlSocket::open(
       options.socket,
       [&asked](std::string_view line) { return steadyrest::live::answer(asked, line); });
@@ -285,6 +289,7 @@ Outcome run(const Options& options, Progress& progress) {
                                .machine = prepared->machine,
                                .machine_file = options.machine,
                                .record_folder = options.record,
+                               .record = record,
                                .cycle_s = config.period_s,
                                .chatter = chatter_desk(prepared->process)});
       !opened) {

@@ -78,6 +78,9 @@ std::string text_of(const Json& status) {
   if (const Json fault = status.value("port_fault", Json()); fault.is_string()) {
     text += "the port cannot be read or written: " + fault.get<std::string>() + "\n";
   }
+  if (const Json fault = status.value("record_fault", Json()); fault.is_string()) {
+    text += "the record has ended: " + fault.get<std::string>() + "\n";
+  }
   if (const Json program = status.value("program", Json()); program.is_object()) {
     text += path_text(program) + "\n";
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -6,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/apps/live_page/test/page_desk.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/record/record_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
+#include <steadyrest/record/record_writer.hpp>
 
 namespace steadyrest::apps::live_page {
 namespace {
@@ -73,6 +77,36 @@ TEST_F(RecordsOnPage, AreDownloadedWhole) {
   const auto copy = record::RecordReader::open(itself.file);
   ASSERT_TRUE(copy.has_value());
   EXPECT_EQ(copy->totals().samples, record["totals"]["samples"]);
+}
+
+// The record of a run that was killed is as open as the one that is being written.
+TEST_F(RecordsOnPage, SayWhetherTheyAreBeingWritten) {
+  const kernel::file::testing::OwnFolder folder;
+  desk.desk().records = folder.path();
+  const auto writer = record::RecordWriter::make({.file = folder.at("own.sqlite")}).value();
+  writer->flush();
+  ASSERT_TRUE(record::copy_record(folder.at("own.sqlite"), folder.at("killed.sqlite")));
+  const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::minutes(1);
+  for (const std::string name : {"own.sqlite", "own.sqlite-wal", "killed.sqlite"}) {
+    std::filesystem::last_write_time(folder.at(name), long_ago);
+  }
+  const auto writing = [this](const std::string& name) {
+    const Json record = desk.json("GET", "/api/v1/records/" + name)["record"]["totals"];
+    EXPECT_EQ(record["closed"], false) << name;
+    for (const Json& row : desk.json("GET", "/api/v1/records")["records"]) {
+      if (row["name"] == name) {
+        EXPECT_EQ(row["writing"], record["writing"]) << name;
+      }
+    }
+    return record["writing"].get<bool>();
+  };
+  EXPECT_FALSE(writing("own.sqlite")) << "this run writes none";
+  desk.desk().writing = [] { return "own.sqlite"; };
+  EXPECT_TRUE(writing("own.sqlite"));
+  EXPECT_FALSE(writing("killed.sqlite"));
+  std::filesystem::last_write_time(folder.at("killed.sqlite"),
+                                   std::filesystem::file_time_type::clock::now());
+  EXPECT_TRUE(writing("killed.sqlite")) << "by another program";
 }
 
 TEST_F(RecordsOnPage, HaveNoOtherNames) {

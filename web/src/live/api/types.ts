@@ -43,6 +43,8 @@ export interface Status {
   reload?: { number: number; utc: string; outcome: 'taken' | 'refused'; words: string } | null;
   program?: { file: string; segments: number; words: string | null; place: string } | null;
   port_fault?: string | null;
+  /** Why the record ended before its run. */
+  record_fault?: string | null;
 }
 
 export type Law = 'constant' | 'square' | 'pulse' | 'triangle' | 'sine' | 'random' | 'stop';
@@ -283,6 +285,8 @@ export interface RecordRow {
   samples: number;
   bytes: number;
   closed: boolean;
+  /** Not closed, and its run is still at it. */
+  writing: boolean;
   fault: boolean;
 }
 export interface RecordDetail {

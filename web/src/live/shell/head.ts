@@ -20,6 +20,9 @@ export function layerHasTheSay(status: Status): boolean {
   return status.mode === 'act' && (differs(status.feed_percent, status.feed_panel_percent ?? 100) || differs(status.spindle_percent, 100) || offset);
 }
 
+/** Less is no gap that anybody sees. */
+const LEAST_MISSING_S = 0.1;
+
 export class Head {
   readonly root: HTMLElement;
   readonly modes: HTMLElement;
@@ -78,7 +81,7 @@ export class Head {
     this.link.dataset['state'] = connection.state;
     setText(this.link, connection.state === 'down' ? t('reconnecting', { time: connection.since.toLocaleTimeString() }) : t(connection.state));
     const { seconds, frames, cycles } = this.context.live.missing;
-    this.missing.hidden = seconds < 0.05 && frames === 0 && cycles === 0;
+    this.missing.hidden = seconds < LEAST_MISSING_S;
     if (!this.missing.hidden) {
       const values = { seconds: seconds.toFixed(1), frames, cycles };
       setText(this.missing, t('missing', values));

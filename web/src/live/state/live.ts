@@ -20,7 +20,7 @@ const NOWHERE = { x: NaN, y: NaN, z: NaN, error_um: NaN };
 
 const value = (v: Maybe | undefined) => v ?? NaN;
 
-/** How much of the stream did not arrive since the page was opened. */
+/** How much of the stream did not arrive since its first frame. */
 export interface Missing {
   seconds: number;
   frames: number;
@@ -37,6 +37,7 @@ export class Live {
   /** Set by each message, cleared by who draws. */
   changed = false;
 
+  private first = true;
   private worst = NaN;
   private readonly row = Object.fromEntries(COLUMNS.map((c) => [c, NaN])) as Record<SampleColumn, number>;
 
@@ -62,19 +63,24 @@ export class Live {
 
   private takeFrame(frame: Frame): void {
     this.frame = frame;
-    this.missing.frames += frame.missed;
-    this.missing.cycles += frame.lost_cycles;
+    const first = this.first;
+    this.first = false;
+    if (!first) {
+      this.missing.frames += frame.missed;
+      this.missing.cycles += frame.lost_cycles;
+    }
     const { samples } = frame;
     const cycle_s = this.hello?.cycle_s ?? 0.001;
     const { row } = this;
     for (let i = 0; i < samples.t_s.length; ++i) {
       const t = samples.t_s[i] as number;
       const before = this.samples.newest('t_s');
-      if (t < before) {
-        // The control's clock has started again.
+      const gap = t - before > GAP_CYCLES * cycle_s;
+      if (t < before || (gap && first)) {
+        // The control's clock has started again, or the first frame has samples from before anybody watched.
         this.samples.clear();
         this.trail.clear();
-      } else if (t - before > GAP_CYCLES * cycle_s) {
+      } else if (gap) {
         this.missing.seconds += t - before - cycle_s;
         this.trail.push(NOWHERE);
       }

@@ -62,7 +62,7 @@ export const en = {
   connecting: 'Connecting …',
   reconnecting: 'Reconnecting since {time}',
   lost: 'The connection to the layer is lost.',
-  back: 'The connection is back. {seconds} s of data are missing.',
+  back: 'The connection is back. There was none for {seconds} s, and the data of that time are missing.',
   missing: '{seconds} s missing',
   missing_what: 'Since this page was opened {seconds} s of the stream did not arrive: {frames} frames not taken in time, {cycles} cycles dropped. Plots show a gap there.',
   // Now
@@ -119,6 +119,7 @@ export const en = {
   of_offset: 'Thermal offset',
   of_path_offset: 'Path offset',
   port_fault: 'Connection to the control: {words}',
+  record_ended: 'The record has ended, the run goes on without it: {words}',
   program_fault: 'Program: {words}',
   // Contour
   limits: 'Limits and strategy',
@@ -261,6 +262,7 @@ export const en = {
   size: 'Size',
   state: 'State',
   record_open: 'being written',
+  record_unclosed: 'ended without being closed',
   record_fault: 'with fault',
   record_closed: 'complete',
   all_records: 'All records',

@@ -15,6 +15,7 @@ const TROUBLE = /^(input_|heartbeat|unknown_override|port_cannot|contour_feed_fl
 function rows(status: Status): HTMLElement[] {
   const faults = [
     ...(status.port_fault ? [t('port_fault', { words: status.port_fault })] : []),
+    ...(status.record_fault ? [t('record_ended', { words: status.record_fault })] : []),
     ...(status.program?.words ? [t('program_fault', { words: status.program.words })] : []),
   ].map((text) => h('li', { class: 'trouble' }, h('span', { class: 'words' }, text)));
   const sorted = [...status.reasons].sort((a, b) => Number(IDLE.has(a.reason)) - Number(IDLE.has(b.reason)));
@@ -36,7 +37,7 @@ export function reasonsPart({ live }: Context): Part {
       if (!figures || !status) {
         return;
       }
-      const now = JSON.stringify([status.reasons, status.port_fault, status.program?.words]);
+      const now = JSON.stringify([status.reasons, status.port_fault, status.record_fault, status.program?.words]);
       if (now !== shown) {
         shown = now;
         list.replaceChildren(...rows(status));

@@ -9,6 +9,7 @@ import { addressOf } from '../../shell/route';
 import { t } from '../../texts/texts';
 import { recordCourse } from './course';
 import { exportLinks } from './export';
+import { recordState } from './state';
 import { type Part, columns } from '../part';
 
 function valueOf(value: unknown): string {
@@ -81,7 +82,9 @@ export function recordDetail(context: Context, name: string): LiveView {
     context.api
       .get<{ record: RecordDetail }>(`records/${encodeURIComponent(name)}`)
       .then(({ record }) => {
-        run.replaceChildren(list(record.run ?? {}));
+        const { closed, writing } = record.totals;
+        const state = closed === false ? { state: recordState({ fault: false, closed, writing: writing === true }) } : {};
+        run.replaceChildren(list({ ...record.run, ...state }));
         exports.offer(record.formats ?? ['sqlite']);
         events.replaceChildren(eventTable(record.events ?? []));
         totals.replaceChildren(list(record.totals ?? {}));

@@ -10,6 +10,7 @@ import { problem } from '../../shell/problem';
 import { addressOf } from '../../shell/route';
 import { t } from '../../texts/texts';
 import { recordDetail } from './detail';
+import { recordState } from './state';
 import { localTime, span } from '../times';
 
 const TYPING_MS = 250;
@@ -20,7 +21,6 @@ export function bytesText(bytes: number): string {
 }
 
 function row(r: RecordRow): Cell[] {
-  const state = r.fault ? 'record_fault' : r.closed ? 'record_closed' : 'record_open';
   return [
     { html: `<a href="${escapeHtml(addressOf('record', r.name))}">${escapeHtml(r.name)}</a>`, sort: r.name },
     { html: escapeHtml(localTime(r.start_utc)), sort: r.start_utc },
@@ -28,7 +28,7 @@ function row(r: RecordRow): Cell[] {
     r.program,
     { html: escapeHtml(span(r.seconds)), sort: r.seconds },
     { html: escapeHtml(bytesText(r.bytes)), sort: r.bytes },
-    { html: escapeHtml(t(state)), look: r.fault ? 'missed' : '' },
+    { html: escapeHtml(recordState(r)), look: r.fault ? 'missed' : '' },
   ];
 }
 
