@@ -102,7 +102,9 @@ class RecordWriter::Thread {
 
   std::uint32_t hold(std::string text) {
     const std::scoped_lock lock(mutex_);
-    held_.push_back(std::move(text));
+    if (held_.empty() || held_.back() != text) {
+      held_.push_back(std::move(text));
+    }
     return static_cast<std::uint32_t>(held_.size() - 1);
   }
 

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <list>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -24,7 +25,8 @@ using TlsTransport = beast::ssl_stream<beast::tcp_stream>;
 
 /// One client's requests, each answered before the next is read.
 template <class Transport>
-class Connection final : public std::enable_shared_from_this<Connection<Transport>> {
+class Connection final : public Waiting,
+                         public std::enable_shared_from_this<Connection<Transport>> {
  public:
   static constexpr bool kSecure = std::is_same_v<Transport, TlsTransport>;
 
@@ -34,13 +36,23 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
-  ~Connection() { --traffic_.connections; }
+  ~Connection() override {
+    goes_on();
+    --traffic_.connections;
+  }
+
+  void give_way() override {
+    goes_on();
+    beast::get_lowest_layer(transport_).close();
+  }
 
   void begin() {
     if constexpr (kSecure) {
       be_patient();
+      wait();
       transport_.async_handshake(asio::ssl::stream_base::server,
                                  [self = this->shared_from_this()](beast::error_code fault) {
+                                   self->goes_on();
                                    if (!fault) {
                                      self->read();
                                    }
@@ -66,13 +78,22 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
     parser_->header_limit(static_cast<std::uint32_t>(traffic_.config.most_head));
     parser_->body_limit(traffic_.config.most_body);
     be_patient();
+    wait();
     http::async_read(transport_, buffer_, *parser_,
                      [self = this->shared_from_this()](beast::error_code fault, std::size_t) {
                        self->got(fault);
                      });
   }
 
+  void wait() { place_ = traffic_.waiting.insert(traffic_.waiting.end(), this); }
+  void goes_on() {
+    if (place_) {
+      traffic_.waiting.erase(*std::exchange(place_, std::nullopt));
+    }
+  }
+
   void got(beast::error_code fault) {
+    goes_on();
     if (fault) {
       unreadable(fault);
       return;
@@ -233,7 +254,8 @@ class Connection final : public std::enable_shared_from_this<Connection<Transpor
   std::string address_;
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
-  bool last_ = false;  ///< no request is read behind this one
+  bool last_ = false;                                   ///< no request is read behind this one
+  std::optional<std::list<Waiting*>::iterator> place_;  ///< among those that wait
 };
 
 }  // namespace steadyrest::web

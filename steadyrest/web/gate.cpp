@@ -69,10 +69,12 @@ bool Gate::is_own(const Request& request) const {
 }
 
 std::optional<Response> Gate::refuse(const Request& request, bool writes, double now_s) {
-  if (!rate_.take(request.address, now_s)) {
+  const bool is_urgent = !config_.urgent_path.empty() && request.path == config_.urgent_path;
+  RateLimit& rate = is_urgent ? urgent_ : rate_;
+  if (!rate.take(request.address, now_s)) {
     Response out = error(429, "too_many_requests", "too many requests", "wait, then ask again");
     out.head.emplace_back("Retry-After",
-                          fmt::format("{}", std::ceil(rate_.wait_s(request.address, now_s))));
+                          fmt::format("{}", std::ceil(rate.wait_s(request.address, now_s))));
     return out;
   }
   if (!knows_host(request.host)) {

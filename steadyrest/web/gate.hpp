@@ -25,12 +25,15 @@ class Gate {
     /// Also the addresses of this computer as numbers: a name that leads here by somebody else's
     /// hand is none of these.
     bool any_number = false;
+    /// Counted apart from all others, so that those cannot use up their share.
+    std::string urgent_path = {};
     std::string outer_origin = {};  ///< as the browser sees it through a proxy; empty: no proxy
     RateLimit::Config rate = {};
     // NOLINTEND(readability-redundant-member-init)
   };
 
-  explicit Gate(Config config) : config_(std::move(config)), rate_(config_.rate) {}
+  explicit Gate(Config config)
+      : config_(std::move(config)), rate_(config_.rate), urgent_(config_.rate) {}
 
   /// Nothing: it may pass. A write, and a stream, must come from the server's own pages or from no
   /// page at all.
@@ -42,6 +45,7 @@ class Gate {
 
   Config config_;
   RateLimit rate_;
+  RateLimit urgent_;
 };
 
 /// Who asks. A proxy that was named adds the address that it sees to the end of `forwarded`, the

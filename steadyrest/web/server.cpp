@@ -143,7 +143,7 @@ class BeastServer final : public Server {
   void take(tcp::socket socket) {
     beast::error_code fault;
     const auto from = socket.remote_endpoint(fault);
-    if (fault || traffic_.connections >= traffic_.config.most_connections) {
+    if (fault || !has_room()) {
       return;  // it is closed
     }
     fault = socket.set_option(tcp::no_delay(true), fault);  // else a frame may come late
@@ -157,6 +157,18 @@ class BeastServer final : public Server {
                                                    address)
           ->begin();
     }
+  }
+
+  /// Clients that only hold connections keep nobody out.
+  bool has_room() {
+    if (traffic_.connections < traffic_.config.most_connections) {
+      return true;
+    }
+    if (traffic_.waiting.empty()) {
+      return false;
+    }
+    traffic_.waiting.front()->give_way();
+    return true;
   }
 
   void look() {

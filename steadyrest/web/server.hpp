@@ -33,7 +33,8 @@ class Server {
     Gate::Config gate = {};
     std::string stream_path = {};
     // NOLINTEND(readability-redundant-member-init)
-    std::size_t most_connections = 64;
+    std::size_t most_connections = 64;  ///< beyond, the one that has waited longest for its
+                                        ///< client gives way
     std::size_t most_streams = 32;
     std::size_t most_head = 16'384;
     std::size_t most_body = 262'144;

@@ -11,11 +11,16 @@ bool Sessions::is_over(const Entry& entry, double now_s) const noexcept {
   return now_s - entry.begun_s > config_.longest_s || now_s - entry.used_s > config_.idle_s;
 }
 
-void Sessions::make_room(double now_s) {
+/// Of its own first, so that nobody's log-ins end the sessions of others.
+void Sessions::make_room(const Caller& caller, double now_s) {
   std::erase_if(by_digest_, [&](const auto& at) { return is_over(at.second, now_s); });
-  if (by_digest_.size() >= config_.most) {
-    by_digest_.erase(
-        std::ranges::min_element(by_digest_, {}, [](const auto& at) { return at.second.used_s; }));
+  const auto is_own = [&](const auto& at) { return at.second.session.caller.name == caller.name; };
+  const bool has_many =
+      std::cmp_greater_equal(std::ranges::count_if(by_digest_, is_own), config_.most_of_caller);
+  if (has_many || by_digest_.size() >= config_.most) {
+    by_digest_.erase(std::ranges::min_element(by_digest_, {}, [&](const auto& at) {
+      return std::pair(has_many && !is_own(at), at.second.used_s);
+    }));
   }
 }
 
@@ -23,7 +28,7 @@ Sessions::Begun Sessions::begin(const Caller& caller, double now_s, std::string 
   Begun out{.id = new_secret(),
             .session = {.caller = caller, .csrf = new_secret(), .mark = std::move(mark)}};
   const std::scoped_lock lock(mutex_);
-  make_room(now_s);
+  make_room(caller, now_s);
   by_digest_[digest(out.id)] = {.session = out.session, .begun_s = now_s, .used_s = now_s};
   return out;
 }

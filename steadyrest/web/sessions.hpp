@@ -18,7 +18,8 @@ class Sessions {
   struct Config {
     double longest_s = 12.0 * 3600.0;
     double idle_s = 30.0 * 60.0;
-    std::size_t most = 256;  ///< the one that was idle longest gives way
+    std::size_t most = 256;           ///< the one that was idle longest gives way
+    std::size_t most_of_caller = 16;  ///< the same among those of one name
   };
   struct Session {
     Caller caller;
@@ -48,7 +49,7 @@ class Sessions {
     double used_s = 0.0;
   };
   [[nodiscard]] bool is_over(const Entry& entry, double now_s) const noexcept;
-  void make_room(double now_s);
+  void make_room(const Caller& caller, double now_s);
 
   Config config_;
   mutable std::mutex mutex_;

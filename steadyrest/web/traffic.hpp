@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <list>
 #include <memory>
 #include <set>
 #include <string>
@@ -30,6 +31,16 @@ class Stream {
   virtual void look() = 0;  ///< whether it may go on
 };
 
+/// A connection that waits for what its client sends next. In the traffic's thread alone.
+class Waiting {
+ public:
+  Waiting() = default;
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  virtual ~Waiting() = default;
+  virtual void give_way() = 0;  ///< closes it
+};
+
 struct Traffic {
   Traffic(Server::Config config_in, Server::Handlers handlers_in)
       : config(std::move(config_in)),
@@ -44,6 +55,7 @@ struct Traffic {
   std::set<Stream*> streams;
   std::atomic<std::size_t> stream_count{0};
   std::size_t connections = 0;
+  std::list<Waiting*> waiting;  ///< the longest first
   // Behind what its handlers' owners still touch when they go with it.
   asio::io_context io{1};
   asio::thread_pool answers{1};

@@ -37,7 +37,7 @@ constexpr std::array<Route, 19> kRoutes = {{
     {"DELETE", "/api/v1/session"},
     {"GET", "/api/v1/status"},
     {"POST", "/api/v1/mode", false, Role::operating},
-    {"POST", "/api/v1/hand-back"},
+    {"POST", Api::kHandBack},
     {"POST", "/api/v1/modulation", false, Role::operating},
     {"GET", "/api/v1/machine"},
     {"POST", "/api/v1/machine/check", false, Role::operating},
@@ -201,7 +201,7 @@ web::Response Api::write(const Route& route, const Call& call) {
   if (route.path == "/api/v1/mode") {
     return set_mode(call, asked);
   }
-  if (route.path == "/api/v1/hand-back") {
+  if (route.path == kHandBack) {
     return hand_back(call);
   }
   if (route.path == "/api/v1/modulation") {

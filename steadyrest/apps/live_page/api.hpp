@@ -31,6 +31,7 @@ struct Route {
 class Api {
  public:
   static constexpr std::string_view kStream = "/api/v1/stream";
+  static constexpr std::string_view kHandBack = "/api/v1/hand-back";
 
   Api(const Desk& desk, const Login::Config& login, std::function<double()> now_s);
 

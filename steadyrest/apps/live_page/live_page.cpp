@@ -39,6 +39,7 @@ web::Gate::Config gate_of(const LivePage::Config& config) {
   gate.hosts = {in_address(config.address), "localhost", "127.0.0.1", "[::1]"};
   gate.any_number = config.address == "0.0.0.0" || config.address == "::";
   gate.outer_origin = config.outer_origin;
+  gate.urgent_path = Api::kHandBack;
   if (const std::size_t at = config.outer_origin.find("://"); at != std::string::npos) {
     gate.hosts.push_back(config.outer_origin.substr(at + 3));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/apps/live_page/login.hpp>
 #include <steadyrest/kernel/file/json_object.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/web/gate.hpp>
 #include <steadyrest/web/secret.hpp>
 
@@ -35,12 +37,25 @@ Login::Login(const Config& config)
       key_(config.accounts_file.empty() ? web::new_secret() : ""),
       failures_(kFailures) {}
 
+std::optional<web::Accounts> Login::accounts() const {
+  auto read = web::Accounts::read(config_.accounts_file);
+  const std::string fault = read ? "" : kernel::outcome::text(read.error());
+  const std::scoped_lock lock(mutex_);
+  if (read) {
+    last_good_ = std::move(*read);
+  }
+  if (fault != std::exchange(fault_, fault) && !fault.empty()) {
+    std::fputs(("steadyrest: the accounts stay as they were: " + fault + "\n").c_str(), stderr);
+  }
+  return last_good_;
+}
+
 std::optional<web::Caller> Login::of_token(const web::Request& request) const {
   const std::string_view authorization = request.authorization;
   if (!authorization.starts_with(kBearer)) {
     return std::nullopt;
   }
-  const auto accounts = web::Accounts::read(config_.accounts_file);
+  const auto accounts = this->accounts();
   return accounts ? accounts->of_token(authorization.substr(kBearer.size())) : std::nullopt;
 }
 
@@ -66,7 +81,7 @@ std::optional<web::Caller> Login::as_now(const web::Sessions::Session& session) 
   if (!key_.empty()) {
     return session.caller;
   }
-  const auto accounts = web::Accounts::read(config_.accounts_file);
+  const auto accounts = this->accounts();
   const auto* const user = accounts ? accounts->find_user(session.caller.name) : nullptr;
   return user != nullptr && user->hash == session.mark
              ? std::optional(web::Caller{.name = user->name, .role = user->role})
@@ -99,7 +114,7 @@ std::optional<Login::Known> Login::check(const std::string& name, const std::str
                ? std::optional(Known{{.name = "local", .role = web::Role::engineer}, ""})
                : std::nullopt;
   }
-  const auto accounts = web::Accounts::read(config_.accounts_file);
+  const auto accounts = this->accounts();
   const auto caller = accounts ? accounts->check(name, password) : std::nullopt;
   return caller ? std::optional(Known{*caller, accounts->find_user(name)->hash}) : std::nullopt;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -45,6 +46,8 @@ class Login {
     web::Caller caller;
     std::string mark;  ///< of the account as it is
   };
+  /// As the file is; while it cannot be read, as it was when it could. Nothing: it never could.
+  [[nodiscard]] std::optional<web::Accounts> accounts() const;
   /// By the token of a script.
   [[nodiscard]] std::optional<web::Caller> of_token(const web::Request& request) const;
   /// Of a session as the accounts are now: whoever was removed or has a new password must log in
@@ -54,6 +57,9 @@ class Login {
                                            const std::string& key) const;
 
   Config config_;
+  mutable std::mutex mutex_;
+  mutable std::optional<web::Accounts> last_good_;
+  mutable std::string fault_;  ///< of the file, as it was said
   std::string key_;
   web::Sessions sessions_;
   web::RateLimit failures_;

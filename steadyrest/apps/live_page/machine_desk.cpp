@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <expected>
+#include <filesystem>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -93,6 +94,15 @@ Result<std::string> wanted_text(const Desk& desk, const std::string& before, con
   return passport::with_keys(before, desk.machine_file, values);
 }
 
+/// Anything but a file might keep its reader waiting.
+Result<std::string> text_of_file(const Desk& desk) {
+  std::error_code fault;
+  if (!std::filesystem::is_regular_file(desk.machine_file, fault)) {
+    return kernel::outcome::refuse(desk.machine_file, "is no file any more", "put it back");
+  }
+  return passport::read_text(desk.machine_file);
+}
+
 /// A change, judged.
 struct Checked {
   std::string before;
@@ -103,7 +113,7 @@ struct Checked {
 };
 
 Result<Checked> check(const Desk& desk, const Json& asked) {
-  auto before = passport::read_text(desk.machine_file);
+  auto before = text_of_file(desk);
   if (!before) {
     return std::unexpected(std::move(before.error()));
   }
@@ -171,7 +181,7 @@ std::optional<ReloadStatus> outcome_of(const steadyrest::live::Reloader& reloade
 }  // namespace
 
 web::Response show_machine(const Desk& desk) {
-  const auto text = passport::read_text(desk.machine_file);
+  const auto text = text_of_file(desk);
   if (!text) {
     return failed(text.error());
   }

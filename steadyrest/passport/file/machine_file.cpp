@@ -338,6 +338,7 @@ std::string unreadable(const std::string& path, std::string& text) {
   text.resize(kMaxFileBytes + 1);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
+  text.shrink_to_fit();  // some texts are kept as long as a run lasts
   return in.bad() ? "reading stopped before its end" : "";
 }
 

@@ -220,6 +220,7 @@ std::string_view unit_of(std::string_view column) noexcept {
 
 Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
                                  const std::function<bool(std::uint64_t)>& goes_on) {
+  H5dont_atexit();  // at the process's end it fails on a file that a full disk has cut off
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the refusal says it
   const auto failed = [&file] {
     return refuse(file, "cannot be written as HDF5", "look for room on the disk and permission");

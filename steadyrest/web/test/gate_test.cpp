@@ -69,6 +69,17 @@ TEST(Gate, RefusesTooManyOfOneAddress) {
   EXPECT_THAT(refused->head, Contains(Pair("Retry-After", "2")));
 }
 
+TEST(Gate, CountsTheUrgentPathApart) {
+  Gate gate(
+      {.hosts = {"localhost"}, .urgent_path = "/hand-back", .rate = {.per_s = 0.5, .burst = 1.0}});
+  Request urgent = from("localhost");
+  urgent.path = "/hand-back";
+  EXPECT_EQ(status_of(gate, from("localhost"), false), 200U);
+  EXPECT_EQ(status_of(gate, from("localhost"), false), 429U);
+  EXPECT_EQ(status_of(gate, urgent, true), 200U);
+  EXPECT_EQ(status_of(gate, urgent, true), 429U);
+}
+
 TEST(ClientAddress, IsTheOneThatANamedProxySees) {
   const Gate::Config alone;
   const Gate::Config behind{.outer_origin = "https://mill.example"};

@@ -44,6 +44,12 @@ class OnServer : public testing::Test {
                asked.fetch_add(1);
                Response out;
                out.body = request.method + " " + request.path + " " + request.body;
+               if (request.path == "/waits") {
+                 out.later = [this](const std::stop_token& stop) {
+                   until([&] { return answers.load() || stop.stop_requested(); });
+                   return Response{};
+                 };
+               }
                return out;
              },
          .admit = [this](const Request& request) -> std::variant<Server::Admitted, Response> {
@@ -108,6 +114,7 @@ class OnServer : public testing::Test {
 
   std::atomic<int> asked{0};
   std::atomic<bool> goes_on{true};
+  std::atomic<bool> answers{false};  ///< to /waits
 };
 
 TEST_F(OnServer, AnswersWithTheHeadsThatKeepOthersOut) {
@@ -146,17 +153,42 @@ TEST_F(OnServer, CutsOffWhoeverIsTooSlow) {
   EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 200 "));
 }
 
+TEST_F(OnServer, WhoOnlyHoldsConnectionsKeepsNobodyOut) {
+  Server::Config config;
+  config.most_connections = 2;
+  const auto server = open(config);
+  asio::io_context io;
+  std::vector<tcp::socket> held;
+  for (int i = 0; i < 20; ++i) {
+    held.push_back(connected(io, *server));
+  }
+  EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 200 "));
+  beast::error_code fault;
+  std::array<char, 1> byte{};
+  held.front().read_some(asio::buffer(byte), fault);
+  EXPECT_TRUE(fault) << "the first has given way";
+}
+
+// Those that are being answered stay.
 TEST_F(OnServer, TakesNoMoreConnectionsThanItMay) {
   Server::Config config;
   config.most_connections = 2;
   const auto server = open(config);
   asio::io_context io;
   std::vector<tcp::socket> held;
-  held.push_back(connected(io, *server));
-  held.push_back(connected(io, *server));
+  for (int i = 0; i < 2; ++i) {
+    held.push_back(connected(io, *server));
+    asio::write(held.back(), asio::buffer(request("GET /waits")));
+  }
+  until([&] { return asked == 2; });
   EXPECT_EQ(said(*server, request("GET /")), "");
-  held.clear();
-  until([&] { return !said(*server, request("GET /")).empty(); });
+  answers = true;
+  for (tcp::socket& socket : held) {
+    beast::error_code fault;
+    std::string out;
+    asio::read(socket, asio::dynamic_buffer(out), fault);
+    EXPECT_THAT(out, HasSubstr(" 200 "));
+  }
 }
 
 TEST_F(OnServer, StreamsToThoseWhoAreAdmitted) {

@@ -48,6 +48,17 @@ TEST(Sessions, GiveWayToNewOnes) {
   EXPECT_TRUE(sessions.find(third.id, 4.0).has_value());
 }
 
+TEST(Sessions, OfOneNameEndOnlyEachOther) {
+  Sessions sessions({.most_of_caller = 3});
+  const auto other = sessions.begin({"otto", Role::engineer}, 0.0);
+  const auto first = sessions.begin(kAnna, 1.0);
+  for (double t = 2.0; t < 50.0; t += 1.0) {
+    static_cast<void>(sessions.begin(kAnna, t));
+  }
+  EXPECT_TRUE(sessions.find(other.id, 50.0).has_value());
+  EXPECT_FALSE(sessions.find(first.id, 50.0).has_value());
+}
+
 TEST(RateLimit, LetsABurstThroughThenSoManyASecond) {
   RateLimit limit({.per_s = 2.0, .burst = 3.0});
   for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -195,6 +197,17 @@ TEST_F(PageApi, RefusesWhatIsNestedWithoutEnd) {
       EXPECT_EQ(got.status, 400U) << route.path;
     }
   }
+}
+
+TEST_F(PageApi, AccountsStayAsTheyWereWhileTheirFileCannotBeRead) {
+  log_in("anna");
+  std::ofstream(file) << "{";
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 200U);
+  EXPECT_EQ(desk.ask("DELETE", "/api/v1/session").status, 204U);
+  log_in("otto");
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 200U);
+  std::filesystem::remove(file);
+  EXPECT_EQ(desk.ask("GET", "/api/v1/status").status, 200U);
 }
 
 TEST_F(PageApi, NamesTheMethodsOfAnAddress) {

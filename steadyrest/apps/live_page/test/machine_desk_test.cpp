@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -7,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <steadyrest/apps/live_page/test/page_desk.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -129,6 +131,13 @@ TEST_F(MachineOnPage, IsPutBackWhereTheLayerDoesNotTakeIt) {
   EXPECT_EQ(got.status, 422U);
   EXPECT_THAT(got.body, HasSubstr("the port does not like it"));
   EXPECT_EQ(text_of_file(desk.desk().machine_file), before);
+}
+
+TEST_F(MachineOnPage, WhatIsNoFileAnyMoreKeepsNobodyWaiting) {
+  std::filesystem::remove(desk.desk().machine_file);
+  ASSERT_EQ(::mkfifo(desk.desk().machine_file.c_str(), 0600), 0);
+  EXPECT_EQ(desk.ask("GET", "/api/v1/machine").status, 500U);
+  EXPECT_EQ(desk.ask("POST", "/api/v1/machine/check", R"({"changes":{}})").status, 500U);
 }
 
 TEST_F(MachineOnPage, AFileThatHasChangedMeanwhileStays) {
