@@ -16,7 +16,6 @@ namespace steadyrest::apps::live_page {
 namespace {
 
 using test::PageDesk;
-using testing::Each;
 using testing::SizeIs;
 
 class RecordsOnPage : public testing::Test {
