@@ -23,9 +23,6 @@ namespace offline = chatter::offline;
 using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
-constexpr int kLowest = 19;  ///< nice
-constexpr std::size_t kSpeeds = 161;
-constexpr std::size_t kDepths = 49;
 /// Of the map, computed in one go: between two of them it may be told to end.
 constexpr std::size_t kTogether = 8;
 constexpr double kSlowestShare =
@@ -63,7 +60,7 @@ Json rpm(const std::vector<double>& rev_s) {
 
 }  // namespace
 
-ChatterStudy::ChatterStudy(const Desk& desk) : desk_(desk) {
+ChatterStudy::ChatterStudy(const Desk& desk, const Config& config) : desk_(desk), config_(config) {
   if (desk.chatter) {
     thread_ = std::thread([this] { work(); });
   }
@@ -125,7 +122,7 @@ void ChatterStudy::tell(Work& work, double progress) {
 }
 
 void ChatterStudy::work() {
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLowest);
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), config_.niceness);
   std::unique_lock lock(mutex_);
   const auto waits = [](const Work& of) { return of.wanted && !of.done; };
   while (!ends_.load()) {
@@ -168,14 +165,15 @@ Result<Json> ChatterStudy::make_lobes() {
   if (programmed_rev_s > 0.0) {
     slowest_rev_s = std::min(slowest_rev_s, kBelowPoint * programmed_rev_s);
   }
-  const auto speeds = even(std::max(spindle.min_rev_s, slowest_rev_s), spindle.max_rev_s, kSpeeds);
-  const auto depths = even(0.0, kDepthsOfCut * depth_mm, kDepths);
+  const auto speeds =
+      even(std::max(spindle.min_rev_s, slowest_rev_s), spindle.max_rev_s, config_.speeds);
+  const auto depths = even(0.0, kDepthsOfCut * depth_mm, config_.depths);
   std::vector<double> log_radius;
   Json border_rpm = Json::array();
   Json border_mm = Json::array();
-  for (std::size_t first = 0; first < kSpeeds && !ends_.load(); first += kTogether) {
+  for (std::size_t first = 0; first < config_.speeds && !ends_.load(); first += kTogether) {
     const auto from = speeds.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto left = static_cast<std::ptrdiff_t>(std::min(kTogether, kSpeeds - first));
+    const auto left = static_cast<std::ptrdiff_t>(std::min(kTogether, config_.speeds - first));
     const auto map = offline::lobe_map(
         process,
         {.speed_rev_s = {from, from + left}, .depth_mm = depths, .modulation = {}, .threads = 1},
@@ -184,7 +182,7 @@ Result<Json> ChatterStudy::make_lobes() {
       return std::unexpected(map.error());
     }
     log_radius.insert(log_radius.end(), map->log_radius.begin(), map->log_radius.end());
-    const bool more = first + kTogether < kSpeeds;
+    const bool more = first + kTogether < config_.speeds;
     const auto border =
         offline::border_line(process, {.speed_rev_s = {from, from + left + (more ? 1 : 0)},
                                        .most_depth_mm = depths.back(),
@@ -199,7 +197,8 @@ Result<Json> ChatterStudy::make_lobes() {
       border_mm.push_back(border->depth_mm[i] ? Json(std::round(1e4 * *border->depth_mm[i]) / 1e4)
                                               : Json());
     }
-    tell(lobes_, static_cast<double>(first + kTogether) / static_cast<double>(kSpeeds + kTogether));
+    tell(lobes_,
+         static_cast<double>(first + kTogether) / static_cast<double>(config_.speeds + kTogether));
   }
   return Json{
       {"map",

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -16,7 +17,13 @@ namespace steadyrest::apps::live_page {
 /// thread of the lowest priority, on one core. Its answers say how far it is until it is done.
 class ChatterStudy {
  public:
-  explicit ChatterStudy(const Desk& desk);
+  struct Config {
+    std::size_t speeds = 161;  ///< of the map
+    std::size_t depths = 49;
+    int niceness = 19;  ///< of its thread: the lowest priority
+  };
+  explicit ChatterStudy(const Desk& desk) : ChatterStudy(desk, Config{}) {}
+  ChatterStudy(const Desk& desk, const Config& config);
   ChatterStudy(const ChatterStudy&) = delete;
   ChatterStudy& operator=(const ChatterStudy&) = delete;
   ~ChatterStudy();
@@ -43,6 +50,7 @@ class ChatterStudy {
   [[nodiscard]] static web::Response answer_of(const char* key, const Work& work, Json keys);
 
   const Desk& desk_;
+  Config config_;
   std::atomic<double> programmed_rev_s_{0.0};
   std::mutex mutex_;
   std::condition_variable wake_;
