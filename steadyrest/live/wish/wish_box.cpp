@@ -19,10 +19,16 @@ constexpr auto kLookForAnswer = std::chrono::milliseconds(1);
 // before its next cycle.
 std::optional<WishOutcome> WishBox::ask(const Wish& wish, double patience_s) {
   const std::chrono::duration<double> patience(patience_s);
-  const std::unique_lock lock(asking_, patience);
-  if (!lock.owns_lock()) {
+  if (!asking_.try_acquire_for(patience)) {
     return std::nullopt;
   }
+  auto outcome = ask_alone(wish, patience);
+  asking_.release();
+  return outcome;
+}
+
+std::optional<WishOutcome> WishBox::ask_alone(const Wish& wish,
+                                              std::chrono::duration<double> patience) {
   wish_ = wish;
   stage_.store(Stage::asked);
   const auto until = std::chrono::steady_clock::now() + patience;

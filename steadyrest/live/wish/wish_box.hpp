@@ -2,9 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <optional>
+#include <semaphore>
 
 #include <steadyrest/supervisor/wish.hpp>
 
@@ -25,9 +26,12 @@ class WishBox {
   void answer(supervisor::WishOutcome outcome) noexcept;
 
  private:
+  [[nodiscard]] std::optional<supervisor::WishOutcome> ask_alone(
+      const supervisor::Wish& wish, std::chrono::duration<double> patience);
+
   enum class Stage : std::uint8_t { empty, asked, taken, answered };
 
-  std::timed_mutex asking_;
+  std::binary_semaphore asking_{1};
   std::atomic<Stage> stage_{Stage::empty};
   supervisor::Wish wish_;  ///< the asker's until `asked`, the cycle's until `answered`
   supervisor::WishOutcome outcome_ = supervisor::WishOutcome::taken;

@@ -41,6 +41,7 @@ class WithSlowAnswers : public testing::Test {
                          return error(404, "not_found", "no", "no");
                        },
                        .now_s = [] { return 0.0; }}));
+    port = server->port();
   }
 
   Response answer(const Request& request) {
@@ -71,7 +72,7 @@ class WithSlowAnswers : public testing::Test {
                         steady_clock::duration reads_after = {}) const {
     asio::io_context io;
     tcp::socket socket(io);
-    socket.connect({asio::ip::make_address("127.0.0.1"), server->port()});
+    socket.connect({asio::ip::make_address("127.0.0.1"), port});
     http::request<http::empty_body> request(verb, path, 11);
     request.set(http::field::host, "127.0.0.1");
     beast::error_code fault;
@@ -100,6 +101,7 @@ class WithSlowAnswers : public testing::Test {
   std::atomic<int> begun{0};
   std::atomic<bool> let_go{false};
   std::unique_ptr<Server> server;
+  std::uint16_t port = 0;
 };
 
 TEST_F(WithSlowAnswers, DelayNoQuickOne) {

@@ -92,7 +92,8 @@ TEST_F(RecordsOnPage, SayWhetherTheyAreBeingWritten) {
   const auto writing = [this](const std::string& name) {
     const Json record = desk.json("GET", "/api/v1/records/" + name)["record"]["totals"];
     EXPECT_EQ(record["closed"], false) << name;
-    for (const Json& row : desk.json("GET", "/api/v1/records")["records"]) {
+    const Json all = desk.json("GET", "/api/v1/records");
+    for (const Json& row : all["records"]) {
       if (row["name"] == name) {
         EXPECT_EQ(row["writing"], record["writing"]) << name;
       }
