@@ -48,6 +48,6 @@ struct Simulated {
 /// missing program, what its control refuses, and a process where the spindle never turns.
 [[nodiscard]] std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
                                                           const ProgramOptions& program,
-                                                          const Simulated& simulated = {});
+                                                          const Simulated& of = {});
 
 }  // namespace steadyrest::apps::cli::live

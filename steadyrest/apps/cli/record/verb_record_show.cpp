@@ -19,7 +19,6 @@ namespace record_show {
 namespace {
 
 using kernel::outcome::Reason;
-using record::EventKind;
 
 /// Read from the samples themselves.
 struct Seen {
