@@ -146,5 +146,5 @@ it('leaves a record that shows both, and decides the same again', async () => {
   const shown = steadyrest('show', record);
   expect(shown).toContain('wish: page: local (engineer) set the modulation: sine');
   expect(shown).toContain('wish: page: local (engineer) entered a measured size: Z is +0.25 µm off, sd 1 µm\n');
-  expect(JSON.parse(steadyrest('record', 'replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });
+  expect(JSON.parse(steadyrest('replay', record, '--json'))).toMatchObject({ different: 0, first_difference: null, gap_after: null, wishes: 3 });
 });
