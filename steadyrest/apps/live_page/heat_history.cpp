@@ -146,7 +146,7 @@ void HeatHistory::note(double now_s, const steadyrest::live::LiveStatus& status)
   }
 }
 
-/// What the thermal room was given between two looks; seconds 0 where it began anew.
+/// What the thermal room was given between two entries; 0 seconds if it was restarted in between.
 Stretch HeatHistory::between(const Entry& from, const Entry& to) {
   const double seconds = to.fed.time_s - from.fed.time_s;
   if (!(seconds > 0.0)) {

@@ -17,7 +17,8 @@ namespace steadyrest::apps::live_page {
 /// memory of four windows. A sine of amplitude a has a peak of a (1.4 dB less between two lines).
 class VibrationSpectrum {
  public:
-  /// The next readings, evenly spaced. Another rate begins anew; one not above 0 empties it.
+  /// Appends evenly spaced readings. A changed rate discards the earlier ones; a rate of 0 or less
+  /// discards all.
   void add(std::span<const double> readings, double rate_hz);
   /// A window has been added since the last call.
   [[nodiscard]] bool fresh() noexcept { return std::exchange(fresh_, false); }
@@ -27,7 +28,7 @@ class VibrationSpectrum {
     std::vector<double> hz;
     std::vector<double> amplitude;  ///< in the signal's unit
   };
-  /// From 0 to `most_hz`, at most `most` lines; each is the largest of those that it stands for.
+  /// From 0 to `most_hz`, in at most `most` lines. Where lines are merged, the largest is kept.
   [[nodiscard]] Lines lines(double most_hz, std::size_t most) const;
 
  private:

@@ -4,8 +4,8 @@
 
 #include <steadyrest/contour/online/feed_governor.hpp>
 
-// What a step would give, for those who look. Everything here is const and works on a copy of the
-// forecast (8 kB), whose words under way a decision fills in anew: nothing of it is left behind.
+// What a step would give, for display. Everything here is const and works on a copy of the forecast
+// (8 kB), so the governor's own state never changes.
 namespace steadyrest::contour::online {
 namespace {
 

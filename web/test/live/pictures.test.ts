@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each view against its picture in pictures/, with a layer that stands still. After a change that is meant: npm run pictures:live, and look at them.
+// Compares each view with its stored picture in pictures/, while the layer is paused. After an intended change, run
+// `npm run pictures:live` and look at the new pictures.
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
