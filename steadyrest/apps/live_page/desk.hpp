@@ -46,14 +46,11 @@ struct Desk {
   std::string records;  ///< folder of past runs; empty: none
   /// The name of the record that this run is writing now; an empty name: it writes none. From any
   /// thread.
-  // NOLINTNEXTLINE(readability-redundant-member-init)
-  std::function<std::string()> writing = {};
+  std::function<std::string()> writing;
   /// What `doctor` finds in a machine file.
   std::function<std::vector<passport::Finding>(const kernel::machine::Machine&)> findings;
   double cycle_s = 0.001;
-  // Designated initialisers may leave it out.
-  // NOLINTNEXTLINE(readability-redundant-member-init)
-  std::optional<ChatterDesk> chatter = {};  ///< none: the run has no process
+  std::optional<ChatterDesk> chatter;  ///< none: the run has no process
 };
 
 /// What the loop runs by: another file may have taken over.

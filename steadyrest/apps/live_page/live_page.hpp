@@ -16,13 +16,11 @@ class LivePage {
  public:
   struct Config {
     std::string address = "127.0.0.1";
-    std::uint16_t port = 0;  ///< 0: any free one
-    // NOLINTBEGIN(readability-redundant-member-init)
-    std::string accounts_file = {};  ///< empty: the key alone
-    std::string certificate = {};    ///< file, PEM; empty: no TLS
-    std::string key = {};
-    std::string outer_origin = {};  ///< `https://mill.example`, behind a proxy
-    // NOLINTEND(readability-redundant-member-init)
+    std::uint16_t port = 0;     ///< 0: any free one
+    std::string accounts_file;  ///< empty: the key alone
+    std::string certificate;    ///< file, PEM; empty: no TLS
+    std::string key;
+    std::string outer_origin;  ///< `https://mill.example`, behind a proxy
   };
 
   /// Refused: an address that others reach without accounts or without TLS, unless it is

@@ -48,6 +48,7 @@ class Study : public testing::Test {
         .machine = machine_.machine,
         .machine_file = {},
         .records = {},
+        .writing = {},
         .findings = {},
         .chatter =
             ChatterDesk{.process = slot(), .depth_mm = kDepth_mm, .acts = true, .plan = plan()}});

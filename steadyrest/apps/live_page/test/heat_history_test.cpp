@@ -71,7 +71,9 @@ struct Shift {
                       .machine = machine,
                       .machine_file = {},
                       .records = {},
-                      .findings = {}});
+                      .writing = {},
+                      .findings = {},
+                      .chatter = {}});
     heat.emplace(*desk);
   }
   Json run() {

@@ -31,7 +31,9 @@ class PageDesk {
               .machine = machine_.machine,
               .machine_file = own_copy(),
               .records = folder_.path(),
-              .findings = [](const auto& machine) { return passport::findings(machine); }},
+              .writing = {},
+              .findings = [](const auto& machine) { return passport::findings(machine); },
+              .chatter = {}},
         api_(desk_, {.accounts_file = accounts}, [this] { return now_s; }) {}
 
   [[nodiscard]] static web::Request request(const std::string& method, const std::string& path,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <steadyrest/kernel/testing/warm_axis.hpp>
 #include <steadyrest/live/test/desk.hpp>
 
 namespace steadyrest::live::test {
@@ -10,13 +11,7 @@ inline kernel::machine::Machine with_rooms(kernel::machine::Machine machine) {
   machine.chatter.enabled = true;
   machine.chatter.m_code_on = machine.chatter.m_code_off = 0;
   machine.thermal.enabled = true;
-  kernel::machine::ThermalAxis z;
-  z.name = "Z";
-  z.mode.emplace_back();
-  z.mode[0].tau_s = 600.0;
-  z.mode[0].speed_rev_s = {0.0, 100.0};
-  z.mode[0].level_mm = {0.0, 0.010};
-  machine.thermal.axis = {z};
+  machine.thermal.axis = {kernel::testing::warm_z()};
   return machine;
 }
 

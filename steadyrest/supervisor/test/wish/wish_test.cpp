@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/rt/testing/allocation_guard.hpp>
+#include <steadyrest/kernel/testing/warm_axis.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/supervisor/succession.hpp>
 #include <steadyrest/supervisor/test/bench.hpp>
@@ -43,13 +44,7 @@ Machine both_rooms() {
   machine.thermal.enabled = true;
   machine.thermal.max_offset_mm = 0.05;
   machine.thermal.slope_mm_s = 1.0;
-  kernel::machine::ThermalAxis z;
-  z.name = "Z";
-  z.mode.emplace_back();
-  z.mode[0].tau_s = 600.0;
-  z.mode[0].speed_rev_s = {0.0, 100.0};
-  z.mode[0].level_mm = {0.0, 0.010};
-  machine.thermal.axis = {z};
+  machine.thermal.axis = {kernel::testing::warm_z()};
   return machine;
 }
 

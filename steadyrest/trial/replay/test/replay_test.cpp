@@ -8,6 +8,7 @@
 
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
+#include <steadyrest/kernel/testing/warm_axis.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/record/database.hpp>
 #include <steadyrest/trial/listener/listener.hpp>
@@ -88,13 +89,7 @@ Machine with_rooms() {
   machine.thermal.slope_mm_s = 1.0;
   machine.thermal.max_offset_mm = 0.05;
   machine.envelope.max_offset_mm = 0.05;
-  kernel::machine::ThermalAxis z;
-  z.name = "Z";
-  z.mode.emplace_back();
-  z.mode[0].tau_s = 600.0;
-  z.mode[0].speed_rev_s = {0.0, 100.0};
-  z.mode[0].level_mm = {0.0, 0.010};
-  machine.thermal.axis = {z};
+  machine.thermal.axis = {kernel::testing::warm_z()};
   return machine;
 }
 
