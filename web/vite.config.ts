@@ -5,7 +5,7 @@ import { looksPlugin } from './src/frame/looks_css';
 
 export default defineConfig({
   plugins: [looksPlugin(), viteSingleFile({ removeViteModuleLoader: true })],
-  test: { testTimeout: 240_000, hookTimeout: 240_000, fileParallelism: false },
+  test: { testTimeout: 240_000, hookTimeout: 240_000, maxWorkers: 2, minWorkers: 1 },
   build: {
     rollupOptions: { input: 'page.html' },
     target: 'es2022',

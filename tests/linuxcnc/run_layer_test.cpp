@@ -16,6 +16,7 @@
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/record/testing/run_records.hpp>
 #include <steadyrest/trial/replay/replay.hpp>
 
 namespace steadyrest {
@@ -100,14 +101,11 @@ TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
   expect_slowed_and_handed_back(servo_log(folder.at("log")));
   const auto machine = passport::read(folder.at("machine.toml"));
   ASSERT_TRUE(machine.has_value());
-  std::size_t records = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    if (entry.path().extension() == ".sqlite") {
-      expect_replays(entry.path().string(), *machine);
-      ++records;
-    }
+  const std::vector<std::string> records = record::testing::run_records(folder.path());
+  EXPECT_EQ(records.size(), 2U);
+  for (const std::string& record : records) {
+    expect_replays(record, *machine);
   }
-  EXPECT_EQ(records, 2U);
 }
 
 }  // namespace

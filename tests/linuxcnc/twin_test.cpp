@@ -16,6 +16,7 @@
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/record/record_reader.hpp>
+#include <steadyrest/record/testing/run_records.hpp>
 
 namespace steadyrest {
 namespace {
@@ -86,10 +87,8 @@ Cut cut_of(const std::string& file) {
 
 /// The circle on LinuxCNC once; nothing where it cannot run.
 std::optional<Cut> cut_once(const OwnFolder& folder, const std::string& hal) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    if (entry.path().extension() == ".sqlite") {
-      std::filesystem::remove(entry.path());
-    }
+  for (const std::string& record : record::testing::run_records(folder.path())) {
+    std::filesystem::remove(record);
   }
   const int status = linuxcnc_test::run_on_linuxcnc(
       folder, {.script = "cut_once.py", .program = "circle.ngc", .hal = hal});
@@ -97,10 +96,8 @@ std::optional<Cut> cut_once(const OwnFolder& folder, const std::string& hal) {
     return std::nullopt;
   }
   EXPECT_EQ(status, 0) << text_of_file(folder.at("run.said"));
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    if (entry.path().extension() == ".sqlite") {
-      return cut_of(entry.path().string());
-    }
+  if (const auto records = record::testing::run_records(folder.path()); !records.empty()) {
+    return cut_of(records.back());
   }
   ADD_FAILURE() << "no record; the layer said: " << text_of_file(folder.at("run.said"));
   return Cut{};

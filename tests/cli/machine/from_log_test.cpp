@@ -33,16 +33,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 /// Runs a program on the simulated machine, in real time, and gives its record.
 std::string recorded(const Scratch& scratch, const std::string& machine,
                      const std::string& program) {
-  const Finished done = run({"run", "--machine", machine, "--program", program, "--record",
-                             scratch.at("runs"), "--socket", scratch.at("s")});
-  EXPECT_EQ(done.code, 0) << done.err;
-  for (const auto& entry : std::filesystem::directory_iterator(scratch.at("runs"))) {
-    if (entry.path().extension() == ".sqlite") {
-      return entry.path().string();
-    }
-  }
-  ADD_FAILURE() << "no record";
-  return {};
+  return answer_of("run --machine " + machine + " --program " + program + " --record " +
+                   scratch.at("runs") + " --socket " + scratch.at("s"))["record"]["file"];
 }
 
 json fitted(const Scratch& scratch, const std::string& record, const std::string& machine,

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@
 #include <tests/cli/shared/program.hpp>
 #include <tests/cli/shared/scratch.hpp>
 #include <unistd.h>
+
+#include <steadyrest/record/testing/run_records.hpp>
 
 namespace steadyrest::test {
 namespace {
@@ -60,13 +63,9 @@ TEST(KilledInTheCut, TheNextLayerStartsAndTheRecordIsWhole) {
   }
   EXPECT_TRUE(std::filesystem::exists(socket)) << "it could not take it along";
   EXPECT_EQ(run_line("status --socket " + socket).code, 1);
-  std::string record;
-  for (const auto& file : std::filesystem::directory_iterator(scratch.at("runs"))) {
-    if (file.path().extension() == ".sqlite") {
-      record = file.path().string();
-    }
-  }
-  const Finished shown = run_line("record show --json " + record);
+  const std::vector<std::string> records = record::testing::run_records(scratch.at("runs"));
+  ASSERT_EQ(records.size(), 1U);
+  const Finished shown = run_line("record show --json " + records.front());
   ASSERT_EQ(shown.code, 0) << shown.err;
   EXPECT_GT(nlohmann::json::parse(shown.out)["samples"].get<int>(), 100);
   Process next(arguments, scratch.at(""));
