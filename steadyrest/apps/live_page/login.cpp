@@ -17,7 +17,7 @@ namespace steadyrest::apps::live_page {
 namespace {
 
 constexpr std::string_view kCookie = "steadyrest_session";
-constexpr std::string_view kBearer = "Bearer ";
+constexpr std::string_view kBearer = "bearer ";
 constexpr web::RateLimit::Config kFailures{.per_s = 5.0 / 60.0, .burst = 5.0, .most_keys = 4096};
 
 std::string head_of(const std::string& session, bool secure, bool ends) {
@@ -51,8 +51,8 @@ std::optional<web::Accounts> Login::accounts() const {
 }
 
 std::optional<web::Caller> Login::of_token(const web::Request& request) const {
-  const std::string_view authorization = request.authorization;
-  if (!authorization.starts_with(kBearer)) {
+  const std::string& authorization = request.authorization;
+  if (web::lower(authorization.substr(0, kBearer.size())) != kBearer) {
     return std::nullopt;
   }
   const auto accounts = this->accounts();
@@ -122,12 +122,12 @@ std::optional<Login::Known> Login::check(const std::string& name, const std::str
 web::Response Login::begin(const web::Request& request, double now_s) {
   const auto asked = kernel::file::json_object(request.body);
   if (!asked) {
-    return web::error(400, "bad_request", "the body is no JSON object",
+    return web::error(400, "bad_request", "the body is not a JSON object",
                       R"(send {"name":…,"password":…} or {"key":…})");
   }
   const std::string name = text(*asked, "name");
-  // Of an account from anywhere, and of an address with any account.
-  const std::string of_name = "name " + name;
+  // Of an account from anywhere, and of an address with any account. No account has a longer name.
+  const std::string of_name = "name " + name.substr(0, web::Accounts::kLongestName);
   if (!failures_.has_room(request.address, now_s) || !failures_.has_room(of_name, now_s)) {
     web::Response out = web::error(429, "too_many_failures", "too many failed log-ins",
                                    "wait a minute, then try again");
