@@ -266,6 +266,21 @@ TEST_F(PageApi, CookieIsTheBrowsersAloneAndSecureOverTls) {
               Contains(Pair("Set-Cookie", HasSubstr("; HttpOnly; SameSite=Strict; Secure"))));
 }
 
+TEST_F(PageApi, SessionsOfTwoPagesOnOneComputerDoNotMix) {
+  auto request = PageDesk::request("POST", "/api/v1/session",
+                                   R"({"name":"anna","password":"secret of anna"})");
+  request.host = "127.0.0.1:8080";
+  const auto got = desk.api().answer(request);
+  const std::string own = got.head[0].second.substr(0, got.head[0].second.find(';'));
+  EXPECT_THAT(own, testing::StartsWith("steadyrest_session_8080="));
+  auto later = PageDesk::request("GET", "/api/v1/status");
+  later.cookie = "steadyrest_session_8081=x; steadyrest_session=x; " + own;
+  later.host = request.host;
+  EXPECT_EQ(desk.api().answer(later).status, 200U);
+  later.host = "127.0.0.1:8081";
+  EXPECT_EQ(desk.api().answer(later).status, 401U);
+}
+
 TEST(PageKey, LogsInWhereThereAreNoAccounts) {
   PageDesk desk;
   desk.log_in(R"({"key":"wrong"})");
