@@ -8,6 +8,15 @@
 namespace steadyrest::live {
 namespace {
 
+/// By the room's last reason about heat: an unfit frame says nothing of the model.
+bool switched_off(const thermal::online::OffsetGovernor::Output& heat, bool before) noexcept {
+  using kernel::outcome::Reason;
+  const Reason reason = heat.request.reason;
+  const bool of_heat = reason == Reason::none || (reason >= Reason::thermal_correcting &&
+                                                  reason <= Reason::thermal_model_unfit);
+  return of_heat ? reason == Reason::thermal_model_unfit : before;
+}
+
 void look_at_rooms(const supervisor::Supervisor::Estimates& estimates, LiveStatus& into) noexcept {
   const auto& contour = estimates.contour;
   into.error_known = contour && contour->error_valid;
@@ -24,6 +33,7 @@ void look_at_rooms(const supervisor::Supervisor::Estimates& estimates, LiveStatu
   into.modulation_phase = chatter ? chatter->phase : 0.0;
   into.feed_per_tooth_ratio = chatter ? chatter->feed_per_tooth_ratio : 1.0;
   into.heat_on = estimates.thermal.has_value();
+  into.heat_switched_off = into.heat_on && switched_off(*estimates.thermal, into.heat_switched_off);
   into.heat_fed = into.heat_on ? estimates.thermal->fed : into.heat_fed;
 }
 

@@ -72,6 +72,8 @@ struct LiveStatus {
   double feed_per_tooth_ratio = 1.0;
   LiveChatter chatter;
   bool heat_on = false;  ///< the thermal room is on
+  /// The readings do not fit the thermal model: it corrects nothing until they do again.
+  bool heat_switched_off = false;
   thermal::online::OffsetGovernor::Fed heat_fed;
   std::uint8_t axis_count = 0;
   std::array<LiveAxis, kernel::signal::kMaxAxes> axis{};

@@ -30,7 +30,7 @@ Refusal fault(sqlite3* database, const std::string& file) {
                                         "restore it from a copy, or delete it");
     case SQLITE_FULL:
       return {Kind::unavailable, file, 0, "the disk is full",
-              "free space, or lower the limit of the folder"};
+              "free space, or name a folder on another disk with --record"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return {Kind::unavailable, file, 0, "is locked by another program", "close that program"};

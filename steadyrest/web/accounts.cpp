@@ -26,13 +26,12 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr int kVersion = 1;
-constexpr std::size_t kLongestName = 32;
 constexpr const char* kAdd = "make it with `steadyrest page add-user`";
 
 bool is_name(std::string_view name) {
   constexpr std::string_view kAllowed =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
-  return !name.empty() && name.size() <= kLongestName &&
+  return !name.empty() && name.size() <= Accounts::kLongestName &&
          name.find_first_not_of(kAllowed) == std::string_view::npos;
 }
 
@@ -118,7 +117,7 @@ Result<Accounts> Accounts::read(const std::string& file) {
   if (!root || root->value("version", Json()) != Json(kVersion) ||
       !read_list(*root, "users", "argon2id", out.users_) ||
       !read_list(*root, "tokens", "sha256", out.tokens_)) {
-    return refuse(file, "is no file of accounts", kAdd);
+    return refuse(file, "is not a file of accounts", kAdd);
   }
   return out;
 }
@@ -131,6 +130,7 @@ Result<void> Accounts::write(const std::string& file) const {
   const std::string text = root.dump(2) + "\n";
   std::string beside = file + ".XXXXXX";
   const int descriptor = ::mkostemp(beside.data(), O_CLOEXEC);  // for its owner alone
+  errno = descriptor >= 0 ? ENOSPC : errno;                     // a write that ends early sets none
   const bool written =
       descriptor >= 0 &&
       ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&

@@ -23,6 +23,7 @@ class Accounts {
     std::string hash;  ///< of the password or the token
   };
 
+  static constexpr std::size_t kLongestName = 32;
   static constexpr std::size_t kShortestPassword = 8;
   static constexpr std::size_t kLongestPassword = 1024;
 
@@ -32,7 +33,7 @@ class Accounts {
   [[nodiscard]] kernel::outcome::Result<void> write(const std::string& file) const;
 
   /// A user of that name is replaced. Refused: a name that is not 1 … 32 letters, digits, dots,
-  /// dashes and underscores; a password shorter than 8 bytes.
+  /// dashes and underscores; a password that is not 8 … 1024 bytes long.
   [[nodiscard]] kernel::outcome::Result<void> set_user(const std::string& name,
                                                        const std::string& password, Role role);
   /// Gives the token: it is in no file and cannot be shown again.

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <list>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
+#include <fmt/core.h>
 
 #include <steadyrest/web/stream_client.hpp>
 #include <steadyrest/web/traffic.hpp>
@@ -64,6 +69,7 @@ class Connection final : public Waiting,
 
  private:
   using Parser = http::request_parser<http::string_body>;
+  static constexpr unsigned kNoContent = 204;
 
   /// The whole of what follows, not each of its bytes, must come within this time.
   void be_patient(std::uint64_t bytes = 0) {
@@ -98,6 +104,11 @@ class Connection final : public Waiting,
       unreadable(fault);
       return;
     }
+    if (auto refused = repeated()) {
+      last_ = true;
+      write(std::move(*refused));
+      return;
+    }
     Request request;
     if (!fill(request)) {
       last_ = true;
@@ -117,15 +128,40 @@ class Connection final : public Waiting,
   void unreadable(beast::error_code fault) {
     last_ = true;
     if (fault == http::error::body_limit) {
-      write(error(413, "too_large", "the body is too large", "send at most 256 KiB"));
+      write(error(413, "too_large", "the body is too large", at_most(traffic_.config.most_body)));
     } else if (fault == http::error::header_limit) {
-      write(error(431, "too_large", "the head is too large", "send at most 16 KiB"));
+      write(error(431, "too_large", "the head is too large", at_most(traffic_.config.most_head)));
     } else if (fault.category() == http::make_error_code(http::error::bad_method).category() &&
                fault != http::error::end_of_stream && fault != http::error::partial_message) {
-      write(error(400, "bad_request", "this is no HTTP request", "speak HTTP/1.1"));
+      write(error(400, "bad_request", "this is not an HTTP request", "speak HTTP/1.1"));
     } else {
       close();
     }
+  }
+
+  static std::string at_most(std::size_t bytes) {
+    return fmt::format("send at most {} bytes", bytes);
+  }
+
+  /// A proxy in front might go by the other one.
+  [[nodiscard]] std::optional<Response> repeated() const {
+    constexpr std::array kOnce = {http::field::host, http::field::origin,
+                                  http::field::authorization, http::field::content_type};
+    for (const http::field name : kOnce) {
+      if (const std::size_t count = parser_->get().count(name); count > 1) {
+        return error(400, "bad_request",
+                     fmt::format("the head {} was sent {} times; allowed: once",
+                                 std::string(http::to_string(name)), count),
+                     "send it once");
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Proxies add an address to the last head of this name, or a head behind it.
+  [[nodiscard]] std::string last_forwarded() const {
+    const auto [from, to] = parser_->get().equal_range("X-Forwarded-For");
+    return from == to ? std::string() : std::string(std::prev(to)->value());
   }
 
   bool fill(Request& request) const {
@@ -139,10 +175,15 @@ class Connection final : public Waiting,
     request.content_type = head(http::field::content_type);
     request.csrf = head("X-Steadyrest-CSRF");
     request.body = from.body();
-    request.address = client_address(traffic_.config.gate, address_, head("X-Forwarded-For"));
-    request.secure = kSecure || !traffic_.config.gate.outer_origin.empty();
+    request.address = client_address(traffic_.config.gate, address_, last_forwarded());
+    request.secure = is_secure();
     const auto target = from.target();
     return parse_target({target.data(), target.size()}, request);
+  }
+
+  /// To the browser: a proxy in front encrypts.
+  [[nodiscard]] bool is_secure() const {
+    return kSecure || !traffic_.config.gate.outer_origin.empty();
   }
 
   /// In the thread of the answers.
@@ -198,11 +239,12 @@ class Connection final : public Waiting,
     message.result(of.status);
     message.version(11);
     message.keep_alive(!last_ && parser_->get().keep_alive());
-    message.set(http::field::content_type, of.content_type);
+    if (of.status != kNoContent) {
+      message.set(http::field::content_type, of.content_type);
+    }
     for (const auto& [name, value] : of.head) {
       message.insert(name, value);
     }
-    message.prepare_payload();
     const bool goes_on = message.keep_alive();
     auto kept = std::make_shared<http::response<Body>>(std::move(message));
     be_patient(of.file.empty() ? 0 : kept->payload_size().value_or(0));
@@ -218,13 +260,15 @@ class Connection final : public Waiting,
   }
 
   void write(Response response) {
-    add_security_heads(response,
-                       parser_ && (kSecure || !traffic_.config.gate.outer_origin.empty()));
-    const bool head_alone = parser_->get().method() == http::verb::head;
-    if (response.file.empty() || head_alone) {
-      response.keeper.reset();
+    add_security_heads(response, is_secure());
+    if (response.status == kNoContent || parser_->get().method() == http::verb::head) {
+      write_head(response);
+      return;
+    }
+    if (response.file.empty()) {
       http::response<http::string_body> message;
-      message.body() = head_alone ? "" : std::move(response.body);
+      message.body() = std::move(response.body);
+      message.prepare_payload();
       send(std::move(message), response);
       return;
     }
@@ -236,6 +280,20 @@ class Connection final : public Waiting,
       write(error(500, "failed", "the file cannot be read", "try again"));
       return;
     }
+    message.prepare_payload();
+    send(std::move(message), response);
+  }
+
+  /// With the length that the body would have.
+  void write_head(Response& response) {
+    http::response<http::empty_body> message;
+    if (response.status != kNoContent) {
+      std::error_code fault;
+      const auto bytes = response.file.empty() ? response.body.size()
+                                               : std::filesystem::file_size(response.file, fault);
+      message.content_length(fault ? 0 : bytes);
+    }
+    response.keeper.reset();
     send(std::move(message), response);
   }
 
@@ -254,7 +312,7 @@ class Connection final : public Waiting,
   std::string address_;
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
-  bool last_ = false;                                   ///< no request is read behind this one
+  bool last_ = false;                                   ///< no request is read after this one
   std::optional<std::list<Waiting*>::iterator> place_;  ///< among those that wait
 };
 

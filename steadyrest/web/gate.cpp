@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -19,21 +18,6 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
-
-std::string small(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-/// `[::1]:8080` → `[::1]`, `localhost:8080` → `localhost`.
-std::string without_port(const std::string& host) {
-  const std::size_t bracket = host.rfind(']');
-  const std::size_t colon = host.rfind(':');
-  const bool has_port =
-      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
-  return has_port ? host.substr(0, colon) : host;
-}
 
 /// `192.168.1.7`, `[fe80::1]`.
 bool is_number(const std::string& host) {
@@ -58,12 +42,12 @@ bool Gate::knows_host(const std::string& host) const {
   if (config_.any_number && is_number(without_port(host))) {
     return true;
   }
-  return std::ranges::find(config_.hosts, without_port(small(host))) != config_.hosts.end();
+  return std::ranges::find(config_.hosts, without_port(lower(host))) != config_.hosts.end();
 }
 
 bool Gate::is_own(const Request& request) const {
-  const std::string own = (request.secure ? "https://" : "http://") + small(request.host);
-  const std::string origin = small(request.origin);
+  const std::string own = (request.secure ? "https://" : "http://") + lower(request.host);
+  const std::string origin = lower(request.origin);
   return origin.empty() || origin == own ||
          (!config_.outer_origin.empty() && origin == config_.outer_origin);
 }
@@ -86,6 +70,14 @@ std::optional<Response> Gate::refuse(const Request& request, bool writes, double
                  "use the page of this server");
   }
   return std::nullopt;
+}
+
+std::string without_port(const std::string& host) {
+  const std::size_t bracket = host.rfind(']');
+  const std::size_t colon = host.rfind(':');
+  const bool has_port =
+      colon != std::string::npos && (bracket == std::string::npos || colon > bracket);
+  return has_port ? host.substr(0, colon) : host;
 }
 
 std::string client_address(const Gate::Config& config, const std::string& from,

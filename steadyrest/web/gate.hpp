@@ -21,13 +21,14 @@ class Gate {
   struct Config {
     // Designated initialisers may leave these out.
     // NOLINTBEGIN(readability-redundant-member-init)
-    std::vector<std::string> hosts = {};  ///< names of this server, without port, in small letters
-    /// Also the addresses of this computer as numbers: a name that leads here by somebody else's
-    /// hand is none of these.
+    std::vector<std::string> hosts = {};  ///< names of this server, without port, in lower case
+    /// Also the addresses of this computer as numbers: no name that somebody else has led here is
+    /// one of these.
     bool any_number = false;
     /// Counted apart from all others, so that those cannot use up their share.
     std::string urgent_path = {};
-    std::string outer_origin = {};  ///< as the browser sees it through a proxy; empty: no proxy
+    /// As the browser sees it through a proxy, in lower case; empty: no proxy.
+    std::string outer_origin = {};
     RateLimit::Config rate = {};
     // NOLINTEND(readability-redundant-member-init)
   };
@@ -47,6 +48,9 @@ class Gate {
   RateLimit rate_;
   RateLimit urgent_;
 };
+
+/// `[::1]:8080` → `[::1]`, `localhost:8080` → `localhost`.
+[[nodiscard]] std::string without_port(const std::string& host);
 
 /// Who asks. A proxy that was named adds the address that it sees to the end of `forwarded`, the
 /// head X-Forwarded-For; without one, or where that is no address, `from` counts.

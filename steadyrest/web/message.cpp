@@ -61,6 +61,19 @@ bool parse_query(std::string_view query, std::map<std::string, std::string>& int
 
 }  // namespace
 
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  return text;
+}
+
+std::string media_type(std::string_view content_type) {
+  const std::string_view type = content_type.substr(0, content_type.find(';'));
+  const std::size_t first = std::min(type.find_first_not_of(" \t"), type.size());
+  return lower(std::string(type.substr(first, type.find_last_not_of(" \t") + 1 - first)));
+}
+
 bool parse_target(std::string_view target, Request& into) {
   const std::size_t question = target.find('?');
   const auto path = decoded(target.substr(0, question));

@@ -42,9 +42,15 @@ struct Response {
   bool minutes = false;  ///< that is how long it may take; else seconds, which wait for no minutes
 };
 
-/// The target of a request in its parts; false where it cannot be one: not from `/`, wrong escapes,
-/// control characters, a folder up.
+/// Takes a request's target apart. False where it is none: it does not begin with `/`, has a wrong
+/// escape or a control character, or leads to a folder above.
 [[nodiscard]] bool parse_target(std::string_view target, Request& into);
+
+/// ASCII letters in lower case.
+[[nodiscard]] std::string lower(std::string text);
+
+/// `application/json` from `Application/JSON; charset=utf-8`.
+[[nodiscard]] std::string media_type(std::string_view content_type);
 
 /// The value of a cookie; empty: there is none.
 [[nodiscard]] std::string cookie(const Request& request, std::string_view name);

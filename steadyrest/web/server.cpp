@@ -179,7 +179,7 @@ class BeastServer final : public Server {
     });
   }
 
-  // The io context last to go: its handlers hold the connections, which look at the others.
+  // The connections that the traffic's handlers hold use the TLS context: it goes last.
   std::optional<asio::ssl::context> tls_;
   Traffic traffic_;
   tcp::acceptor acceptor_;

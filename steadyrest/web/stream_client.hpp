@@ -21,7 +21,7 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 
-/// A WebSocket's client. It says nothing but pongs; whoever does is closed.
+/// A WebSocket's client. It may send pongs alone: one that says anything is closed.
 template <class Transport>
 class StreamClient final : public Stream,
                            public std::enable_shared_from_this<StreamClient<Transport>> {

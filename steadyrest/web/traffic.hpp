@@ -56,7 +56,7 @@ struct Traffic {
   std::atomic<std::size_t> stream_count{0};
   std::size_t connections = 0;
   std::list<Waiting*> waiting;  ///< the longest first
-  // Behind what its handlers' owners still touch when they go with it.
+  // Last, so that they go first: their handlers still use what is above.
   asio::io_context io{1};
   asio::thread_pool answers{1};
   SlowAnswers slow;

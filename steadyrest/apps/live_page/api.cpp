@@ -17,6 +17,7 @@
 #include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/status_json.hpp>
+#include <steadyrest/live/wish/wish_json.hpp>
 #include <steadyrest/web/gate.hpp>
 #include <steadyrest/web/secret.hpp>
 
@@ -38,15 +39,15 @@ constexpr std::array<Route, 19> kRoutes = {{
     {"GET", "/api/v1/status"},
     {"POST", "/api/v1/mode", false, Role::operating},
     {"POST", Api::kHandBack},
-    {"POST", "/api/v1/modulation", false, Role::operating},
+    {"POST", "/api/v1/modulation", false, Role::operating, true},
     {"GET", "/api/v1/machine"},
     {"POST", "/api/v1/machine/check", false, Role::operating},
-    {"POST", "/api/v1/machine/apply", false, Role::engineer},
+    {"POST", "/api/v1/machine/apply", false, Role::engineer, true},
     {"GET", "/api/v1/thermal"},
     {"GET", "/api/v1/motion"},
     {"GET", "/api/v1/chatter/lobes"},
     {"GET", "/api/v1/chatter/plan"},
-    {"POST", "/api/v1/thermal/measured", false, Role::operating},
+    {"POST", "/api/v1/thermal/measured", false, Role::operating, true},
     {"GET", "/api/v1/records"},
     {"GET", kRecords},
     {"POST", kRecords, false, Role::engineer},
@@ -58,7 +59,7 @@ bool matches(const Route& route, std::string_view path) {
                                    : path == route.path;
 }
 
-/// Of a path that exists: no route for its method.
+/// No route: the address has other methods, or there is nothing.
 web::Response wrong_method(std::string_view path) {
   std::string allowed;
   for (const Route& route : kRoutes) {
@@ -73,6 +74,14 @@ web::Response wrong_method(std::string_view path) {
   web::Response out =
       web::error(405, "method_not_allowed", "this address has another method", "use " + allowed);
   out.head.emplace_back("Allow", allowed);
+  return out;
+}
+
+/// Of a record's address without `/replay`.
+web::Response only_read() {
+  web::Response out =
+      web::error(405, "method_not_allowed", "this address can only be read", "use GET");
+  out.head.emplace_back("Allow", "GET");
   return out;
 }
 
@@ -94,6 +103,14 @@ web::Response minutes(web::Response of) {
   return of;
 }
 
+bool is_confirmed(const Json& asked) {
+  return asked.value("confirm", Json()) == Json(true);
+}
+
+web::Response unconfirmed(const char* what) {
+  return web::error(422, "refused", what, "send \"confirm\": true");
+}
+
 std::string author(const web::Caller& caller) {
   return fmt::format("{} ({})", caller.name, word(caller.role));
 }
@@ -112,7 +129,7 @@ std::span<const Route> Api::routes() noexcept {
   return kRoutes;
 }
 
-// From the outside in: is there such a thing, who asks, may they, is it meant.
+// In this order: does it exist, who asks, may they, do they mean it.
 web::Response Api::answer(const web::Request& request) {
   if (!request.path.starts_with(kApi)) {
     return asset(request);
@@ -139,16 +156,13 @@ web::Response Api::answer(const web::Request& request) {
     return web::error(403, "csrf", "the head X-Steadyrest-CSRF is missing or wrong",
                       "send `csrf` of /api/v1/session");
   }
-  const bool is_json = request.content_type == "application/json" ||
-                       request.content_type.starts_with("application/json;");
-  if (method == "POST" && !is_json) {
+  if (method == "POST" && web::media_type(request.content_type) != "application/json") {
     return web::error(415, "unsupported_type", "the body is not said to be JSON",
                       "send Content-Type: application/json");
   }
-  return run(*route,
-             {.request = request,
-              .caller = who ? who->caller : web::Caller{},
-              .rest = request.path.substr(std::min(route->path.size(), request.path.size()))});
+  return run(*route, {.request = request,
+                      .caller = who ? who->caller : web::Caller{},
+                      .rest = request.path.substr(route->path.size())});
 }
 
 web::Response Api::run(const Route& route, const Call& call) {
@@ -195,9 +209,12 @@ web::Response Api::run(const Route& route, const Call& call) {
 web::Response Api::write(const Route& route, const Call& call) {
   const auto body = kernel::file::json_object(call.request.body);
   if (!body) {
-    return web::error(400, "bad_request", "the body is no JSON object", "send {…}");
+    return web::error(400, "bad_request", "the body is not a JSON object", "send {…}");
   }
   const Json& asked = *body;
+  if (route.acts && acts() && !is_confirmed(asked)) {
+    return unconfirmed("in mode act this moves the machine at once");
+  }
   if (route.path == "/api/v1/mode") {
     return set_mode(call, asked);
   }
@@ -214,9 +231,9 @@ web::Response Api::write(const Route& route, const Call& call) {
     return later([this, asked](const std::stop_token&) { return check_machine(desk_, asked); });
   }
   if (route.path == "/api/v1/machine/apply") {
-    return later([this, asked, by = author(call.caller)](const std::stop_token&) {
+    return later([this, asked, by = author(call.caller)](const std::stop_token& stop) {
       const std::scoped_lock lock(applying_);
-      return apply_machine(desk_, asked, by);
+      return apply_machine(desk_, asked, by, stop);
     });
   }
   if (call.rest.ends_with(kReplay)) {
@@ -224,7 +241,12 @@ web::Response Api::write(const Route& route, const Call& call) {
         later([this, name = call.rest.substr(0, call.rest.size() - kReplay.size())](
                   const std::stop_token& stop) { return replay_record(desk_, name, stop); }));
   }
-  return wrong_method(call.request.path + kReplay.data());
+  return only_read();
+}
+
+bool Api::acts() const {
+  auto& loop = desk_.asked.loop;
+  return loop.mode_wanted() == Mode::act || loop.status().mode_in_force == Mode::act;
 }
 
 web::Response Api::set_mode(const Call& call, const Json& asked) {
@@ -232,13 +254,13 @@ web::Response Api::set_mode(const Call& call, const Json& asked) {
   const auto mode =
       name.is_string() ? steadyrest::live::mode_of(name.get<std::string>()) : std::nullopt;
   if (!mode) {
-    return web::error(422, "refused", "`mode` is none of them; allowed: observe, advise, act",
-                      "give one of these");
+    return web::error(
+        422, "refused",
+        fmt::format("`mode` is {}; allowed: observe, advise, act", steadyrest::live::shown(name)),
+        "give one of these");
   }
-  if (*mode == Mode::act && asked.value("confirm", Json()) != Json(true)) {
-    return web::error(422, "refused",
-                      "in mode act the layer moves the machine's overrides and axes",
-                      "send \"confirm\": true");
+  if (*mode == Mode::act && !is_confirmed(asked)) {
+    return unconfirmed("in mode act the layer moves the machine's overrides and axes");
   }
   desk_.asked.loop.note(
       fmt::format("page: {} asked for {}", author(call.caller), steadyrest::live::word(*mode)));

@@ -21,9 +21,10 @@ namespace steadyrest::apps::live_page {
 /// Where a request goes, and what it takes.
 struct Route {
   std::string_view method;
-  std::string_view path;  ///< one that ends in `/` has a name behind it
-  bool open = false;      ///< before a log-in too
+  std::string_view path;  ///< one that ends in `/` is followed by a name
+  bool open = false;      ///< without a log-in too
   web::Role role = web::Role::viewer;
+  bool acts = false;  ///< changes what the layer does at once: confirmed while it acts
 };
 
 /// The page's HTTP interface (docs/page-api.md). Its answers come one after the other; those about
@@ -54,10 +55,11 @@ class Api {
   struct Call {
     const web::Request& request;
     web::Caller caller;
-    std::string rest;  ///< behind a path that ends in `/`
+    std::string rest;  ///< after a path that ends in `/`
   };
   [[nodiscard]] web::Response run(const Route& route, const Call& call);
   [[nodiscard]] web::Response write(const Route& route, const Call& call);
+  [[nodiscard]] bool acts() const;
   [[nodiscard]] web::Response set_mode(const Call& call, const Json& asked);
   [[nodiscard]] web::Response hand_back(const Call& call);
 

@@ -23,13 +23,15 @@ namespace offline = chatter::offline;
 using kernel::outcome::Result;
 using kernel::units::rpm_from_rev_s;
 
-/// Of the map, computed in one go: between two of them it may be told to end.
+/// Speeds of the map that are computed in one go: between two goes it may be told to end.
 constexpr std::size_t kTogether = 8;
-constexpr double kSlowestShare =
-    0.2;                             ///< of the spindle's fastest: slower ones have countless lobes
-constexpr double kBelowPoint = 0.7;  ///< of the programmed speed, which the map has in any case
+/// Of the spindle's top speed: slower speeds have countless lobes.
+constexpr double kSlowestShare = 0.2;
+constexpr double kBelowPoint = 0.7;  ///< of the programmed speed, which the map shows in any case
 constexpr double kDepthsOfCut = 3.0;
 constexpr double kSame = 1e-6;
+constexpr double kRpm = 1e-2;  ///< digits of a speed, of a depth
+constexpr double kDepth_mm = 1e-4;
 
 web::Response no_process() {
   return web::error(404, "not_found", "the layer does not know what is cut",
@@ -47,7 +49,7 @@ std::vector<double> even(double from, double to, std::size_t count) {
 Json each_rounded(const std::vector<double>& values, double to) {
   Json out = Json::array();
   for (const double value : values) {
-    out.push_back(std::isfinite(value) ? Json(std::round(value / to) * to) : Json());
+    out.push_back(rounded(value, to));
   }
   return out;
 }
@@ -55,7 +57,7 @@ Json each_rounded(const std::vector<double>& values, double to) {
 Json rpm(const std::vector<double>& rev_s) {
   std::vector<double> out(rev_s.size());
   std::ranges::transform(rev_s, out.begin(), rpm_from_rev_s);
-  return each_rounded(out, 1e-2);
+  return each_rounded(out, kRpm);
 }
 
 }  // namespace
@@ -193,9 +195,8 @@ Result<Json> ChatterStudy::make_lobes() {
     }
     const std::size_t points = border->speed_rev_s.size() - (more ? 1 : 0);
     for (std::size_t i = 0; i < points; ++i) {
-      border_rpm.push_back(std::round(100.0 * rpm_from_rev_s(border->speed_rev_s[i])) / 100.0);
-      border_mm.push_back(border->depth_mm[i] ? Json(std::round(1e4 * *border->depth_mm[i]) / 1e4)
-                                              : Json());
+      border_rpm.push_back(rounded(rpm_from_rev_s(border->speed_rev_s[i]), kRpm));
+      border_mm.push_back(border->depth_mm[i] ? rounded(*border->depth_mm[i], kDepth_mm) : Json());
     }
     tell(lobes_,
          static_cast<double>(first + kTogether) / static_cast<double>(config_.speeds + kTogether));
@@ -203,7 +204,7 @@ Result<Json> ChatterStudy::make_lobes() {
   return Json{
       {"map",
        {{"speed_rpm", rpm(speeds)},
-        {"depth_mm", each_rounded(depths, 1e-4)},
+        {"depth_mm", each_rounded(depths, kDepth_mm)},
         {"log_radius", each_rounded(log_radius, 1e-4)}}},
       {"border", {{"speed_rpm", std::move(border_rpm)}, {"depth_mm", std::move(border_mm)}}},
       {"depth_mm", depth_mm}};

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <steadyrest/apps/live_page/desk.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::live_page {
@@ -16,6 +17,14 @@ Json rounded(double value, double to) {
 
 Json micrometres(double mm) {
   return rounded(kernel::units::um_from_mm(mm), 1e-3);
+}
+
+Json switched_off_json(const steadyrest::live::LiveStatus& status) {
+  constexpr auto kWhy = kernel::outcome::Reason::thermal_model_unfit;
+  const bool off = status.heat_switched_off;
+  return {{"switched_off", off},
+          {"reason", off ? Json(kernel::outcome::name(kWhy)) : Json()},
+          {"sentence", off ? Json(kernel::outcome::sentence(kWhy)) : Json()}};
 }
 
 std::string text_of(const Json& json) {

@@ -12,6 +12,7 @@
 #include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/live/live_status.hpp>
 #include <steadyrest/live/protocol.hpp>
 #include <steadyrest/live/tap.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -37,7 +38,7 @@ struct ChatterDesk {
       plan;
 };
 
-/// The running layer as the page has it before it.
+/// The running layer as the page sees it.
 struct Desk {
   steadyrest::live::Asked asked;  ///< what the socket's clients ask too
   steadyrest::live::Tap& tap;
@@ -58,10 +59,13 @@ struct Desk {
 
 /// An answer with `version` and these keys.
 [[nodiscard]] web::Response answer(const Json& keys, unsigned status = 200);
-/// A number with so many digits as a picture can show; null where there is none.
+/// A multiple of `to`; null where the value is not finite.
 [[nodiscard]] Json rounded(double value, double to);
 /// In µm, to a nanometre.
 [[nodiscard]] Json micrometres(double mm);
+/// Whether the thermal room has stopped correcting because its readings do not fit: `switched_off`,
+/// and why `reason` and `sentence` (null: it has not).
+[[nodiscard]] Json switched_off_json(const steadyrest::live::LiveStatus& status);
 /// One JSON line, whatever bytes its texts have.
 [[nodiscard]] std::string text_of(const Json& json);
 

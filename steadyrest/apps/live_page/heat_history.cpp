@@ -242,6 +242,7 @@ web::Response HeatHistory::show() const {
                        {"corrections", corrections_json(seen.corrections, ahead, machine)},
                        {"next", next_json(ahead, machine)},
                        {"readings", seen.readings}};
+  thermal_json.update(switched_off_json(desk_.asked.loop.status()));
   return answer({{"thermal", std::move(thermal_json)}});
 }
 

@@ -25,7 +25,8 @@ class HeatHistory {
   /// A measured size that somebody has entered: `axis`, `displacement_um`, and its verdict. The
   /// newest fifty are kept.
   void add_reading(Json reading);
-  /// `share_k`, `passports`, `history`, `cyclogram`, `outlook`, `corrections`, `next`, `readings`.
+  /// `share_k`, `passports`, `history`, `cyclogram`, `outlook`, `corrections`, `next`, `readings`,
+  /// and switched_off_json().
   [[nodiscard]] web::Response show() const;
 
  private:

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -11,6 +13,8 @@
 #include <steadyrest/apps/live_page/live_page.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/web/accounts.hpp>
+#include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/message.hpp>
 #include <steadyrest/web/server.hpp>
 
 namespace steadyrest::apps::live_page {
@@ -34,14 +38,25 @@ std::string in_address(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
+/// `mill.example` of `https://mill.example:8443`; none: that is no origin over TLS.
+std::optional<std::string> host_of(const std::string& origin) {
+  constexpr std::string_view kScheme = "https://";
+  const std::string small = web::lower(origin);
+  const std::string host = small.substr(std::min(small.size(), kScheme.size()));
+  return small.starts_with(kScheme) && !host.empty() &&
+                 host.find_first_of("/?#@ ") == std::string::npos
+             ? std::optional(web::without_port(host))
+             : std::nullopt;
+}
+
 web::Gate::Config gate_of(const LivePage::Config& config) {
   web::Gate::Config gate;
   gate.hosts = {in_address(config.address), "localhost", "127.0.0.1", "[::1]"};
   gate.any_number = config.address == "0.0.0.0" || config.address == "::";
-  gate.outer_origin = config.outer_origin;
+  gate.outer_origin = web::lower(config.outer_origin);
   gate.urgent_path = Api::kHandBack;
-  if (const std::size_t at = config.outer_origin.find("://"); at != std::string::npos) {
-    gate.hosts.push_back(config.outer_origin.substr(at + 3));
+  if (auto host = host_of(config.outer_origin)) {
+    gate.hosts.push_back(std::move(*host));
   }
   return gate;
 }
@@ -91,15 +106,14 @@ class Page final : public LivePage {
   }
 
  private:
-  /// What may change of a hello.
+  /// What may change in a hello.
   struct Told {
     std::uint64_t reload = 0;
     std::optional<chatter::online::Modulation> modulation;
     friend bool operator==(const Told&, const Told&) = default;
   };
 
-  /// Another machine file or another modulation is in force: what the streams were told at their
-  /// begin is told again.
+  /// Sends a new hello when another machine file or another modulation is in force.
   void tell_changes() {
     Told now = told_;
     if (desk_.asked.reloader != nullptr) {
@@ -156,6 +170,12 @@ class Page final : public LivePage {
 }  // namespace
 
 Result<void> LivePage::check(const Config& config) {
+  if (!config.outer_origin.empty() && !host_of(config.outer_origin)) {
+    return refuse(fmt::format("--behind-proxy {} is no origin; allowed: https://NAME, "
+                              "https://NAME:PORT",
+                              config.outer_origin),
+                  "give it as the browser's address line begins, without a path");
+  }
   const bool reached = !is_loopback(config.address) || !config.outer_origin.empty();
   if (reached && config.accounts_file.empty()) {
     return refuse("the page would be open to others without accounts",

@@ -20,11 +20,12 @@ class LivePage {
     std::string accounts_file;  ///< empty: the key alone
     std::string certificate;    ///< file, PEM; empty: no TLS
     std::string key;
-    std::string outer_origin;  ///< `https://mill.example`, behind a proxy
+    std::string outer_origin;  ///< `https://mill.example[:8443]`, behind a proxy
   };
 
   /// Refused: an address that others reach without accounts or without TLS, unless it is
-  /// behind a proxy; accounts, certificate or key that cannot be used.
+  /// behind a proxy; an outer origin that is none; accounts, certificate or key that cannot be
+  /// used.
   [[nodiscard]] static kernel::outcome::Result<void> check(const Config& config);
   /// `desk` outlives the page. Refused: as check(), and an address that cannot be had.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<LivePage>> open(const Config& config,
@@ -36,7 +37,7 @@ class LivePage {
 
   /// Where it is: `http://127.0.0.1:8080/`.
   [[nodiscard]] virtual std::string address() const = 0;
-  /// The same with the key, where there are no accounts: for whoever started the process alone.
+  /// The same with the key, where there are no accounts: only for whoever started the process.
   [[nodiscard]] virtual std::string address_with_key() const = 0;
 };
 

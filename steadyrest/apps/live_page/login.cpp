@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
@@ -17,12 +18,24 @@ namespace steadyrest::apps::live_page {
 namespace {
 
 constexpr std::string_view kCookie = "steadyrest_session";
-constexpr std::string_view kBearer = "Bearer ";
+constexpr std::string_view kBearer = "bearer ";
 constexpr web::RateLimit::Config kFailures{.per_s = 5.0 / 60.0, .burst = 5.0, .most_keys = 4096};
 
-std::string head_of(const std::string& session, bool secure, bool ends) {
-  return fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", kCookie, session,
-                     secure ? "; Secure" : "", ends ? "; Max-Age=0" : "");
+/// Browsers share cookies among the ports of a host, where other pages may be.
+std::string cookie_name(const web::Request& request) {
+  const std::size_t colon = web::without_port(request.host).size();
+  const std::string port = request.host.substr(std::min(colon + 1, request.host.size()));
+  const bool known = !port.empty() && port.find_first_not_of("0123456789") == std::string::npos;
+  return known ? fmt::format("{}_{}", kCookie, port) : std::string(kCookie);
+}
+
+std::string session_id(const web::Request& request) {
+  return web::cookie(request, cookie_name(request));
+}
+
+std::string cookie_head(const web::Request& request, const std::string& id) {
+  return fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", cookie_name(request), id,
+                     request.secure ? "; Secure" : "", id.empty() ? "; Max-Age=0" : "");
 }
 
 std::string text(const Json& from, const char* key) {
@@ -51,8 +64,8 @@ std::optional<web::Accounts> Login::accounts() const {
 }
 
 std::optional<web::Caller> Login::of_token(const web::Request& request) const {
-  const std::string_view authorization = request.authorization;
-  if (!authorization.starts_with(kBearer)) {
+  const std::string& authorization = request.authorization;
+  if (web::lower(authorization.substr(0, kBearer.size())) != kBearer) {
     return std::nullopt;
   }
   const auto accounts = this->accounts();
@@ -64,7 +77,7 @@ std::optional<Login::Who> Login::who(const web::Request& request, double now_s) 
     const auto caller = of_token(request);
     return caller ? std::optional(Who{.caller = *caller, .csrf = std::nullopt}) : std::nullopt;
   }
-  const std::string id = web::cookie(request, kCookie);
+  const std::string id = session_id(request);
   const auto session = sessions_.find(id, now_s);
   if (!session) {
     return std::nullopt;
@@ -92,7 +105,7 @@ bool Login::goes_on(const web::Request& request, double now_s) const {
   if (!request.authorization.empty()) {
     return of_token(request).has_value();
   }
-  const auto session = sessions_.look_at(web::cookie(request, kCookie), now_s);
+  const auto session = sessions_.look_at(session_id(request), now_s);
   return session && as_now(*session);
 }
 
@@ -122,12 +135,12 @@ std::optional<Login::Known> Login::check(const std::string& name, const std::str
 web::Response Login::begin(const web::Request& request, double now_s) {
   const auto asked = kernel::file::json_object(request.body);
   if (!asked) {
-    return web::error(400, "bad_request", "the body is no JSON object",
+    return web::error(400, "bad_request", "the body is not a JSON object",
                       R"(send {"name":…,"password":…} or {"key":…})");
   }
   const std::string name = text(*asked, "name");
-  // Of an account from anywhere, and of an address with any account.
-  const std::string of_name = "name " + name;
+  // Of an account from anywhere, and of an address with any account. No account has a longer name.
+  const std::string of_name = "name " + name.substr(0, web::Accounts::kLongestName);
   if (!failures_.has_room(request.address, now_s) || !failures_.has_room(of_name, now_s)) {
     web::Response out = web::error(429, "too_many_failures", "too many failed log-ins",
                                    "wait a minute, then try again");
@@ -150,15 +163,15 @@ web::Response Login::begin(const web::Request& request, double now_s) {
                {{"name", caller.name}, {"role", word(caller.role)}, {"csrf", begun.session.csrf}}},
               {"accounts", key_.empty()},
               {"key_login", !key_.empty()}});
-  out.head.emplace_back("Set-Cookie", head_of(begun.id, request.secure, false));
+  out.head.emplace_back("Set-Cookie", cookie_head(request, begun.id));
   return out;
 }
 
 web::Response Login::end(const web::Request& request) {
-  sessions_.end(web::cookie(request, kCookie));
+  sessions_.end(session_id(request));
   web::Response out;
   out.status = 204;
-  out.head.emplace_back("Set-Cookie", head_of("", request.secure, true));
+  out.head.emplace_back("Set-Cookie", cookie_head(request, ""));
   return out;
 }
 

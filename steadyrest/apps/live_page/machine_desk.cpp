@@ -4,6 +4,7 @@
 #include <expected>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -29,7 +30,8 @@ using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 using steadyrest::live::ReloadStatus;
 
-constexpr auto kPatience = std::chrono::seconds(5);
+/// Longer than any reload takes: after it the layer might run by a file that is no longer there.
+constexpr auto kPatience = std::chrono::seconds(60);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
 Json json_of(const Refusal& refusal) {
@@ -164,11 +166,11 @@ web::Response failed(const Refusal& refusal) {
   return web::error(500, "failed", refusal.what, refusal.to_do);
 }
 
-/// What became of the request; nothing within the time.
+/// What became of the request; nothing within the time, or when the page ends.
 std::optional<ReloadStatus> outcome_of(const steadyrest::live::Reloader& reloader,
-                                       std::uint64_t number) {
+                                       std::uint64_t number, const std::stop_token& stop) {
   const auto until = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < until) {
+  while (std::chrono::steady_clock::now() < until && !stop.stop_requested()) {
     ReloadStatus status = reloader.status();
     if (status.number >= number) {
       return status;
@@ -203,7 +205,8 @@ web::Response check_machine(const Desk& desk, const Json& asked) {
   return checked ? answer(json_of(desk, *checked)) : failed(checked.error());
 }
 
-web::Response apply_machine(const Desk& desk, const Json& asked, const std::string& author) {
+web::Response apply_machine(const Desk& desk, const Json& asked, const std::string& author,
+                            const std::stop_token& stop) {
   if (desk.asked.reloader == nullptr) {
     return web::error(422, "refused", "this run does not read its machine file again",
                       "stop it and start it with the new file");
@@ -229,13 +232,13 @@ web::Response apply_machine(const Desk& desk, const Json& asked, const std::stri
   }
   desk.asked.loop.note(fmt::format("page: {} applied the machine file {}", author,
                                    web::digest(checked->after).substr(0, 16)));
-  const auto done = outcome_of(*desk.asked.reloader, desk.asked.reloader->ask());
+  const auto done = outcome_of(*desk.asked.reloader, desk.asked.reloader->ask(), stop);
   if (done && done->taken) {
     return answer({{"reload", steadyrest::live::reload_json(*done)}});
   }
   const auto back = kernel::file::write_file(desk.machine_file, checked->before);
   desk.asked.loop.note("page: not taken, the old machine file is back");
-  return web::error(422, "refused", done ? done->words : "the loop does not cycle",
+  return web::error(422, "refused", done ? done->words : "the layer did not answer",
                     back ? "the old file is in its place again" : back.error().what);
 }
 

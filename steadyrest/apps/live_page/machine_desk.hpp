@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include <steadyrest/apps/live_page/desk.hpp>
@@ -14,6 +15,6 @@ namespace steadyrest::apps::live_page {
 [[nodiscard]] web::Response check_machine(const Desk& desk, const Json& asked);
 /// Writes the file and has the loop take it over; puts the old one back where it does not.
 [[nodiscard]] web::Response apply_machine(const Desk& desk, const Json& asked,
-                                          const std::string& author);
+                                          const std::string& author, const std::stop_token& stop);
 
 }  // namespace steadyrest::apps::live_page

@@ -138,7 +138,9 @@ Json heat_json(const LiveStatus& status, const kernel::machine::Machine& machine
       }
     }
   }
-  return {{"axes", std::move(axes)}};
+  Json out = {{"axes", std::move(axes)}};
+  out.update(switched_off_json(status));
+  return out;
 }
 
 Json chatter_json(const LiveStatus& status, Json heard) {

@@ -15,11 +15,11 @@ class StreamText {
  public:
   explicit StreamText(const Desk& desk) : desk_(desk) {}
 
-  /// What a client needs before its first frame; of any thread.
+  /// What a client needs before its first frame; from any thread.
   [[nodiscard]] std::string hello() const;
-  /// The next frame without its first brace, with the samples since the last one; of one thread.
+  /// The next frame without its first brace, with the samples since the last one; from one thread.
   [[nodiscard]] std::string frame();
-  /// The vibration's spectrum, if it has changed since the last one; of the same thread, after
+  /// The vibration's spectrum, if it has changed since the last one; from the same thread, after
   /// frame(). Empty: it has not, or nothing is heard.
   [[nodiscard]] std::string spectrum();
 

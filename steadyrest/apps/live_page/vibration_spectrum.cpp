@@ -10,7 +10,8 @@ namespace steadyrest::apps::live_page {
 namespace {
 
 constexpr double kWindow_s = 0.2;
-constexpr std::size_t kShortest = 64;
+constexpr double kShortest = 64.0;
+constexpr double kLongest = 65'536.0;
 constexpr double kMemory = 0.25;  ///< share of a new window in the average
 
 }  // namespace
@@ -20,8 +21,9 @@ void VibrationSpectrum::begin(double rate_hz) {
   fresh_ = false;
   waiting_.clear();
   power_.clear();
-  const auto wanted = static_cast<std::size_t>(kWindow_s * rate_hz);
-  const std::size_t n = std::bit_floor(std::max(wanted + wanted / 2, kShortest));
+  // The power of two that is nearest.
+  const double wanted = std::clamp(1.5 * kWindow_s * rate_hz, kShortest, kLongest);
+  const std::size_t n = std::bit_floor(static_cast<std::size_t>(wanted));
   window_.resize(n);
   windowed_.resize(n);
   double sum = 0.0;

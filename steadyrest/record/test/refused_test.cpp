@@ -129,5 +129,15 @@ TEST(RefusedRecord, AFileThatIsCutOff) {
   }
 }
 
+TEST(FullDisk, IsSaidWithWhatHelps) {
+  const test::Folder folder;
+  auto database = Database::create(folder.file("full.sqlite")).value();
+  ASSERT_TRUE(database.run("PRAGMA max_page_count = 2; CREATE TABLE t (x)"));
+  const auto full = database.run("INSERT INTO t VALUES (zeroblob(100000))");
+  ASSERT_FALSE(full.has_value());
+  EXPECT_EQ(full.error().what, "the disk is full");
+  EXPECT_EQ(full.error().to_do, "free space, or name a folder on another disk with --record");
+}
+
 }  // namespace
 }  // namespace steadyrest::record

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -20,10 +19,7 @@ class AccountsFile : public testing::Test {
   kernel::file::testing::OwnFolder folder;
   std::string file = folder.at("accounts.json");
 
-  std::string text() const {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text() const { return kernel::file::testing::text_of_file(file); }
 };
 
 TEST_F(AccountsFile, KnowsItsUsersAndTokensAgain) {

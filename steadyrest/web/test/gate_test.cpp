@@ -109,6 +109,16 @@ TEST(Target, ThatCannotBeOneIsNone) {
   }
 }
 
+TEST(MediaType, HasNoParametersAndNoCase) {
+  for (const char* const same : {"application/json", "Application/JSON; charset=utf-8",
+                                 "application/json;charset=utf-8", " application/json\t; x"}) {
+    EXPECT_EQ(media_type(same), "application/json") << same;
+  }
+  for (const char* const other : {"", ";", " ", "text/plain; application/json"}) {
+    EXPECT_NE(media_type(other), "application/json") << other;
+  }
+}
+
 TEST(Cookie, IsFoundAmongOthers) {
   Request request;
   request.cookie = "a=1; steadyrest_session=xyz; steadyrest=2";

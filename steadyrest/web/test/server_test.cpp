@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
@@ -43,7 +45,8 @@ class OnServer : public testing::Test {
              [this](const Request& request) {
                asked.fetch_add(1);
                Response out;
-               out.body = request.method + " " + request.path + " " + request.body;
+               out.body = request.method + " " + request.path + " " + request.body + " of " +
+                          request.address;
                if (request.path == "/waits") {
                  out.later = [this](const std::stop_token& stop) {
                    until([&] { return answers.load() || stop.stop_requested(); });
@@ -141,6 +144,35 @@ TEST_F(OnServer, RefusesWhatIsWrongBeforeAnybodyIsAsked) {
               HasSubstr(" 403 "));
   EXPECT_EQ(asked.load(), 0);
   EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 200 "));
+}
+
+// A proxy in front may go by one of them, the server by the other.
+TEST_F(OnServer, RefusesAHeadThatComesTwice) {
+  const auto server = open();
+  for (const std::string name : {"Host", "Origin", "Authorization", "Content-Type"}) {
+    const std::string heads = name + ": 127.0.0.1\r\n" + name + ": 127.0.0.1\r\n";
+    const std::string got = said(*server, request("GET /", heads));
+    EXPECT_THAT(got, StartsWith("HTTP/1.1 400")) << name;
+    EXPECT_THAT(got, HasSubstr("the head " + name + " was sent ")) << name;
+  }
+  EXPECT_EQ(asked.load(), 0);
+}
+
+TEST_F(OnServer, AnswersAHeadRequestWithTheLengthAlone) {
+  const auto server = open();
+  const std::string got = said(*server, request("HEAD /a"));
+  const std::string body = "HEAD /a  of 127.0.0.1";
+  EXPECT_THAT(got, HasSubstr("Content-Length: " + std::to_string(body.size()) + "\r\n"));
+  EXPECT_TRUE(got.ends_with("\r\n\r\n")) << got;
+}
+
+TEST_F(OnServer, GoesByTheAddressThatTheProxyHasAdded) {
+  Server::Config config;
+  config.gate.outer_origin = "https://mill.example";
+  const auto server = open(config);
+  const std::string forged = "X-Forwarded-For: 1.2.3.4\r\n";
+  EXPECT_THAT(said(*server, request("GET /", forged + "X-Forwarded-For: 10.0.0.7\r\n")),
+              HasSubstr(" of 10.0.0.7"));
 }
 
 TEST_F(OnServer, CutsOffWhoeverIsTooSlow) {

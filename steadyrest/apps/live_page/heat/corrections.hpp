@@ -11,8 +11,8 @@ namespace steadyrest::apps::live_page {
 
 /// One move of an axis's offset against heat.
 struct Correction {
-  double from_s = 0.0;  ///< when it was complete; with to_s later: when the last part of it was
-  double to_s = 0.0;
+  double from_s = 0.0;  ///< when its first step was complete
+  double to_s = 0.0;    ///< and its last
   std::size_t axis = 0;
   double from_mm = 0.0;
   double to_mm = 0.0;

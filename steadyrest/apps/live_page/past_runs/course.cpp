@@ -15,7 +15,6 @@ namespace {
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-constexpr std::size_t kMostPoints = 4000;
 constexpr double kBlocksInInterval = 4.0;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -128,10 +127,11 @@ Result<Json> course_of(const CourseAsked& asked, Overviews& overviews,
   }
   const Overview& overview = **found;
   const double first_s = overview.first_s();
-  const double whole_s = overview.last_s() - first_s + overview.cycle_s;
+  const double whole_s = std::max(0.0, overview.last_s() - first_s) + overview.cycle_s;
   const double from_s = first_s + std::clamp(asked.from_s, 0.0, whole_s);
   const double to_s = std::max(from_s + overview.cycle_s, first_s + std::min(asked.to_s, whole_s));
-  Intervals intervals(from_s, to_s, std::clamp<std::size_t>(asked.points, 1, kMostPoints));
+  Intervals intervals(from_s, to_s,
+                      std::clamp<std::size_t>(asked.points, 1, CourseAsked::kMostPoints));
   const double block_s = overview.cycle_s * static_cast<double>(overview.block_samples);
   if (intervals.step_s() > kBlocksInInterval * block_s) {
     for (const Overview::Block& block : overview.blocks) {

@@ -14,10 +14,11 @@ namespace steadyrest::apps::live_page::past_runs {
 /// A stretch of a record, thinned: the least and the largest value of each column in `points` equal
 /// intervals of time. Times count from the record's first sample.
 struct CourseAsked {
+  static constexpr std::size_t kMostPoints = 4000;
   std::string file;
   double from_s = 0.0;
   double to_s = 1e18;
-  std::size_t points = 1000;  ///< at most 4000
+  std::size_t points = 1000;  ///< 1 … kMostPoints
 };
 
 /// `t_s`, and each of `columns` with `min` and `max`; null where an interval has no sample.

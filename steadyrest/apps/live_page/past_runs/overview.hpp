@@ -16,8 +16,8 @@
 
 namespace steadyrest::apps::live_page::past_runs {
 
-/// A record thinned: the least and the largest values of each short stretch, and the times of each
-/// chunk. With 8 MB at most it covers a run of any length.
+/// A record thinned: the least and the largest values of each short stretch, in 6 MB at most, and
+/// the times of each chunk.
 struct Overview {
   struct Span {
     double first_s = 0.0;

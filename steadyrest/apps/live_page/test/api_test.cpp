@@ -91,7 +91,7 @@ TEST_F(PageApi, TakesNoWriteWithoutTheSessionsOwnWord) {
   request.csrf = desk.csrf();
   request.content_type = "text/plain";
   EXPECT_EQ(desk.api().answer(request).status, 415U);
-  request.content_type = "application/json; charset=utf-8";
+  request.content_type = "Application/JSON; charset=utf-8";
   EXPECT_EQ(desk.api().answer(request).status, 200U);
   EXPECT_EQ(desk.loop().mode_wanted(), Mode::advise);
 }
@@ -99,6 +99,8 @@ TEST_F(PageApi, TakesNoWriteWithoutTheSessionsOwnWord) {
 TEST_F(PageApi, LetsAScriptInByItsToken) {
   web::Request request = PageDesk::request("POST", "/api/v1/mode", R"({"mode":"advise"})");
   request.authorization = "Bearer " + token;
+  EXPECT_EQ(desk.api().answer(request).status, 200U);
+  request.authorization = "bearer " + token;
   EXPECT_EQ(desk.api().answer(request).status, 200U);
   request.path = "/api/v1/machine/apply";
   EXPECT_EQ(desk.api().answer(request).status, 403U) << "an operator's token";
@@ -148,6 +150,40 @@ TEST_F(PageApi, SlowsDownWhoeverGuesses) {
   EXPECT_EQ(desk.api().answer(elsewhere).status, 200U);
   desk.now_s = 13.0;
   EXPECT_EQ(desk.ask("POST", "/api/v1/session", right).status, 200U);
+}
+
+// Else each made-up name would be kept whole.
+TEST_F(PageApi, CountsNamesNoLongerThanAnAccounts) {
+  for (int i = 0; i < 6; ++i) {
+    auto request = PageDesk::request(
+        "POST", "/api/v1/session",
+        Json{{"name", std::string(100'000, 'x') + std::to_string(i)}, {"password", "p"}}.dump());
+    request.address = "10.0.0." + std::to_string(i);
+    EXPECT_EQ(desk.api().answer(request).status, i < 5 ? 401U : 429U) << i;
+  }
+}
+
+TEST_F(PageApi, WhatActsAtOnceTakesAConfirmationInAct) {
+  log_in("anna");
+  const auto is_held_back = [this](const Route& route, const char* body) {
+    const auto got = desk.ask(std::string(route.method), address_of(route), body);
+    return got.status == 422 &&
+           Json::parse(got.body)["error"]["to_do"] == R"(send "confirm": true)";
+  };
+  for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
+    desk.loop().ask_mode(mode);
+    for (const Route& route : Api::routes()) {
+      if (route.method != "POST" || route.open || route.path == Api::kHandBack) {
+        continue;
+      }
+      const std::string path(route.path);
+      const bool acts =
+          path.ends_with("modulation") || path.ends_with("measured") || path.ends_with("apply");
+      EXPECT_EQ(is_held_back(route, "{}"), acts && mode == Mode::act) << path;
+      EXPECT_EQ(is_held_back(route, R"({"confirm":"yes"})"), acts && mode == Mode::act) << path;
+      EXPECT_FALSE(is_held_back(route, R"({"confirm":true})")) << path;
+    }
+  }
 }
 
 TEST_F(PageApi, ASessionEndsWithItsLogOut) {
@@ -218,6 +254,7 @@ TEST_F(PageApi, NamesTheMethodsOfAnAddress) {
   EXPECT_EQ(desk.ask("GET", "/api/v1/none").status, 404U);
   EXPECT_EQ(desk.ask("GET", "/none.js").status, 404U);
   EXPECT_EQ(desk.ask("POST", "/live.js").status, 404U);
+  EXPECT_THAT(desk.ask("POST", "/api/v1/records/x", "{}").head, Contains(Pair("Allow", "GET")));
 }
 
 TEST_F(PageApi, CookieIsTheBrowsersAloneAndSecureOverTls) {
@@ -227,6 +264,21 @@ TEST_F(PageApi, CookieIsTheBrowsersAloneAndSecureOverTls) {
   const auto got = desk.api().answer(request);
   EXPECT_THAT(got.head,
               Contains(Pair("Set-Cookie", HasSubstr("; HttpOnly; SameSite=Strict; Secure"))));
+}
+
+TEST_F(PageApi, SessionsOfTwoPagesOnOneComputerDoNotMix) {
+  auto request = PageDesk::request("POST", "/api/v1/session",
+                                   R"({"name":"anna","password":"secret of anna"})");
+  request.host = "127.0.0.1:8080";
+  const auto got = desk.api().answer(request);
+  const std::string own = got.head[0].second.substr(0, got.head[0].second.find(';'));
+  EXPECT_THAT(own, testing::StartsWith("steadyrest_session_8080="));
+  auto later = PageDesk::request("GET", "/api/v1/status");
+  later.cookie = "steadyrest_session_8081=x; steadyrest_session=x; " + own;
+  later.host = request.host;
+  EXPECT_EQ(desk.api().answer(later).status, 200U);
+  later.host = "127.0.0.1:8081";
+  EXPECT_EQ(desk.api().answer(later).status, 401U);
 }
 
 TEST(PageKey, LogsInWhereThereAreNoAccounts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <thread>
@@ -17,16 +17,11 @@
 namespace steadyrest::apps::live_page {
 namespace {
 
+using kernel::file::testing::text_of_file;
 using steadyrest::live::Successor;
 using test::PageDesk;
 using testing::Contains;
 using testing::HasSubstr;
-using testing::IsEmpty;
-
-std::string text_of_file(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class MachineOnPage : public testing::Test {
  protected:

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@ namespace steadyrest::apps::live_page {
 namespace {
 
 using test::PageDesk;
+using testing::HasSubstr;
 using testing::SizeIs;
 
 class RecordsOnPage : public testing::Test {
@@ -55,6 +58,64 @@ TEST_F(RecordsOnPage, AreShownWithTheirEventsAndCourse) {
     most = std::max(most, speed["max"][i].get<double>());
   }
   EXPECT_GT(most, 1000.0);
+}
+
+// Told apart from one that another run is just beginning by the time alone.
+TEST_F(RecordsOnPage, AreListedWhereTheyCannotBeRead) {
+  const kernel::file::testing::OwnFolder folder;
+  desk.desk().records = folder.path();
+  const std::string whole = STEADYREST_SOURCE_DIR "/examples/records/circle-start.sqlite";
+  std::filesystem::copy_file(whole, folder.at("a-whole.sqlite"));
+  std::filesystem::copy_file(whole, folder.at("b-cut.sqlite"));
+  std::filesystem::resize_file(folder.at("b-cut.sqlite"), 20'000);
+  std::ofstream(folder.at("c-text.sqlite")) << std::string(5000, 'x');
+  std::ofstream(folder.at("d-begun.sqlite")) << "";
+  for (const std::string name : {"a-whole.sqlite", "b-cut.sqlite", "c-text.sqlite"}) {
+    std::filesystem::last_write_time(
+        folder.at(name), std::filesystem::file_time_type::clock::now() - std::chrono::minutes(1));
+  }
+  const Json list = desk.json("GET", "/api/v1/records")["records"];
+  ASSERT_THAT(list, SizeIs(3));
+  EXPECT_EQ(
+      list[0],
+      (Json{{"name", "c-text.sqlite"}, {"bytes", 5000}, {"damaged", "is no record of a run"}}));
+  EXPECT_EQ(list[1]["name"], "b-cut.sqlite");
+  EXPECT_THAT(list[1]["damaged"].get<std::string>(), HasSubstr("is damaged"));
+  EXPECT_FALSE(list[2].contains("damaged"));
+  auto request = PageDesk::request("GET", "/api/v1/records");
+  request.query["search"] = "B-CUT";
+  EXPECT_THAT(Json::parse(desk.ask(request).body)["records"], SizeIs(1));
+}
+
+TEST_F(RecordsOnPage, AreNotAnEmptyListWhereTheirFolderIsGone) {
+  desk.desk().records = "/none";
+  EXPECT_EQ(desk.ask("GET", "/api/v1/records").status, 422U);
+}
+
+TEST_F(RecordsOnPage, HaveNoCourseOfAnOddStretch) {
+  const auto status = [this](const std::vector<std::pair<std::string, std::string>>& query) {
+    auto request = PageDesk::request("GET", "/api/v1/records/circle-start.sqlite/data");
+    for (const auto& [key, value] : query) {
+      request.query[key] = value;
+    }
+    const auto got = desk.ask(request);
+    EXPECT_EQ(got.body.contains("allowed: "), got.status == 400) << got.body;
+    return got.status;
+  };
+  for (const char* const key : {"from_s", "to_s", "points"}) {
+    for (const char* const odd : {"nan", "inf", "-1", "", "x", "1x", " 1", "1e300", "1e999"}) {
+      EXPECT_EQ(status({{key, odd}}), 400U) << key << odd;
+    }
+  }
+  for (const char* const odd : {"0", "4001", "1.5"}) {
+    EXPECT_EQ(status({{"points", odd}}), 400U) << odd;
+  }
+  EXPECT_EQ(status({{"from_s", "2"}, {"to_s", "1"}}), 400U);
+  EXPECT_EQ(status({{"from_s", "1"}, {"to_s", "1"}}), 400U);
+  EXPECT_EQ(status({{"to_s", "0"}}), 400U);
+  EXPECT_EQ(status({}), 200U);
+  EXPECT_EQ(status({{"from_s", "0"}, {"to_s", "0.05"}, {"points", "4000"}}), 200U);
+  EXPECT_EQ(status({{"from_s", "1e-7"}, {"to_s", "1e6"}, {"points", "1"}}), 200U);
 }
 
 TEST_F(RecordsOnPage, AreDecidedAgain) {

@@ -70,6 +70,12 @@ TEST(VibrationSpectrum, ForgetsWhatIsOver) {
   EXPECT_LT(peak(spectrum.lines(5e3, 4000), 946.0).second, 0.1);
 }
 
+TEST(VibrationSpectrum, HasNoEndlessWindowWhateverTheRate) {
+  VibrationSpectrum spectrum;
+  spectrum.add(waves(7.0, {{946.0, 1.0}}), 1e300);
+  EXPECT_TRUE(spectrum.fresh());
+}
+
 TEST(VibrationSpectrum, IsEmptyWithoutASignal) {
   VibrationSpectrum spectrum;
   EXPECT_FALSE(spectrum.fresh());

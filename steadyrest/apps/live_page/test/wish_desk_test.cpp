@@ -103,6 +103,44 @@ TEST_F(WishDesk, AnOperatorEntersAMeasuredSize) {
                                        "measure 2 Z 5 0.001 rejected page: otto (operator)"));
 }
 
+TEST_F(WishDesk, InActNothingIsSetWithoutAConfirmation) {
+  log_in("otto");
+  desk.loop().ask_mode(kernel::machine::Mode::act);
+  two_cycles();
+  EXPECT_THAT(refused(kModulation, kSine), HasSubstr("in mode act"));
+  EXPECT_THAT(refused(kMeasured, R"({"axis":"Z","displacement_um":0.5,"sd_um":1})"),
+              HasSubstr("in mode act"));
+  Json sine = Json::parse(kSine);
+  sine["confirm"] = true;
+  EXPECT_EQ(desk.ask("POST", kModulation, sine.dump()).status, 200U);
+  stop();
+  EXPECT_THAT(desk.wishes,
+              ElementsAre("modulate sine 0.07 0 1.5 0.93 1 taken page: otto (operator)"));
+}
+
+TEST_F(WishDesk, SaysThatSizesWhichDoNotFitHaveSwitchedTheCorrectionOff) {
+  log_in("otto");
+  const auto shown = [this] {
+    two_cycles();
+    StreamText stream(desk.desk());
+    const Json streamed = Json::parse("{" + stream.frame())["thermal"];
+    const Json answered = desk.json("GET", "/api/v1/thermal")["thermal"];
+    for (const char* const key : {"switched_off", "reason", "sentence"}) {
+      EXPECT_EQ(streamed[key], answered[key]) << key;
+    }
+    return streamed;
+  };
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(shown()["switched_off"], false) << i;
+    EXPECT_EQ(shown()["reason"], nullptr);
+    const std::string size = R"({"axis":"Z","sd_um":1,"displacement_um":5000})";
+    EXPECT_EQ(desk.json("POST", kMeasured, size)["verdict"]["taken"], false);
+  }
+  EXPECT_EQ(shown()["switched_off"], true);
+  EXPECT_EQ(shown()["reason"], "thermal_model_unfit");
+  EXPECT_THAT(shown()["sentence"].get<std::string>(), HasSubstr("no longer fit"));
+}
+
 TEST_F(WishDesk, AViewerMayNeither) {
   log_in("vera");
   EXPECT_THAT(refused(kModulation, kSine, 403), HasSubstr("this takes the role operator"));
@@ -119,7 +157,7 @@ TEST_F(WishDesk, RefusesWhatIsNoWish) {
           std::string(R"({"axis":"Z","displacement_um":1e999,"sd_um":1})"),
           std::string(R"({"law":"sine","amplitude_ratio":1e999,"period_s":2,"mean_ratio":1})"),
           std::string(60000, '['), std::string("\xff\xfe")}) {
-      EXPECT_THAT(refused(path, body, 400), HasSubstr("the body is no JSON object"));
+      EXPECT_THAT(refused(path, body, 400), HasSubstr("the body is not a JSON object"));
     }
   }
   EXPECT_THAT(refused(kModulation, "{}"), HasSubstr("allowed: constant, square"));
