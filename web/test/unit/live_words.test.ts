@@ -5,7 +5,7 @@ import { afterEach, describe, expect, it } from 'vitest';
 import type { MachineKey, Status } from '../../src/live/api/types';
 import { ticks } from '../../src/live/paint/frame';
 import { planeOf } from '../../src/live/paint/path';
-import { layerHasTheSay } from '../../src/live/shell/head';
+import { layerInControl } from '../../src/live/shell/head';
 import { chooseUnits, feed, length, small, units } from '../../src/live/state/units';
 import { REASONS_DE } from '../../src/live/texts/reasons_de';
 import { REASONS_RU } from '../../src/live/texts/reasons_ru';
@@ -83,17 +83,17 @@ describe('chatter', () => {
   });
 });
 
-describe('who has the say', () => {
+describe('who is in control', () => {
   const status = (change: Partial<Status>): Status => ({ ...new Layer().status(), mode: 'act', feed_percent: 100, feed_panel_percent: 100, spindle_percent: 100, offset_um: [0], path_offset_um: [0], ...change });
   it('is the layer where it acts and asks for something else', () => {
-    expect(layerHasTheSay(status({ feed_percent: 60 }))).toBe(true);
-    expect(layerHasTheSay(status({ spindle_percent: 95 }))).toBe(true);
-    expect(layerHasTheSay(status({ offset_um: [0, -2] }))).toBe(true);
+    expect(layerInControl(status({ feed_percent: 60 }))).toBe(true);
+    expect(layerInControl(status({ spindle_percent: 95 }))).toBe(true);
+    expect(layerInControl(status({ offset_um: [0, -2] }))).toBe(true);
   });
   it('is the operator otherwise', () => {
-    expect(layerHasTheSay(status({}))).toBe(false);
-    expect(layerHasTheSay(status({ mode: 'advise', feed_percent: 60 }))).toBe(false);
-    expect(layerHasTheSay(status({ feed_percent: 70, feed_panel_percent: 70 }))).toBe(false);
+    expect(layerInControl(status({}))).toBe(false);
+    expect(layerInControl(status({ mode: 'advise', feed_percent: 60 }))).toBe(false);
+    expect(layerInControl(status({ feed_percent: 70, feed_panel_percent: 70 }))).toBe(false);
   });
 });
 

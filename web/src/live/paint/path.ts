@@ -133,6 +133,7 @@ export class PathPicture {
     let before: Point | undefined;
     for (const point of points) {
       if (!Number.isFinite(point.x)) {
+        if (before) pen.stroke();
         before = undefined;
         continue;
       }

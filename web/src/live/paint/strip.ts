@@ -3,7 +3,7 @@
 import { fixed } from '../../frame/numbers';
 import type { Theme } from '../../frame/theme';
 import { niceAbove } from '../../plot/axes';
-import type { Live, SampleColumn } from '../state/live';
+import { GAP_CYCLES, type Live, type SampleColumn } from '../state/live';
 import type { Unit } from '../state/units';
 import { type Area, Canvas, hatch, overColour } from './canvas';
 import { type Scale, drawFrame, inner, scale } from './frame';
@@ -31,8 +31,6 @@ interface Columns {
   low: Float64Array;
   high: Float64Array;
 }
-
-const GAP_CYCLES = 1.5;
 
 export class Strip {
   readonly canvas: Canvas;
@@ -141,6 +139,7 @@ export class Strip {
     for (let i = first; i < samples.size; ++i) {
       const value = unit.of(samples.at(column, i));
       const at = Math.min(Math.max(Math.floor(((samples.at('t_s', i) - now) / seconds + 1) * (count - 1)), 0), count - 1);
+      if (Number.isNaN(value)) continue;
       // A comparison with NaN is false: the first value of a column is taken.
       if (!((low[at] as number) <= value)) low[at] = value;
       if (!((high[at] as number) >= value)) high[at] = value;

@@ -8,6 +8,7 @@ import { button, field, h, panel, select, setText } from '../../shell/h';
 import { problemText } from '../../shell/problem';
 import { may } from '../../state/role';
 import { t } from '../../texts/texts';
+import { typingIn } from '../machine_file';
 import type { Part } from '../part';
 
 export const LAWS: readonly Law[] = ['constant', 'square', 'pulse', 'triangle', 'sine', 'random', 'stop'];
@@ -62,7 +63,7 @@ async function setNow({ api, live, say }: Context, m: Modulation): Promise<strin
     return '';
   }
   try {
-    await api.post('modulation', { ...m });
+    await api.post('modulation', acts ? { ...m, confirm: true } : m);
     say(t('modulation_set'));
     return '';
   } catch (error) {
@@ -125,19 +126,18 @@ export function modulationPart(context: Context): Part {
   let shown: string | undefined;
   const show = (modulation: Modulation | null) => {
     shown = JSON.stringify(modulation);
+    const focused = body.contains(document.activeElement) ? document.activeElement?.id : undefined;
     const none = live.hello?.chooses_speed === true ? t('modulation_chosen') : t('modulation_none');
-    body.replaceChildren(
-      modulation
-        ? form(context, modulation)
-        : h('p', { class: 'none', id: 'modulation-none' }, none),
-    );
+    body.replaceChildren(modulation ? form(context, modulation) : h('p', { class: 'none', id: 'modulation-none' }, none));
+    if (focused) {
+      document.getElementById(focused)?.focus();
+    }
   };
   return {
     root: panel(t('modulation'), 'modulation-panel', h('p', { class: 'hint' }, t('modulation_hint')), body),
     update: () => {
       const { hello } = live;
-      // What somebody is typing stays.
-      if (hello && JSON.stringify(hello.modulation) !== shown && !body.contains(document.activeElement)) {
+      if (hello && JSON.stringify(hello.modulation) !== shown && !typingIn(body)) {
         show(hello.modulation);
       }
     },
