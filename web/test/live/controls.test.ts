@@ -24,6 +24,7 @@ afterAll(async () => {
 beforeEach(() => {
   mock.asked.length = 0;
   mock.layer.wanted = 'observe';
+  mock.limit_um = 10;
 });
 afterEach(async () => {
   const { complaints } = opened;
@@ -58,7 +59,7 @@ describe('the mode', () => {
     await page.click('dialog .strong');
     await until(`document.querySelector('#mode-badge').textContent === 'Act'`);
     expect(last()?.body).toEqual({ mode: 'act', confirm: true });
-    await until(`document.querySelector('#say').textContent === 'The layer has the say'`);
+    await until(`document.querySelector('#say').textContent === 'The layer is in control'`);
     expect(await text('.toasts')).toContain('The mode is now Act.');
   });
   it.each(['viewer', 'operator', 'engineer'] as const)('is handed back in one press by a %s', async (role) => {
@@ -67,7 +68,7 @@ describe('the mode', () => {
     await page.click('#hand-back');
     await until(`document.querySelector('#mode-badge').textContent === 'Observe'`);
     expect(mock.asked).toEqual([{ method: 'POST', path: 'hand-back', body: {} }]);
-    expect(await text('#say')).toBe('The operator has the say');
+    expect(await text('#say')).toBe('The operator is in control');
   });
   it.each(['the act dialog', 'the settings', 'the review'])('is handed back in one press while %s is open', async (dialog) => {
     await as('engineer', 'contour', 390);
@@ -82,6 +83,18 @@ describe('the mode', () => {
     expect(await tooSmall(page)).toEqual([]);
     await page.click('dialog .hand-back');
     await expect.poll(() => last()?.path).toBe('hand-back');
+  });
+  it('says within a dialog what became of it', async () => {
+    await as('viewer');
+    await page.click('#settings');
+    await page.click('dialog .hand-back');
+    await until(`document.querySelector('dialog .toasts')?.textContent === 'Handing back to the panel.'`);
+    const { x, y } = (await page.locator('dialog').boundingBox()) ?? { x: 0, y: 0 };
+    await page.mouse.click(x + 6, y + 6);
+    expect(await page.isVisible('dialog')).toBe(true);
+    await page.mouse.click(x - 20, y + 6);
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(await page.isVisible('.toasts')).toBe(true);
   });
   it('says what to do when handing back does not get through', async () => {
     await as('viewer');
@@ -150,6 +163,38 @@ describe('staged changes', () => {
     expect(last()?.path).toBe('machine/apply');
     expect(last()?.body).toMatchObject({ changes: { 'contour.limit_um': 12.5, 'contour.strategy': 'balanced' }, sha256_before: expect.any(String) as string });
     await until(`document.querySelector('#staged').hidden`);
+    // The file as it is now, not as it was when the view was opened.
+    await until(`document.querySelector('[data-key="contour.limit_um"] input').value === '12.5'`);
+    await show(page, 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '11');
+    expect(await text('[data-key="contour.limit_um"] .before')).toBe('in force 12.5');
+    await page.click('#review');
+    await page.click('#apply');
+    await until(`document.querySelector('#staged').hidden && document.querySelector('[data-key="contour.limit_um"] input').value === '11'`);
+    expect(await text('[data-key="contour.limit_um"] .before')).toBe('');
+  });
+  it('are applied in act as reviewed', async () => {
+    mock.layer.wanted = 'act';
+    await as('engineer', 'contour');
+    await page.fill('[data-key="contour.limit_um"] input', '12');
+    await page.click('#review');
+    await page.click('#apply');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(last()).toMatchObject({ path: 'machine/apply', body: { confirm: true } });
+  });
+  it('that somebody else applies show at once', async () => {
+    await as('viewer', 'machine');
+    await page.click('[data-section=chatter] summary');
+    mock.limit_um = 14;
+    mock.sayHello();
+    await until(`document.querySelector('[data-key="contour.limit_um"] input').value === '14'`);
+    // What was opened stays open, and the keyboard where it was.
+    expect(await page.getAttribute('[data-section=chatter]', 'open')).toBe('');
+    expect(await page.evaluate(`document.activeElement.closest('[data-section]').dataset.section`)).toBe('chatter');
+    await show(page, 'contour');
+    mock.limit_um = 15;
+    mock.sayHello();
+    await until(`document.querySelector('[data-key="contour.limit_um"] input').value === '15'`);
   });
   it('that are refused say where and why', async () => {
     await as('engineer', 'contour');
@@ -171,7 +216,7 @@ describe('staged changes', () => {
     await page.fill('[data-key="contour.limit_um"] input', '11');
     await page.click('#review');
     await page.click('#apply');
-    expect(await page.waitForSelector('dialog .fault').then((e) => e.textContent())).toContain('changed meanwhile');
+    expect(await page.waitForSelector('dialog .fault').then((e) => e.textContent())).toContain('changed in the meantime');
     await page.click('#apply');
     await page.waitForSelector('dialog', { state: 'detached' });
   });
@@ -183,6 +228,10 @@ describe('staged changes', () => {
     expect(await page.inputValue('[data-key="contour.limit_um"] input')).toBe('10');
     await page.fill('[data-key="contour.limit_um"] input', 'ten');
     expect(await page.getAttribute('[data-key="contour.limit_um"] input', 'aria-invalid')).toBe('true');
+    expect(await page.isHidden('#staged')).toBe(true);
+    await page.fill('[data-key="contour.limit_um"] input', '12');
+    expect(await page.isVisible('#staged')).toBe(true);
+    await page.fill('[data-key="contour.limit_um"] input', '');
     expect(await page.isHidden('#staged')).toBe(true);
   });
   it('may be the whole text', async () => {
@@ -216,7 +265,7 @@ describe('chatter', () => {
     expect(await text('.modulation-panel .why')).toContain('Needs the role engineer');
     await page.click('#set-modulation');
     await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
-    expect(last()).toMatchObject({ path: 'modulation', body: SINE });
+    expect(last()).toEqual({ method: 'POST', path: 'modulation', body: SINE });
     await page.reload();
     await until(`document.querySelector('#law')?.value === 'sine'`);
   });
@@ -235,7 +284,7 @@ describe('chatter', () => {
     await page.click('dialog .strong');
     await page.waitForSelector('dialog', { state: 'detached' });
     await until(`document.querySelector('.toasts').textContent.includes('The modulation is set.')`);
-    expect(last()).toMatchObject({ path: 'modulation', body: SINE });
+    expect(last()).toEqual({ method: 'POST', path: 'modulation', body: { ...SINE, confirm: true } });
   });
   it('shows why the layer refuses a modulation', async () => {
     await as('operator', 'chatter');
@@ -264,15 +313,44 @@ describe('chatter', () => {
     mock.layer.wanted = 'act';
     await as('viewer', 'chatter');
     await until(`document.querySelector('.vibration .before .value').textContent.includes('92')`);
-    await until(`document.querySelector('#chatter-now').textContent === 'The cut chatters at 922 Hz · Spindle at 90 % against it'`);
+    await until(`document.querySelector('#chatter-now').textContent === 'The cut chatters at 922 Hz · Spindle at 90 % against chatter'`);
     mock.layer.wanted = 'observe';
     await until(`document.querySelector('#chatter-now').textContent.endsWith('Better: spindle at 90 %')`);
+  });
+  it('is changed by somebody else while a button has the keyboard, not while somebody types', async () => {
+    await as('operator', 'chatter');
+    await page.waitForSelector('#modulation');
+    await page.focus('#set-modulation');
+    mock.layer.modulation = { ...SINE, law: 'sine' };
+    mock.sayHello();
+    await until(`document.querySelector('#law').value === 'sine' && document.activeElement.id === 'set-modulation'`);
+    await page.fill('#lower', '77');
+    mock.layer.modulation = { ...MODULATION };
+    mock.sayHello();
+    await page.waitForTimeout(400);
+    expect(await page.inputValue('#lower')).toBe('77');
+  });
+  it('asks for the map no longer when another view is open', async () => {
+    mock.studied = 0.4;
+    await as('viewer', 'now');
+    let asked = 0;
+    await page.route('**/chatter/lobes', async (route) => {
+      asked += 1;
+      await new Promise((done) => setTimeout(done, 300));
+      await route.continue();
+    });
+    await page.evaluate(`location.hash = '#/chatter'`);
+    await expect.poll(() => asked).toBe(1);
+    await show(page, 'now');
+    await page.waitForTimeout(1500);
+    expect(asked).toBe(1);
+    mock.studied = 1;
   });
   it('tells how far map and plan are, and shows them when they are there', async () => {
     mock.studied = 0.4;
     await as('viewer', 'chatter');
-    await until(`document.querySelector('#lobes-computing')?.textContent === 'Being computed: 40 %'`);
-    await until(`document.querySelector('.plan-panel').textContent.includes('Being computed: 40 %')`);
+    await until(`document.querySelector('#lobes-computing')?.textContent === 'Computing … 40 %'`);
+    await until(`document.querySelector('.plan-panel').textContent.includes('Computing … 40 %')`);
     mock.studied = 1;
     await until(`document.querySelector('#plan-words')?.textContent === 'Set the spindle override to 90 %: 4680 rpm.'`);
     await until(`document.querySelector('.lobes-panel canvas') !== null`);
@@ -296,11 +374,47 @@ describe('a measured size', () => {
     await until(`document.querySelector('#verdict-of-reading').textContent === 'A probe reading re-zeroed the thermal model.'`);
     expect(last()?.body).toEqual({ axis: 'Z', displacement_um: -4.2, sd_um: 1 });
     await page.fill('#measured-value', '99');
+    // What was said of the size before is gone.
+    expect(await text('#verdict-of-reading')).toBe('');
     await page.click('#measured button');
     await until(`document.querySelector('#verdict-of-reading').textContent.includes('rejected')`);
     await page.fill('#measured-value', 'much');
     await page.click('#measured button');
     expect(await text('.measured-panel .fault')).toBe('Enter a number.');
+  });
+  it('is asked about first where the layer acts', async () => {
+    mock.layer.wanted = 'act';
+    await as('operator', 'thermal');
+    await page.waitForSelector('#measured');
+    await page.fill('#measured-value', '4');
+    await page.click('#measured button');
+    expect(await text('dialog p')).toContain('The layer acts on VMC with SINUMERIK 840D. If Y 4.0\u00a0µm is plausible');
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('dialog', { state: 'detached' });
+    expect(mock.asked).toEqual([]);
+    await page.click('#measured button');
+    await page.click('dialog .strong');
+    await until(`document.querySelector('#verdict-of-reading').textContent.includes('re-zeroed')`);
+    expect(last()?.body).toEqual({ axis: 'Y', displacement_um: 4, sd_um: 1, confirm: true });
+  });
+  it('tells how long ago each was, the newest first', async () => {
+    await as('viewer', 'thermal');
+    await until(`document.querySelectorAll('#readings li').length === 2`);
+    const said = await page.$$eval('#readings li', (all) => all.map((e) => e.textContent));
+    expect(said[0]).toMatch(/^Z 41\.0\sµm 3\smin ago: .*rejected/);
+    expect(said[1]).toMatch(/^Z −3\.9\sµm 16\smin ago: .*re-zeroed/);
+  });
+  it('that is implausible too often switches the correction off, which both views say', async () => {
+    await as('viewer', 'thermal');
+    await until(`document.querySelector('.thermal-row') !== null`);
+    expect(await page.isHidden('#thermal-off')).toBe(true);
+    mock.layer.heatSwitchedOff = true;
+    for (const view of ['thermal', 'now']) {
+      await show(page, view);
+      await until(`document.querySelector('#thermal-off').checkVisibility() && document.querySelector('#thermal-off').textContent.startsWith('Thermal correction is off until the run ends')`);
+    }
+    mock.layer.heatSwitchedOff = false;
+    await until(`document.querySelector('#thermal-off').hidden`);
   });
 });
 
@@ -308,7 +422,7 @@ describe('records', () => {
   it('are found, sorted and opened', async () => {
     await as('engineer', 'record');
     await page.waitForSelector('#records');
-    expect(await page.locator('#records tbody tr').count()).toBe(3);
+    expect(await page.locator('#records tbody tr').count()).toBe(4);
     expect(await text('#records')).toContain('slot <test>.sqlite');
     await page.click('#records thead th:nth-child(5) button');
     expect(await text('#records tbody tr:first-child th')).toContain('rib-pocket');
@@ -317,6 +431,30 @@ describe('records', () => {
     await page.click('#records a');
     await until(`document.querySelector('.record-name')?.textContent === 'circle-r10.sqlite'`);
     expect(await text('#events')).toBeDefined();
+  });
+  it('that are damaged say why, and offer nothing', async () => {
+    await as('engineer', 'record');
+    await until(`document.querySelector('#records')?.textContent.includes('damaged: file is not a database')`);
+    const torn = page.locator('#records tbody tr', { hasText: 'torn.sqlite' });
+    expect(await torn.locator('a, button').count()).toBe(0);
+    expect(await torn.textContent()).toContain('1.2\u00a0MB');
+    await page.click('#records thead th:nth-child(2) button');
+    expect(await text('#records tbody tr:last-child')).toContain('torn.sqlite');
+    await page.evaluate(`location.hash = '#/record/torn.sqlite'`);
+    await until(`document.querySelector('.run-panel')?.textContent.includes('file is not a database')`);
+    expect(await page.isVisible('#replay')).toBe(false);
+    expect(await page.isVisible('.exports')).toBe(false);
+  });
+  it('have a slider also where the first try failed', async () => {
+    await as('engineer', 'record');
+    let tries = 0;
+    await page.route('**/data?**', (route) => (++tries === 1 ? route.abort() : route.continue()));
+    await page.evaluate(`location.hash = '#/record/circle-r10.sqlite'`);
+    await page.click('.course-panel .problem button');
+    await until(`document.querySelector('#time-shown').textContent === '0.0 … 1834.0 s'`);
+    // The whole run is asked for once.
+    expect(tries).toBe(2);
+    opened.complaints.length = 0;
   });
   it('are played through, exported and decided again', async () => {
     await as('engineer', 'record/rib-pocket-2026-01-02.sqlite');

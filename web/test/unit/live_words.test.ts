@@ -4,7 +4,8 @@ import { readFileSync } from 'node:fs';
 import { afterEach, describe, expect, it } from 'vitest';
 import type { MachineKey, Status } from '../../src/live/api/types';
 import { ticks } from '../../src/live/paint/frame';
-import { planeOf } from '../../src/live/paint/path';
+import { planeOf, runsOf } from '../../src/live/paint/path';
+import { widen } from '../../src/live/paint/strip';
 import { layerInControl } from '../../src/live/shell/head';
 import { chooseUnits, feed, length, small, units } from '../../src/live/state/units';
 import { REASONS_DE } from '../../src/live/texts/reasons_de';
@@ -38,12 +39,27 @@ describe('the texts', () => {
       expect(Object.keys(own).sort()).toEqual(names);
     }
   });
+  it.each([['en', 'rpm'], ['de', 'U/min'], ['ru', 'об/мин'], ['zh', 'r/min']] as const)('of %s have one unit of speed, %s', (language, unit) => {
+    expect(ALL[language].rpm).toBe(unit);
+    const of = Object.values(ALL[language]).join('\n');
+    expect(['rpm', 'U/min', '1/min', 'min⁻¹', 'об/мин', 'r/min'].filter((u) => of.replaceAll('{rpm}', '').split(/[^\p{L}\d/⁻¹]+/u).includes(u))).toEqual([unit]);
+  });
+  it('name no option that the program does not have', () => {
+    const help = ['--record', '--past-runs', '--process'];
+    for (const texts of Object.values(ALL)) {
+      expect(texts.records_none_hint.match(/--[\w-]+/g)).toEqual(['--record', '--past-runs']);
+      for (const text of Object.values(texts)) {
+        for (const [option] of text.matchAll(/--[a-z][\w-]*/g)) expect(help).toContain(option);
+      }
+    }
+  });
   it('name times as people do', () => {
     expect([44.6, 840, 7560].map(span)).toEqual(['45\u00a0s', '14\u00a0min', '2.1\u00a0h']);
   });
   it('name sizes and figures', () => {
     expect([bytesText(3_300_000), bytesText(1234), bytesText(2e9)]).toEqual(['3.3\u00a0MB', '1.2\u00a0kB', '2.0\u00a0GB']);
     expect(['over_limit_s', 'work_p50_us', 'cycles', 'reasons.contour_limit'].map(nameText)).toEqual(['over limit, s', 'work p50, µs', 'cycles', 'reasons · contour limit']);
+    expect(nameText('spindle_rpm')).toBe('spindle, rpm');
   });
 });
 
@@ -131,6 +147,16 @@ describe('the drawing', () => {
   it('has its figures on round values', () => {
     expect(ticks({ low: 0, high: 15, at: (v) => v }, 4).map((t) => t.text)).toEqual(['0', '5', '10', '15']);
     expect(ticks({ low: -0.3, high: 0.3, at: (v) => v }, 3).map((t) => t.text)).toEqual(['−0.2', '0.0', '0.2']);
+  });
+  it('draws the path up to a gap, and goes on behind it', () => {
+    const at = (x: number, error: number) => ({ x, y: 0, error });
+    const runs = runsOf([at(0, 1), at(1, 1), at(2, 9), at(NaN, NaN), at(5, 9), at(6, 9)], (error) => (error > 5 ? 'red' : 'blue'));
+    expect(runs.map((r) => [r.colour, ...r.points.map((p) => p.x)])).toEqual([['blue', 0, 1], ['red', 1, 2], ['red', 5, 6]]);
+  });
+  it('keeps the extremes of a column over a missing value', () => {
+    const columns = { low: new Float64Array([NaN]), high: new Float64Array([NaN]) };
+    for (const value of [NaN, 3, 7, NaN, 5]) widen(columns, 0, value);
+    expect([columns.low[0], columns.high[0]]).toEqual([3, 7]);
   });
   it('shows a mill from above and a lathe from the front', () => {
     expect(planeOf(['X', 'Y', 'Z'])).toEqual({ across: 0, up: 1, names: ['X', 'Y'] });

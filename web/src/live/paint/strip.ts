@@ -32,6 +32,16 @@ interface Columns {
   high: Float64Array;
 }
 
+/** Column `at` reaches to the value, too; NaN leaves it as it is. */
+export function widen({ low, high }: Columns, at: number, value: number): void {
+  if (Number.isNaN(value)) {
+    return;
+  }
+  // A comparison with NaN is false: the first value of a column is taken.
+  if (!((low[at] as number) <= value)) low[at] = value;
+  if (!((high[at] as number) >= value)) high[at] = value;
+}
+
 export class Strip {
   readonly canvas: Canvas;
   private columns: Columns = { low: new Float64Array(0), high: new Float64Array(0) };
@@ -139,10 +149,7 @@ export class Strip {
     for (let i = first; i < samples.size; ++i) {
       const value = unit.of(samples.at(column, i));
       const at = Math.min(Math.max(Math.floor(((samples.at('t_s', i) - now) / seconds + 1) * (count - 1)), 0), count - 1);
-      if (Number.isNaN(value)) continue;
-      // A comparison with NaN is false: the first value of a column is taken.
-      if (!((low[at] as number) <= value)) low[at] = value;
-      if (!((high[at] as number) >= value)) high[at] = value;
+      widen(this.columns, at, value);
     }
   }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry of a measured size: it re-zeroes the thermal model.
 import type { Verdict } from '../api/types';
-import { type Context, gate } from '../shell/context';
+import { type Context, gate, layerActs } from '../shell/context';
+import { confirmed } from '../shell/dialogs';
 import { field, h, panel, select, setText } from '../shell/h';
 import { problemText } from '../shell/problem';
-import { units } from '../state/units';
+import { small, units } from '../state/units';
 import { reasonText, t } from '../texts/texts';
 import type { Part } from './part';
 
@@ -30,6 +31,25 @@ function form(context: Context, axes: readonly string[], entered: () => void): H
   const made = h('form', { class: 'fields', id: 'measured' }, field(t('axis'), which), field(t('measured_value', { unit: unit.name }), value), field(t('measured_sd', { unit: unit.name }), sd), enter);
   // It is about the size before.
   made.addEventListener('input', () => setText(verdict, ''));
+  const send = async (size: { axis: string; displacement_um: number; sd_um: number }) => {
+    const acts = layerActs(context.live);
+    const what = () => t('measured_what', { machine: context.live.hello?.machine.name ?? '', axis: size.axis, value: small(size.displacement_um) });
+    if (acts && !(await confirmed(t('measured_ask'), what(), t('measured_yes')))) {
+      return;
+    }
+    // Pressed twice, it would count twice.
+    enter.disabled = true;
+    try {
+      const answer = await context.api.post<{ verdict: Verdict }>('thermal/measured', acts ? { ...size, confirm: true } : size);
+      setText(verdict, verdictWords(answer.verdict));
+      value.value = '';
+      entered();
+    } catch (error) {
+      setText(fault, problemText(error));
+    } finally {
+      enter.disabled = false;
+    }
+  };
   made.addEventListener('submit', (event) => {
     event.preventDefault();
     const [displacement_um, sd_um] = [unit.back(number(value.value)), unit.back(number(sd.value))];
@@ -37,17 +57,7 @@ function form(context: Context, axes: readonly string[], entered: () => void): H
     setText(fault, why);
     setText(verdict, '');
     if (why === '') {
-      // Pressed twice, it would count twice.
-      enter.disabled = true;
-      context.api
-        .post<{ verdict: Verdict }>('thermal/measured', { axis, displacement_um, sd_um })
-        .then((answer) => {
-          setText(verdict, verdictWords(answer.verdict));
-          value.value = '';
-          entered();
-        })
-        .catch((error: unknown) => setText(fault, problemText(error)))
-        .finally(() => (enter.disabled = false));
+      void send({ axis, displacement_um, sd_um });
     }
   });
   return gate(context.session, 'operator', h('div', {}, made, fault, verdict));

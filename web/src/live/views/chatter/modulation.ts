@@ -2,7 +2,7 @@
 // The modulator's panel: law, bounds and frequency, as an operator thinks of them; set at once, or put into the file.
 import { plain } from '../../../frame/numbers';
 import type { KeyValue, Law, Modulation } from '../../api/types';
-import { type Context, gate } from '../../shell/context';
+import { type Context, gate, layerActs } from '../../shell/context';
 import { confirmed } from '../../shell/dialogs';
 import { button, field, h, panel, select, setText } from '../../shell/h';
 import { problemText } from '../../shell/problem';
@@ -56,8 +56,7 @@ const isWords = (m: Modulation) => t('modulation_is', { mean: plain(100 * m.mean
 
 /** At once, for this run. A layer that acts moves the spindle with it, so that takes a second word. */
 async function setNow({ api, live, say }: Context, m: Modulation): Promise<string> {
-  const status = live.frame?.status;
-  const acts = status?.mode === 'act' || status?.mode_wanted === 'act';
+  const acts = layerActs(live);
   const what = () => t('modulation_what', { machine: live.hello?.machine.name ?? '', modulation: `${t(`law_${m.law}`)}. ${isWords(m)}` });
   if (acts && !(await confirmed(t('modulation_ask'), what(), t('modulation_yes')))) {
     return '';
