@@ -81,7 +81,7 @@ describe('chatter', () => {
   it('is told with its frequency, and what is done against it', () => {
     expect(said({})).toBe('The cut is quiet');
     expect(said({ chatter: true })).toBe('The cut chatters');
-    expect(said({ chatter: true, frequency_hz: 946.6, better_spindle_percent: 90 })).toBe('The cut chatters at 947 Hz · Better: spindle at 90 %');
+    expect(said({ chatter: true, frequency_hz: 946.6, better_spindle_percent: 90 })).toBe('The cut chatters at 947\u00a0Hz · Better: spindle at 90 %');
     expect(said({ modulating: true })).toBe('The cut is quiet · Spindle speed modulated');
   });
   it('is not called quiet where nobody listens', () => {

@@ -94,7 +94,7 @@ export const en = {
   chatter_deaf: 'Nothing listens for chatter: start the layer with --process.',
   chatter_quiet: 'The cut is quiet',
   chatter_on: 'The cut chatters',
-  chatter_at: 'The cut chatters at {hz} Hz',
+  chatter_at: 'The cut chatters at {hz}\u00a0Hz',
   chatter_modulating: 'Spindle speed modulated',
   chatter_step: 'Spindle at {percent} % against chatter',
   chatter_better: 'Better: spindle at {percent} %',

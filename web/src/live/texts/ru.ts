@@ -90,7 +90,7 @@ export const ru: Texts = {
   chatter_deaf: 'Автоколебания не отслеживаются: запустите с --process.',
   chatter_quiet: 'Резание устойчиво',
   chatter_on: 'Автоколебания при резании',
-  chatter_at: 'Автоколебания на частоте {hz} Гц',
+  chatter_at: 'Автоколебания на частоте {hz}\u00a0Гц',
   chatter_modulating: 'Обороты шпинделя модулируются',
   chatter_step: 'Шпиндель на {percent} % против автоколебаний',
   chatter_better: 'Лучше: шпиндель на {percent} %',

@@ -90,7 +90,7 @@ export const zh: Texts = {
   chatter_deaf: '没有监听颤振：请用 --process 启动。',
   chatter_quiet: '切削平稳',
   chatter_on: '发生颤振',
-  chatter_at: '发生颤振，频率 {hz} Hz',
+  chatter_at: '发生颤振，频率 {hz}\u00a0Hz',
   chatter_modulating: '主轴转速调制中',
   chatter_step: '主轴调至 {percent} % 以抑制颤振',
   chatter_better: '建议：主轴 {percent} %',

@@ -70,7 +70,7 @@ function nextPart({ live, api }: Context): Part {
 /** `next` is the line with the next correction; without one it is asked for here. */
 export function thermalPart(context: Context, title = t('thermal'), next: Part = nextPart(context)): Part {
   const { live } = context;
-  const off = h('p', { class: 'warning', id: 'thermal-off', role: 'alert', hidden: true });
+  const off = h('p', { class: 'thermal-off', id: 'thermal-off', role: 'alert', hidden: true });
   const rows = h('div', { class: 'thermal-rows' }, h('p', { class: 'none' }, t('waiting')));
   const made = new Map<string, Row>();
   const show = (axes: readonly ThermalAxis[]) => {
