@@ -9,6 +9,7 @@ import type { Context, LiveView } from './shell/context';
 import { h } from './shell/h';
 import { keyOf, routeOf } from './shell/route';
 import { logInPage } from './shell/login';
+import { problemText } from './shell/problem';
 import { applyLook } from './shell/look';
 import { nav } from './shell/nav';
 import { stagedBar } from './shell/staged_bar';
@@ -215,11 +216,14 @@ export class App {
   private async logOut(): Promise<void> {
     try {
       await this.api.logOut();
-    } finally {
-      this.loggedOut(t('logged_out'));
-      // Whoever leaves misses nothing.
-      this.heard = this.lost = undefined;
+    } catch (error) {
+      // Whoever leaves the machine must know that the session goes on.
+      this.toast.say(t('failed', { what: problemText(error) }), true);
+      return;
     }
+    this.loggedOut(t('logged_out'));
+    // Whoever leaves misses nothing.
+    this.heard = this.lost = undefined;
   }
 
   private watchMode(): void {

@@ -222,7 +222,7 @@ describe('records', () => {
     await until(`document.querySelectorAll('#records tbody tr').length === 1`);
     await visit.page.click('#records a');
     await until(`document.querySelector('.record-name')?.textContent === 'circle-r10.sqlite'`);
-    expect(await text('#events')).toBeDefined();
+    await until(`document.querySelector('#events')?.textContent.includes('asked for act')`);
   });
   it('that are damaged say why, and offer nothing', async () => {
     await as('engineer', 'record');
@@ -308,6 +308,15 @@ describe('settings', () => {
     expect(await visit.page.getAttribute('html', 'data-look')).toBe('contrast');
     await show(visit.page, 'contour');
     await until(`document.querySelector('#reasons, .limits h2').textContent.includes('Grenzen')`);
+  });
+  it('keep the session where letting go of it did not get through', async () => {
+    await as('engineer');
+    await visit.page.route('**/api/v1/session', (route) => (route.request().method() === 'DELETE' ? route.abort() : route.continue()));
+    await visit.page.click('#settings');
+    await visit.page.click('#log-out');
+    await until(`document.querySelector('.toasts [role=alert]').textContent === 'Failed: The server cannot be reached.'`);
+    expect(await visit.page.isVisible('#hand-back')).toBe(true);
+    visit.excuse();
   });
   it('let go of the session', async () => {
     await as('engineer');

@@ -5,6 +5,7 @@ import type { Theme } from '../../frame/theme';
 import { niceAbove } from '../../plot/axes';
 import { GAP_CYCLES, type Live, type SampleColumn } from '../state/live';
 import type { Unit } from '../state/units';
+import { t } from '../texts/texts';
 import { type Area, Canvas, hatch, overColour } from './canvas';
 import { type Scale, drawFrame, inner, scale } from './frame';
 
@@ -70,7 +71,7 @@ export class Strip {
     if (most !== undefined) {
       this.drawLimit(area, theme, y, most);
     }
-    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? '0 s' : text));
+    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? t('seconds', { value: text }) : text));
     this.drawGaps(area, theme, x, first, now);
     for (const curve of this.options.curves) {
       this.fill(curve.column, first, now, box.left, box.right);

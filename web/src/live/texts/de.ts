@@ -318,6 +318,7 @@ export const de: Texts = {
   minutes: '{value} min',
   seconds: '{value} s',
   hours: '{value} h',
+  hertz: '{value} Hz',
   last_read: 'Zuletzt gelesen',
   course: 'Verlauf',
   hand_back_failed: 'Die Rückgabe hat die Korrekturschicht nicht erreicht: {what} Nutzen Sie die Bedientafel der Maschine.',

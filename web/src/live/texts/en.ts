@@ -329,6 +329,7 @@ export const en = {
   minutes: '{value} min',
   seconds: '{value} s',
   hours: '{value} h',
+  hertz: '{value} Hz',
   last_read: 'Last read',
   course: 'Course',
   hand_back_failed: 'Handing back did not reach the layer: {what} Use the machine’s own panel.',

@@ -318,6 +318,7 @@ export const zh: Texts = {
   minutes: '{value} 分钟',
   seconds: '{value} 秒',
   hours: '{value} 小时',
+  hertz: '{value} Hz',
   last_read: '最近读取',
   course: '过程曲线',
   hand_back_failed: '交还指令未到达校正层：{what} 请使用机床自身的面板。',

@@ -104,7 +104,7 @@ class Slider {
     this.root.querySelectorAll<HTMLButtonElement>('button').forEach((b) => (b.disabled = whole));
     this.slide.value = String(this.room() === 0 ? 0 : (1000 * this.from) / this.room());
     const range = this.range();
-    setText(this.shown, `${fixed(range.from, 1)} … ${fixed(range.to, 1)} s`);
+    setText(this.shown, `${fixed(range.from, 1)} … ${t('seconds', { value: fixed(range.to, 1) })}`);
     this.slide.setAttribute('aria-valuetext', this.shown.textContent ?? '');
   }
 }
