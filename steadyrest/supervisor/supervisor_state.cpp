@@ -46,7 +46,7 @@ void Supervisor::see_panel(const kernel::signal::Frame& frame) noexcept {
 }
 
 /// The stamps tell that the machine still holds everything, and agree with the silent cycles: a
-/// clock that stood, or gave the last delivery a wrong stamp, would make any silence look short.
+/// clock that stopped, or gave the last delivery a wrong stamp, would make any silence look short.
 bool Supervisor::stamps_say_short(const FrameClock::Tick& tick) const noexcept {
   constexpr double kSlackCycles = 1.0 + FrameClock::kSlackSteps;
   const double gap_s = tick.time_s - state_.delivered_s;

@@ -55,6 +55,27 @@ Result<void> add_border(const chatter::offline::Process& process, double most_de
   return {};
 }
 
+/// The ear of a layer that was made from machine_for()'s machine.
+Result<void> give(const Listener& listener, const Machine& machine, supervisor::Supervisor& layer) {
+  const auto cannot_act = [] {
+    return refuse("there is no spindle override to act against chatter with",
+                  "add [override.spindle] to the machine file, or use --chatter machine");
+  };
+  supervisor::ListeningStage::Config config = listener.stage;
+  put_limits(machine, config.acts, config.better.table);
+  if (config.acts && config.better.table.step_ratio.size() < 2) {
+    return cannot_act();
+  }
+  auto stage = supervisor::ListeningStage::make(config);
+  if (!stage) {
+    return std::unexpected(std::move(stage.error()));
+  }
+  if (!layer.listen(*stage)) {
+    return cannot_act();
+  }
+  return {};
+}
+
 }  // namespace
 
 Sensor simulated_sensor() {
@@ -92,28 +113,20 @@ Machine with_modulator(Machine machine) {
   return machine;
 }
 
-Machine machine_for(const Listener& listener, Machine machine) {
-  return listener.stage.acts ? with_modulator(std::move(machine)) : machine;
+Machine machine_for(const Listener* listener, Machine machine) {
+  const bool acts = listener != nullptr && listener->stage.acts;
+  return acts ? with_modulator(std::move(machine)) : machine;
 }
 
-Result<void> give(const Listener& listener, const Machine& machine, supervisor::Supervisor& layer) {
-  const auto cannot_act = [] {
-    return refuse("there is no spindle override to act against chatter with",
-                  "add [override.spindle] to the machine file, or use --chatter machine");
-  };
-  supervisor::ListeningStage::Config config = listener.stage;
-  put_limits(machine, config.acts, config.better.table);
-  if (config.acts && config.better.table.step_ratio.size() < 2) {
-    return cannot_act();
+Result<supervisor::Supervisor> layer_of(const Listener* listener, const Machine& machine,
+                                        const kernel::port::Capability& capability) {
+  auto layer = supervisor::Supervisor::make(machine, capability);
+  if (layer && listener != nullptr) {
+    if (auto given = give(*listener, machine, *layer); !given) {
+      return std::unexpected(std::move(given.error()));
+    }
   }
-  auto stage = supervisor::ListeningStage::make(config);
-  if (!stage) {
-    return std::unexpected(std::move(stage.error()));
-  }
-  if (!layer.listen(*stage)) {
-    return cannot_act();
-  }
-  return {};
+  return layer;
 }
 
 }  // namespace steadyrest::trial::listener

@@ -7,6 +7,7 @@
 #include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/port/port.hpp>
 #include <steadyrest/supervisor/listening_stage.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 
@@ -47,16 +48,16 @@ struct Listener {
 [[nodiscard]] kernel::machine::Machine with_modulator(kernel::machine::Machine machine);
 
 /// The machine file's values as a layer with this listener has them: one that acts has the
-/// modulator to itself.
-[[nodiscard]] kernel::machine::Machine machine_for(const Listener& listener,
+/// modulator to itself. Null: unchanged.
+[[nodiscard]] kernel::machine::Machine machine_for(const Listener* listener,
                                                    kernel::machine::Machine machine);
 
-/// Gives the layer, made from machine_for()'s machine, its ear; the limits of the spindle are the
-/// machine's. Refuses what ListeningStage refuses, and an ear that acts where there is no spindle
-/// override.
-[[nodiscard]] kernel::outcome::Result<void> give(const Listener& listener,
-                                                 const kernel::machine::Machine& machine,
-                                                 supervisor::Supervisor& layer);
+/// A layer for machine_for()'s machine, with its ear; the limits of the spindle are the machine's.
+/// Null: it hears nothing. Refuses what Supervisor and ListeningStage refuse, and an ear that acts
+/// where there is no spindle override.
+[[nodiscard]] kernel::outcome::Result<supervisor::Supervisor> layer_of(
+    const Listener* listener, const kernel::machine::Machine& machine,
+    const kernel::port::Capability& capability);
 
 /// As JSON, every number exactly.
 [[nodiscard]] std::string text_of(const Listener& listener);

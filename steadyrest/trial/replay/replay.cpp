@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -55,35 +56,22 @@ std::optional<Mode> mode_of(const std::string& text) {
 struct Deciding {
   kernel::machine::Machine machine;
   supervisor::Supervisor layer;
-  std::optional<listener::Listener> listener;
+  std::unique_ptr<const listener::Listener> listener;  ///< null: it heard nothing
 };
-
-/// A layer as a run makes it.
-Result<supervisor::Supervisor> layer_of(const kernel::machine::Machine& machine,
-                                        const kernel::port::Capability& capability,
-                                        const std::optional<listener::Listener>& listener) {
-  auto layer = supervisor::Supervisor::make(machine, capability);
-  if (layer && listener) {
-    if (auto given = listener::give(*listener, machine, *layer); !given) {
-      return std::unexpected(std::move(given.error()));
-    }
-  }
-  return layer;
-}
 
 /// The layer that the run began with.
 Result<Deciding> begin(const std::string& file, kernel::machine::Machine machine,
                        const ReplayPort& port) {
-  std::optional<listener::Listener> listener;
+  std::unique_ptr<const listener::Listener> listener;
   if (const std::string& text = port.reader().run().listener; !text.empty()) {
     auto read = listener::parse(text, file);
     if (!read) {
       return std::unexpected(std::move(read.error()));
     }
-    listener = std::move(*read);
-    machine = listener::machine_for(*listener, std::move(machine));
+    listener = std::make_unique<const listener::Listener>(std::move(*read));
   }
-  auto layer = layer_of(machine, port.capability(), listener);
+  machine = listener::machine_for(listener.get(), std::move(machine));
+  auto layer = listener::layer_of(listener.get(), machine, port.capability());
   if (!layer) {
     return std::unexpected(std::move(layer.error()));
   }
@@ -97,13 +85,11 @@ Result<void> reload(const std::string& file, const std::string& text,
   if (!machine) {
     return std::unexpected(std::move(machine.error()));
   }
-  if (deciding.listener) {
-    *machine = listener::machine_for(*deciding.listener, std::move(*machine));
-  }
+  *machine = listener::machine_for(deciding.listener.get(), std::move(*machine));
   if (auto fit = supervisor::fits(deciding.machine, *machine); !fit) {
     return fit;
   }
-  auto next = layer_of(*machine, capability, deciding.listener);
+  auto next = listener::layer_of(deciding.listener.get(), *machine, capability);
   if (!next) {
     return std::unexpected(std::move(next.error()));
   }
@@ -113,8 +99,8 @@ Result<void> reload(const std::string& file, const std::string& text,
   return {};
 }
 
-/// What was changed before this cycle; refuses a mode or a wish that is none and a file that does
-/// not fit.
+/// What was changed before this cycle; refuses a mode or a wish that cannot be read and a file that
+/// does not fit.
 Result<void> change(const std::string& file, ReplayPort& port, Reloads reloads, Deciding& deciding,
                     Replayed& replayed) {
   while (const record::Event* const event = port.change_due()) {
@@ -130,7 +116,7 @@ Result<void> change(const std::string& file, ReplayPort& port, Reloads reloads, 
     if (event->kind == record::EventKind::wish) {
       const auto recorded = supervisor::wish_of(event->text);
       if (!recorded) {
-        return refuse(file, "has a wish that is none: " + event->text,
+        return refuse(file, "has a wish that cannot be read: " + event->text,
                       "use the version of Steadyrest that recorded it");
       }
       ++replayed.wishes;

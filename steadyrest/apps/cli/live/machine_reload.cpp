@@ -34,17 +34,10 @@ kernel::outcome::Result<std::unique_ptr<Successor>> read_again(
       return std::unexpected(std::move(accepted.error()));
     }
   }
-  if (of.listener != nullptr) {
-    *machine = trial::listener::machine_for(*of.listener, std::move(*machine));
-  }
-  auto layer = supervisor::Supervisor::make(*machine, of.capability);
+  *machine = trial::listener::machine_for(of.listener, std::move(*machine));
+  auto layer = trial::listener::layer_of(of.listener, *machine, of.capability);
   if (!layer) {
     return std::unexpected(std::move(layer.error()));
-  }
-  if (of.listener != nullptr) {
-    if (auto given = trial::listener::give(*of.listener, *machine, *layer); !given) {
-      return std::unexpected(std::move(given.error()));
-    }
   }
   const auto kept = supervisor::kept(running, *machine);
   return std::make_unique<Successor>(

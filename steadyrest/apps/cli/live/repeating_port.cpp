@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <utility>
 
 #include <steadyrest/apps/cli/live/repeating_port.hpp>
@@ -24,19 +23,34 @@ Result<std::unique_ptr<RepeatingPort>> RepeatingPort::open(Make make) {
   return std::unique_ptr<RepeatingPort>(new RepeatingPort(std::move(make), std::move(*first)));
 }
 
-void RepeatingPort::begin_again() {
-  Made made = next_.get();
-  if (made) {
-    present_ = std::move(*made);
-    begun_s_ = last_s_;
+RepeatingPort::RepeatingPort(Make make, std::unique_ptr<sim::SimulatedMachine> first)
+    : make_(std::move(make)),
+      present_(std::move(first)),
+      maker_([this](const std::stop_token& ends) { make_more(ends); }) {}
+
+RepeatingPort::~RepeatingPort() {
+  maker_.request_stop();
+  wanted_.release();
+}
+
+/// What has finished goes too. What could be made once can be made again.
+void RepeatingPort::make_more(const std::stop_token& ends) {
+  for (wanted_.acquire(); !ends.stop_requested(); wanted_.acquire()) {
+    next_ = make_().value_or(nullptr);
+    is_made_.store(next_ != nullptr);
   }
-  next_ = std::async(std::launch::async, make_);
+}
+
+void RepeatingPort::begin_again() noexcept {
+  std::swap(present_, next_);
+  is_made_.store(false);
+  wanted_.release();
+  begun_s_ = last_s_;
   rested_s_ = 0.0;
 }
 
 Result<Frame> RepeatingPort::read() noexcept {
-  const bool is_made = next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (present_->finished() && rested_s_ > kPause_s && is_made) {
+  if (present_->finished() && rested_s_ > kPause_s && is_made_.load()) {
     begin_again();
   }
   auto frame = present_->read();

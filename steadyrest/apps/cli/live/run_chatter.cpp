@@ -111,20 +111,8 @@ Result<std::optional<Listener>> listener_of(const std::optional<RunProcess>& pro
                     .process_text = process->text,
                     .modes = process->process.modes,
                     .stage = std::move(*stage)};
-  machine = trial::listener::machine_for(listener, std::move(machine));
+  machine = trial::listener::machine_for(&listener, std::move(machine));
   return listener;
-}
-
-Result<supervisor::Supervisor> layer_of(const std::optional<Listener>& listener,
-                                        const Machine& machine,
-                                        const kernel::port::Capability& capability) {
-  auto layer = supervisor::Supervisor::make(machine, capability);
-  if (layer && listener) {
-    if (auto given = trial::listener::give(*listener, machine, *layer); !given) {
-      return std::unexpected(std::move(given.error()));
-    }
-  }
-  return layer;
 }
 
 std::string listener_text(const std::optional<Listener>& listener) {

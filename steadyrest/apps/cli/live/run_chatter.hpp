@@ -12,8 +12,6 @@
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/chatter/offline/process/process.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/kernel/port/port.hpp>
-#include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/listener/listener.hpp>
 
 /// The chatter part of `steadyrest run`: what is cut, and what the layer does when it chatters.
@@ -48,11 +46,6 @@ struct RunProcess {
 [[nodiscard]] Result<std::optional<trial::listener::Listener>> listener_of(
     const std::optional<RunProcess>& process, kernel::machine::Machine& machine,
     const LivePort& port, Progress& progress);
-
-/// The layer, with its ear if it has one.
-[[nodiscard]] Result<supervisor::Supervisor> layer_of(
-    const std::optional<trial::listener::Listener>& listener,
-    const kernel::machine::Machine& machine, const kernel::port::Capability& capability);
 
 /// Empty where there is none.
 [[nodiscard]] std::string listener_text(const std::optional<trial::listener::Listener>& listener);

@@ -156,7 +156,8 @@ std::expected<Prepared, Refusals> prepare(const Options& options, Progress& prog
   if (!listener) {
     return refused(listener.error());
   }
-  auto layer = layer_of(*listener, *machine, port->port->capability());
+  auto layer = trial::listener::layer_of(*listener ? &**listener : nullptr, *machine,
+                                         port->port->capability());
   if (!layer) {
     return refused(layer.error());
   }

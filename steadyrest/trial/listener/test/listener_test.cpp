@@ -63,9 +63,9 @@ TEST(Listener, OneThatActsHasTheModulatorToItself) {
   file.chatter.enabled = true;
   file.chatter.amplitude_ratio = 0.2;
   Listener listener = some();
-  EXPECT_EQ(machine_for(listener, file).chatter.amplitude_ratio, 0.0);
+  EXPECT_EQ(machine_for(&listener, file).chatter.amplitude_ratio, 0.0);
   listener.stage.acts = false;
-  EXPECT_EQ(machine_for(listener, file).chatter, file.chatter);
+  EXPECT_EQ(machine_for(&listener, file).chatter, file.chatter);
 }
 
 TEST(Listener, WithoutASpindleOverrideItMayOnlyHear) {
@@ -73,12 +73,12 @@ TEST(Listener, WithoutASpindleOverrideItMayOnlyHear) {
   machine.spindle_override = {};
   Listener listener = some();
   const kernel::port::Capability port{.feed_override = true};
-  auto layer = supervisor::Supervisor::make(machine_for(listener, machine), port).value();
-  const auto given = give(listener, machine, layer);
-  ASSERT_FALSE(given);
-  EXPECT_THAT(given.error().what, ::testing::HasSubstr("spindle override"));
+  const auto layer = layer_of(&listener, machine_for(&listener, machine), port);
+  ASSERT_FALSE(layer);
+  EXPECT_THAT(layer.error().what, ::testing::HasSubstr("spindle override"));
   listener.stage.acts = false;
-  EXPECT_TRUE(give(listener, machine, layer));
+  EXPECT_TRUE(layer_of(&listener, machine, port));
+  EXPECT_TRUE(layer_of(nullptr, machine, port));
 }
 
 // A programmed speed that nobody knows: the deepest step must be the one that the planner finds.

@@ -179,7 +179,8 @@ TEST_F(Replay, RefusesAWishThatIsNone) {
   change_record(file_, "UPDATE event SET text = 'measure 2 Z much' WHERE kind = 5");
   const auto replayed = replay(file_, machine);
   ASSERT_FALSE(replayed);
-  EXPECT_THAT(replayed.error().what, ::testing::HasSubstr("a wish that is none: measure 2 Z much"));
+  EXPECT_THAT(replayed.error().what,
+              ::testing::HasSubstr("a wish that cannot be read: measure 2 Z much"));
 }
 
 TEST_F(Replay, RefusesAMachineFileThatCannotHaveTakenOver) {

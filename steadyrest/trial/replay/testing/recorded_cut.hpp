@@ -49,12 +49,8 @@ struct Heard {
 inline supervisor::Supervisor layer_of(const kernel::machine::Machine& machine,
                                        const kernel::port::Capability& capability,
                                        const Heard& heard) {
-  const auto values = heard.listener ? listener::machine_for(*heard.listener, machine) : machine;
-  auto layer = supervisor::Supervisor::make(values, capability).value();
-  if (heard.listener && !listener::give(*heard.listener, values, layer)) {
-    std::abort();
-  }
-  return layer;
+  const listener::Listener* const ear = heard.listener ? &*heard.listener : nullptr;
+  return listener::layer_of(ear, listener::machine_for(ear, machine), capability).value();
 }
 
 /// What somebody asks for during the cut.
