@@ -9,13 +9,13 @@ const SUPERSCRIPT: Record<string, string> = {
 /** Shown for a missing number. */
 const NONE = '–';
 
-/** A fixed count of decimals, a thin space between thousands and a true minus sign. */
+/** A fixed count of decimals, a narrow space that does not break between thousands and a true minus sign. */
 export function fixed(value: Maybe | undefined, decimals: number): string {
   if (value === null || value === undefined || !Number.isFinite(value)) {
     return NONE;
   }
   const [whole = '', part] = Math.abs(value).toFixed(decimals).split('.');
-  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u2009') : whole;
+  const grouped = whole.length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole;
   const digits = part === undefined ? grouped : `${grouped}.${part}`;
   return value < 0 && /[1-9]/.test(digits) ? `−${digits}` : digits;
 }

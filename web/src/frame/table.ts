@@ -96,7 +96,7 @@ export function figures(rows: readonly Figure[]): string {
 function keyOf(row: HTMLTableRowElement, column: number): number | string | undefined {
   const at = row.cells[column];
   const text = at?.dataset['sort'] ?? at?.textContent?.trim() ?? '';
-  const value = Number(text.replace(/[\s\u2009]/g, '').replace('−', '-'));
+  const value = Number(text.replace(/[\s]/g, '').replace('−', '-'));
   return text === '' || text === '–' ? undefined : Number.isFinite(value) ? value : text;
 }
 

@@ -9,6 +9,7 @@ import type { Context, LiveView } from './shell/context';
 import { h } from './shell/h';
 import { keyOf, routeOf } from './shell/route';
 import { logInPage } from './shell/login';
+import { problemText } from './shell/problem';
 import { applyLook } from './shell/look';
 import { nav } from './shell/nav';
 import { stagedBar } from './shell/staged_bar';
@@ -51,7 +52,9 @@ export class App {
     this.api.onLoggedOut = () => this.loggedOut(t('logged_out'));
     window.addEventListener('hashchange', () => (keyOf(window.location.hash) === undefined ? this.openView() : void this.identify()));
     window.addEventListener('resize', () => this.view?.redraw?.(theme()));
-    window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.changeSettings(this.settings));
+    for (const query of ['(prefers-color-scheme: dark)', '(prefers-contrast: more)']) {
+      window.matchMedia(query).addEventListener('change', () => this.settings.look === 'auto' && this.changeSettings(this.settings));
+    }
     await this.identify();
     window.requestAnimationFrame(this.tick);
   }
@@ -95,8 +98,17 @@ export class App {
     }
   }
 
+  /** Nothing of a session goes on behind the log-in. */
+  private leave(): void {
+    this.stream?.close();
+    this.closeView();
+    document.querySelectorAll('dialog').forEach((d) => d.close());
+    this.context = this.head = undefined;
+  }
+
   private askLogIn(error: unknown): void {
     // A wrong key, or a server that is not there.
+    this.leave();
     this.showLogIn(NO_SESSION, error instanceof ApiError ? error.message : t('no_connection'));
   }
 
@@ -117,10 +129,7 @@ export class App {
       return;
     }
     this.lost ??= this.heard;
-    this.stream?.close();
-    this.closeView();
-    document.querySelectorAll('dialog').forEach((d) => d.close());
-    this.context = this.head = undefined;
+    this.leave();
     void this.api
       .session()
       .then((answer) => this.showLogIn(answer, why))
@@ -153,7 +162,7 @@ export class App {
         if (live.take(message)) {
           this.head?.machine();
           if (this.context?.machine) {
-            // It may have been read anew.
+            // Another one may be in force.
             this.context.machine = undefined;
           }
         }
@@ -184,7 +193,11 @@ export class App {
       if (!session) {
         this.loggedOut(t('logged_out'));
       } else if (this.context) {
+        const { name, role } = this.context.session;
         this.context.session = session;
+        if (name !== session.name || role !== session.role) {
+          this.build();
+        }
       }
       return session !== null;
     } catch {
@@ -203,11 +216,14 @@ export class App {
   private async logOut(): Promise<void> {
     try {
       await this.api.logOut();
-    } finally {
-      this.loggedOut(t('logged_out'));
-      // Whoever leaves misses nothing.
-      this.heard = this.lost = undefined;
+    } catch (error) {
+      // Whoever leaves the machine must know that the session goes on.
+      this.toast.say(t('failed', { what: problemText(error) }), true);
+      return;
     }
+    this.loggedOut(t('logged_out'));
+    // Whoever leaves misses nothing.
+    this.heard = this.lost = undefined;
   }
 
   private watchMode(): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mock's server answers about machine, heat, lobes and records.
-import type { Checked, EncoderAxis, Lobes, Machine, MachineKey, Plan, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
+import type { Checked, DamagedRecord, EncoderAxis, Lobes, Machine, MachineKey, Plan, RecordData, RecordDetail, RecordRow, Thermal } from '../../src/live/api/types';
 
 const key = (name: string, value: MachineKey['value'], unit: string, range: string, explanation: string, live = true): MachineKey => ({ key: name, value, unit, range, explanation, live });
 
@@ -16,7 +16,7 @@ max_percent = 100
 margin_percent = 5
 `;
 
-export function machine(): Machine {
+export function machine(limit_um = 10): Machine {
   return {
     file: '/etc/steadyrest/vmc-840d.toml',
     name: 'VMC with SINUMERIK 840D',
@@ -27,7 +27,7 @@ export function machine(): Machine {
         name: 'contour', title: 'Contour error',
         keys: [
           key('contour.strategy', 'feed_priority', '', 'contour_priority | feed_priority | balanced', 'What counts more where contour error and time compete.'),
-          key('contour.limit_um', 10, 'µm', '0.1 … 1000', 'The largest contour error that the layer allows.'),
+          key('contour.limit_um', limit_um, 'µm', '0.1 … 1000', 'The largest contour error that the layer allows.'),
           key('contour.min_percent', 10, '%', '0 … 100', 'The lowest feed override that the layer asks for.'),
           key('contour.max_percent', 100, '%', '0 … 200', 'The highest feed override that the layer asks for.'),
           key('contour.margin_percent', 5, '%', '0 … 50', 'Share of the limit that is kept in reserve.'),
@@ -92,7 +92,7 @@ export function thermal(): Thermal {
     passports: [{ axis: 'Z', modes: [{ amplitude_um: 9.2, time_constant_min: 84 }, { amplitude_um: 2.1, time_constant_min: 12 }] }, { axis: 'Y', modes: [{ amplitude_um: 2.8, time_constant_min: 95 }] }],
     history: { t_s, axes: [axis('Y', 0.3), axis('Z', 1)] },
     next: { axis: 'Z', offset_um: -3, in_s: 830 },
-    readings: [{ t_s: 1100, axis: 'Z', displacement_um: -3.9, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' }],
+    readings: [{ t_s: 42_200, axis: 'Z', displacement_um: -3.9, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' }, { t_s: 42_980, axis: 'Z', displacement_um: 41, reason: 'thermal_reading_outlier', sentence: 'A probe reading too far from the forecast was rejected.' }],
   };
 }
 
@@ -108,10 +108,11 @@ export function encoders(): EncoderAxis[] {
   ];
 }
 
-export const RECORDS: RecordRow[] = [
+export const RECORDS: (RecordRow | DamagedRecord)[] = [
   { name: 'rib-pocket-2026-01-02.sqlite', start_utc: '2026-01-02T08:04:05Z', machine: 'VMC with SINUMERIK 840D', program: 'rib-pocket.mpf', seconds: 1834, samples: 1_834_000, bytes: 91_400_000, closed: true, writing: false, fault: false },
   { name: 'circle-r10.sqlite', start_utc: '2026-01-01T17:30:00Z', machine: 'VMC with SINUMERIK 840D', program: 'circle-r10.mpf', seconds: 62, samples: 62_000, bytes: 3_300_000, closed: true, writing: false, fault: true },
   { name: 'slot <test>.sqlite', start_utc: '2025-12-30T11:00:00Z', machine: 'Lathe 16K20F3, retrofitted', program: 'slot.mpf', seconds: 411, samples: 411_000, bytes: 20_900_000, closed: false, writing: true, fault: false },
+  { name: 'torn.sqlite', bytes: 1_200_000, damaged: 'file is not a database' },
 ];
 
 export function record(): RecordDetail {

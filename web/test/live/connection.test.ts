@@ -57,6 +57,18 @@ describe('the log-in', () => {
     await page.waitForSelector('#error-strip');
     await context.close();
   });
+  it('leaves nothing of the session behind it when a key is wrong', async () => {
+    mock.logIn('engineer');
+    const { page, context } = await open(address);
+    await until(page, `document.querySelector('#connection')?.textContent === 'Live'`);
+    await page.evaluate(`location.hash = '#key=old'`);
+    await page.waitForSelector('#by-key');
+    expect(await page.textContent('.fault')).toBe('This key is wrong.');
+    mock.drop();
+    await page.waitForTimeout(1500);
+    expect(await page.textContent('.toasts')).toBe('');
+    await context.close();
+  });
   it('is asked for again when the session has ended', async () => {
     mock.logIn('engineer');
     const { page, context } = await open(address);
@@ -85,7 +97,7 @@ describe('a stream that drops', () => {
     await until(page, `document.querySelector('#connection').textContent === 'Live'`);
     await page.waitForSelector('#missing:not([hidden])');
     expect(await page.textContent('#missing')).toMatch(/^\d+\.\d s missing$/);
-    expect(await page.textContent('.toasts [role=alert]')).toMatch(/^The connection is back\. There was none for [1-9]\d*\.\d s, and the data of that time are missing\.$/);
+    expect(await page.textContent('.toasts [role=alert]')).toMatch(/^Reconnected after [1-9]\d*\.\d s\. The data of that time are missing\.$/);
     await page.click('#missing');
     await until(page, `document.querySelector('.toasts').textContent.includes('did not arrive')`);
     await context.close();
@@ -112,8 +124,8 @@ describe('a stream that drops', () => {
     await page.fill('[name=password]', 'right');
     const asked = Date.now();
     await page.keyboard.press('Enter');
-    await until(page, `document.querySelector('.toasts [role=alert]').textContent.startsWith('The connection is back')`);
-    const seconds = Number(/none for ([\d.]+) s/.exec((await page.textContent('.toasts [role=alert]')) ?? '')?.[1]);
+    await until(page, `document.querySelector('.toasts [role=alert]').textContent.startsWith('Reconnected after')`);
+    const seconds = Number(/after ([\d.]+) s/.exec((await page.textContent('.toasts [role=alert]')) ?? '')?.[1]);
     // Of the wall clock: from the last frame to the first one of the new stream.
     expect(seconds).toBeGreaterThan((asked - lost) / 1000 - 0.1);
     expect(seconds).toBeLessThan((Date.now() - lost) / 1000 + 0.2);

@@ -79,6 +79,7 @@ export class Layer {
   recordFault: string | null = null;
   limit_um = LIMIT_UM;
   pathKnown = true;
+  heatSwitchedOff = false;
   random: () => number = Math.random;
   private time = 1200;
   private cycles = 0;
@@ -173,7 +174,7 @@ export class Layer {
       path_known: this.pathKnown,
       steps: this.pathKnown ? STEPS.map((percent) => ({ percent, error_um: Number.isFinite(tight) ? errorAt((FULL_MM_MIN / 60) * (percent / 100), tight) : 0.4, change_um: this.error + 0.1 })) : null,
       chatter: { chatter: true, modulating: true, kind: 'hopf', frequency_hz: 922, better_spindle_percent: 90, events: 1, chatter_s: 0.4, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92 },
-      thermal: { axes: [{ name: 'Y', displacement_um: 0.3 * warm, sd_um: 0.4, offset_um: 0 }, { name: 'Z', displacement_um: warm, sd_um: 0.7, offset_um: -4.1 }] },
+      thermal: { axes: [{ name: 'Y', displacement_um: 0.3 * warm, sd_um: 0.4, offset_um: 0 }, { name: 'Z', displacement_um: warm, sd_um: 0.7, offset_um: -4.1 }], switched_off: this.heatSwitchedOff },
       axes: [axis('X', here.x, 60 * speed * 0.7), axis('Y', here.y, -60 * speed * 0.5), axis('Z', -12.5, 0), axis('C', 90, 0)],
     };
   }

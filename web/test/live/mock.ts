@@ -21,6 +21,8 @@ export const KEY = 'one-time-key';
 const FRAME_MS = 1000 / 30;
 
 const ACCOUNTS: Record<string, Role> = { vera: 'viewer', olga: 'operator', anna: 'engineer' };
+/** Taken in act only with `confirm`. */
+const MOVES = ['modulation', 'thermal/measured', 'machine/apply'];
 const RANK: Record<Role, number> = { viewer: 0, operator: 1, engineer: 2 };
 
 interface Body {
@@ -56,6 +58,8 @@ export class Mock {
   withLobes = true;
   /** Share of the map and of the plan that is computed; 1: all. */
   studied = 1;
+  /** In the machine file; an apply changes it. */
+  limit_um = 10;
   /** No time passes but by play(). */
   still = false;
   /** Refuses connections, as while the network is down. */
@@ -213,13 +217,15 @@ export class Mock {
         response.setHeader('Content-Disposition', `attachment; filename="record.${query.get('format')}"`);
         return { t_s: [] };
       }
+      const damaged = RECORDS.find((r) => r.name === decodeURIComponent(name) && 'damaged' in r);
+      if (damaged) throw new Refusal(422, 'refused', 'The record cannot be read: file is not a database.');
       return { record: record() };
     }
     switch (path) {
       case 'status':
         return { status: this.layer.status() };
       case 'machine':
-        return { machine: machine() };
+        return { machine: machine(this.limit_um) };
       case 'thermal':
         return { thermal: thermal() };
       case 'motion':
@@ -235,7 +241,16 @@ export class Mock {
     throw new Refusal(404, 'not_found', `There is no ${path}.`);
   }
 
+  private modulate({ law, amplitude_ratio, period_s, mean_ratio }: Modulation): Modulation {
+    this.layer.modulation = { law, amplitude_ratio, period_s, mean_ratio };
+    this.sayHello();
+    return this.layer.modulation;
+  }
+
   private write(path: string, body: Body): object {
+    if (MOVES.includes(path) && this.layer.wanted === 'act' && body['confirm'] !== true) {
+      throw new Refusal(422, 'refused', 'In mode act this moves the machine at once.', 'Send "confirm": true.');
+    }
     switch (path) {
       case 'hand-back':
         this.layer.wanted = 'observe';
@@ -248,9 +263,7 @@ export class Mock {
       case 'modulation':
         this.need('operator');
         if (Number(body['amplitude_ratio']) > 0.9) throw new Refusal(422, 'refused', '`amplitude_ratio` is out of range; allowed: 0 … 0.9');
-        this.layer.modulation = body as unknown as Modulation;
-        this.sayHello();
-        return { modulation: body };
+        return { modulation: this.modulate(body as unknown as Modulation) };
       case 'thermal/measured':
         this.need('operator');
         return { verdict: Math.abs(Number(body['displacement_um'])) > 30 ? { taken: false, reason: 'thermal_reading_outlier', sentence: 'A probe reading too far from the forecast was rejected.' } : { taken: true, reason: 'thermal_reading_taken', sentence: 'A probe reading re-zeroed the thermal model.' } };
@@ -262,6 +275,7 @@ export class Mock {
           this.changedMeanwhile = false;
           throw new Refusal(409, 'changed_meanwhile', 'The file has changed.');
         }
+        this.limit_um = Number((body['changes'] as Body | undefined)?.['contour.limit_um'] ?? this.limit_um);
         this.sayHello();
         return { reload: { number: 3, utc: '2026-01-02T03:04:05Z', outcome: 'taken', words: '' } };
     }

@@ -105,7 +105,7 @@ describe('a report with data', () => {
   });
 
   it('lists the worst lines by what the layer left, and by any column that is pressed', async () => {
-    const column = async (i: number) => (await open.page.locator(`#worst tbody tr > :nth-child(${i})`).allTextContents()).map((v) => Number(v.replace('−', '-').replace('–', 'NaN').replace('\u2009', '')));
+    const column = async (i: number) => (await open.page.locator(`#worst tbody tr > :nth-child(${i})`).allTextContents()).map((v) => Number(v.replace('−', '-').replace('–', 'NaN').replace('\u202f', '')));
     const falling = (values: number[]) => values.filter((v) => !Number.isNaN(v)).every((v, i, all) => i === 0 || v <= (all[i - 1] ?? Infinity));
     const size = (values: number[]) => values.map(Math.abs);
     expect(falling(size(await column(4)))).toBe(true);

@@ -23,7 +23,7 @@ afterAll(async () => {
 it('shows the better step, and how loud it was before', async () => {
   await until(`document.querySelector('#mode-badge')?.textContent === 'Act'`);
   await opened.page.evaluate(`location.hash = '#/chatter'`);
-  await until(`document.querySelector('#chatter-now').textContent.includes('Spindle at 90 % against it')`);
+  await until(`document.querySelector('#chatter-now').textContent.includes('Spindle at 90 % against chatter')`);
   await until(`/[5-9]\\d/.test(document.querySelector('.vibration .before .value').textContent)`);
   await until(`document.querySelector('#chatter-now').textContent.startsWith('The cut is quiet')`);
   await until(`/^\\d(\\.\\d)?\\D/.test(document.querySelector('.vibration .level .value').textContent)`);

@@ -10,12 +10,13 @@ export const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 
 /** What the program prints. */
-export const steadyrest = (...of: string[]): string => execFileSync(PROGRAM, of, { encoding: 'utf8' });
+export const steadyrest = (of: readonly string[], input = ''): string => execFileSync(PROGRAM, of, { encoding: 'utf8', input });
 
 export class Running {
   readonly folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
   readonly machine = join(this.folder, 'machine.toml');
   address = '';
+  /** Empty where people have accounts. */
   key = '';
   private run: ChildProcess | undefined;
 
@@ -29,7 +30,7 @@ export class Running {
       let said = '';
       run.stderr.on('data', (part: Buffer) => {
         said += part.toString();
-        const found = /Page: (http:\/\/[^/]+)\/#key=(\S+)/.exec(said);
+        const found = /Page: (http:\/\/[^/\s]+)\/?(?:#key=(\S+))?\n/.exec(said);
         if (found) {
           resolve([found[1] ?? '', found[2] ?? '']);
         }

@@ -18,7 +18,7 @@ const figures = (max_mm: number, cycle_s: number): Figures => ({
 
 describe('numbers', () => {
   it('keep their decimals, group thousands and carry a true minus', () => {
-    expect(fixed(12345.678, 1)).toBe('12\u2009345.7');
+    expect(fixed(12345.678, 1)).toBe('12\u202f345.7');
     expect(fixed(-0.25, 2)).toBe('−0.25');
     expect(fixed(4000, 0)).toBe('4000');
   });

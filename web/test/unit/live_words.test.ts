@@ -4,8 +4,9 @@ import { readFileSync } from 'node:fs';
 import { afterEach, describe, expect, it } from 'vitest';
 import type { MachineKey, Status } from '../../src/live/api/types';
 import { ticks } from '../../src/live/paint/frame';
-import { planeOf } from '../../src/live/paint/path';
-import { layerHasTheSay } from '../../src/live/shell/head';
+import { planeOf, runsOf } from '../../src/live/paint/path';
+import { widen } from '../../src/live/paint/strip';
+import { layerInControl } from '../../src/live/shell/head';
 import { chooseUnits, feed, length, small, units } from '../../src/live/state/units';
 import { REASONS_DE } from '../../src/live/texts/reasons_de';
 import { REASONS_RU } from '../../src/live/texts/reasons_ru';
@@ -38,12 +39,27 @@ describe('the texts', () => {
       expect(Object.keys(own).sort()).toEqual(names);
     }
   });
+  it.each([['en', 'rpm'], ['de', 'U/min'], ['ru', 'об/мин'], ['zh', 'r/min']] as const)('of %s have one unit of speed, %s', (language, unit) => {
+    expect(ALL[language].rpm).toBe(unit);
+    const of = Object.values(ALL[language]).join('\n');
+    expect(['rpm', 'U/min', '1/min', 'min⁻¹', 'об/мин', 'r/min'].filter((u) => of.replaceAll('{rpm}', '').split(/[^\p{L}\d/⁻¹]+/u).includes(u))).toEqual([unit]);
+  });
+  it('name no option that the program does not have', () => {
+    const help = ['--record', '--past-runs', '--process'];
+    for (const texts of Object.values(ALL)) {
+      expect(texts.records_none_hint.match(/--[\w-]+/g)).toEqual(['--record', '--past-runs']);
+      for (const text of Object.values(texts)) {
+        for (const [option] of text.matchAll(/--[a-z][\w-]*/g)) expect(help).toContain(option);
+      }
+    }
+  });
   it('name times as people do', () => {
     expect([44.6, 840, 7560].map(span)).toEqual(['45\u00a0s', '14\u00a0min', '2.1\u00a0h']);
   });
   it('name sizes and figures', () => {
     expect([bytesText(3_300_000), bytesText(1234), bytesText(2e9)]).toEqual(['3.3\u00a0MB', '1.2\u00a0kB', '2.0\u00a0GB']);
     expect(['over_limit_s', 'work_p50_us', 'cycles', 'reasons.contour_limit'].map(nameText)).toEqual(['over limit, s', 'work p50, µs', 'cycles', 'reasons · contour limit']);
+    expect(nameText('spindle_rpm')).toBe('spindle, rpm');
   });
 });
 
@@ -65,7 +81,7 @@ describe('chatter', () => {
   it('is told with its frequency, and what is done against it', () => {
     expect(said({})).toBe('The cut is quiet');
     expect(said({ chatter: true })).toBe('The cut chatters');
-    expect(said({ chatter: true, frequency_hz: 946.6, better_spindle_percent: 90 })).toBe('The cut chatters at 947 Hz · Better: spindle at 90 %');
+    expect(said({ chatter: true, frequency_hz: 946.6, better_spindle_percent: 90 })).toBe('The cut chatters at 947\u00a0Hz · Better: spindle at 90 %');
     expect(said({ modulating: true })).toBe('The cut is quiet · Spindle speed modulated');
   });
   it('is not called quiet where nobody listens', () => {
@@ -83,17 +99,17 @@ describe('chatter', () => {
   });
 });
 
-describe('who has the say', () => {
+describe('who is in control', () => {
   const status = (change: Partial<Status>): Status => ({ ...new Layer().status(), mode: 'act', feed_percent: 100, feed_panel_percent: 100, spindle_percent: 100, offset_um: [0], path_offset_um: [0], ...change });
   it('is the layer where it acts and asks for something else', () => {
-    expect(layerHasTheSay(status({ feed_percent: 60 }))).toBe(true);
-    expect(layerHasTheSay(status({ spindle_percent: 95 }))).toBe(true);
-    expect(layerHasTheSay(status({ offset_um: [0, -2] }))).toBe(true);
+    expect(layerInControl(status({ feed_percent: 60 }))).toBe(true);
+    expect(layerInControl(status({ spindle_percent: 95 }))).toBe(true);
+    expect(layerInControl(status({ offset_um: [0, -2] }))).toBe(true);
   });
   it('is the operator otherwise', () => {
-    expect(layerHasTheSay(status({}))).toBe(false);
-    expect(layerHasTheSay(status({ mode: 'advise', feed_percent: 60 }))).toBe(false);
-    expect(layerHasTheSay(status({ feed_percent: 70, feed_panel_percent: 70 }))).toBe(false);
+    expect(layerInControl(status({}))).toBe(false);
+    expect(layerInControl(status({ mode: 'advise', feed_percent: 60 }))).toBe(false);
+    expect(layerInControl(status({ feed_percent: 70, feed_panel_percent: 70 }))).toBe(false);
   });
 });
 
@@ -131,6 +147,16 @@ describe('the drawing', () => {
   it('has its figures on round values', () => {
     expect(ticks({ low: 0, high: 15, at: (v) => v }, 4).map((t) => t.text)).toEqual(['0', '5', '10', '15']);
     expect(ticks({ low: -0.3, high: 0.3, at: (v) => v }, 3).map((t) => t.text)).toEqual(['−0.2', '0.0', '0.2']);
+  });
+  it('draws the path up to a gap, and goes on behind it', () => {
+    const at = (x: number, error: number) => ({ x, y: 0, error });
+    const runs = runsOf([at(0, 1), at(1, 1), at(2, 9), at(NaN, NaN), at(5, 9), at(6, 9)], (error) => (error > 5 ? 'red' : 'blue'));
+    expect(runs.map((r) => [r.colour, ...r.points.map((p) => p.x)])).toEqual([['blue', 0, 1], ['red', 1, 2], ['red', 5, 6]]);
+  });
+  it('keeps the extremes of a column over a missing value', () => {
+    const columns = { low: new Float64Array([NaN]), high: new Float64Array([NaN]) };
+    for (const value of [NaN, 3, 7, NaN, 5]) widen(columns, 0, value);
+    expect([columns.low[0], columns.high[0]]).toEqual([3, 7]);
   });
   it('shows a mill from above and a lathe from the front', () => {
     expect(planeOf(['X', 'Y', 'Z'])).toEqual({ across: 0, up: 1, names: ['X', 'Y'] });

@@ -23,7 +23,7 @@ describe('the labels of an axis', () => {
   });
 
   it('are as usual where there is room', () => {
-    expect(labels({ name: 'a', min: -250_000, max: 250_000 }, [-250_000, 0])).toEqual(['−250\u2009000', '0']);
+    expect(labels({ name: 'a', min: -250_000, max: 250_000 }, [-250_000, 0])).toEqual(['−250\u202f000', '0']);
     expect(labels({ name: 'a', min: 0, max: 0.5 }, [0, 0.1])).toEqual(['0.0', '0.1']);
   });
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Refusal, Session, SessionAnswer } from './types';
+import type { Refusal, SessionAnswer } from './types';
 
 /** What the server answered instead of the thing asked for. */
 export class ApiError extends Error {
@@ -15,8 +15,9 @@ export class ApiError extends Error {
 }
 
 const BASE = '/api/v1/';
-/** The server answers within 10 s or not at all. */
 const PATIENCE_MS = 15_000;
+/** A long record is thinned before its course can be shown, and replayed cycle by cycle. */
+export const RECORD_PATIENCE_MS = 30 * 60_000;
 
 interface Failure {
   error?: { code?: string; what?: string; to_do?: string; refusals?: Refusal[] };
@@ -40,12 +41,12 @@ export class Api {
   /** Called when the server no longer knows the session. */
   onLoggedOut: () => void = () => {};
 
-  async get<T>(path: string): Promise<T> {
-    return this.ask<T>('GET', path);
+  async get<T>(path: string, patience_ms = PATIENCE_MS): Promise<T> {
+    return this.ask<T>('GET', path, undefined, patience_ms);
   }
 
-  async post<T>(path: string, body: object = {}): Promise<T> {
-    return this.ask<T>('POST', path, body);
+  async post<T>(path: string, body: object = {}, patience_ms = PATIENCE_MS): Promise<T> {
+    return this.ask<T>('POST', path, body, patience_ms);
   }
 
   async session(): Promise<SessionAnswer> {
@@ -63,12 +64,11 @@ export class Api {
   }
 
   private keep(answer: SessionAnswer): SessionAnswer {
-    const session: Session | null = answer.session;
-    this.csrf = session?.csrf ?? '';
+    this.csrf = answer.session?.csrf ?? '';
     return answer;
   }
 
-  private async ask<T>(method: string, path: string, body?: object): Promise<T> {
+  private async ask<T>(method: string, path: string, body?: object, patience_ms = PATIENCE_MS): Promise<T> {
     const headers: Record<string, string> = { Accept: 'application/json' };
     if (method !== 'GET') {
       headers['Content-Type'] = 'application/json';
@@ -78,7 +78,7 @@ export class Api {
       method,
       headers,
       credentials: 'same-origin',
-      signal: AbortSignal.timeout(PATIENCE_MS),
+      signal: AbortSignal.timeout(patience_ms),
       ...(body === undefined ? {} : { body: JSON.stringify(body) }),
     });
     if (!answer.ok) {

@@ -138,7 +138,8 @@ export interface Frame {
   path_known?: boolean;
   steps: StepNow[] | null;
   chatter: ChatterNow | null;
-  thermal: { axes: ThermalAxis[] } | null;
+  /** `switched_off`: nothing is corrected until the run ends, as four measured sizes in a row were implausible. */
+  thermal: { axes: ThermalAxis[]; switched_off?: boolean } | null;
   axes: AxisNow[];
 }
 export interface Spectrum {
@@ -288,6 +289,12 @@ export interface RecordRow {
   /** Not closed, and its run is still at it. */
   writing: boolean;
   fault: boolean;
+}
+/** A file that cannot be read as a record, and why. */
+export interface DamagedRecord {
+  name: string;
+  bytes: number;
+  damaged: string;
 }
 export interface RecordDetail {
   run: Record<string, unknown>;

@@ -31,6 +31,31 @@ interface Point {
   error: number;
 }
 
+interface Run {
+  colour: string;
+  points: Point[];
+}
+
+/** The path in pieces of one colour, each from where the one before ends; a point without a place parts them. */
+export function runsOf(points: readonly Point[], colourOf: (error: number) => string): Run[] {
+  const runs: Run[] = [];
+  let run: Run | undefined;
+  for (const point of points) {
+    if (!Number.isFinite(point.x)) {
+      run = undefined;
+      continue;
+    }
+    const colour = colourOf(point.error);
+    if (run?.colour !== colour) {
+      const last: Point | undefined = run?.points.at(-1);
+      run = { colour, points: last ? [last] : [] };
+      runs.push(run);
+    }
+    run.points.push(point);
+  }
+  return runs;
+}
+
 const NAMES = ['x', 'y', 'z'] as const;
 
 export class PathPicture {
@@ -129,25 +154,11 @@ export class PathPicture {
     pen.lineWidth = width;
     pen.setLineDash(dash);
     pen.lineCap = dash.length > 0 ? 'round' : 'butt';
-    let colour = '';
-    let before: Point | undefined;
-    for (const point of points) {
-      if (!Number.isFinite(point.x)) {
-        before = undefined;
-        continue;
-      }
-      const now = Number.isNaN(point.error) ? 'grey' : (classes[classOf(classes, point.error)]?.colour ?? 'grey');
-      if (!before || now !== colour) {
-        if (before) pen.stroke();
-        colour = pen.strokeStyle = now;
-        pen.beginPath();
-        const from = before ?? point;
-        pen.moveTo(x.at(of(from.x)), y.at(of(from.y)));
-      }
-      pen.lineTo(x.at(of(point.x)), y.at(of(point.y)));
-      before = point;
-    }
-    if (before) {
+    const colourOf = (error: number) => (Number.isNaN(error) ? 'grey' : (classes[classOf(classes, error)]?.colour ?? 'grey'));
+    for (const run of runsOf(points, colourOf)) {
+      pen.strokeStyle = run.colour;
+      pen.beginPath();
+      run.points.forEach((p) => pen.lineTo(x.at(of(p.x)), y.at(of(p.y))));
       pen.stroke();
     }
     pen.setLineDash([]);

@@ -46,7 +46,7 @@ export class SpectrumPicture {
     this.top = Math.max(peak, 0.97 * this.top);
     const x = scale(0, spectrum.hz.at(-1) ?? 1, place.left, place.right);
     const y = scale(0, niceAbove(1.1 * this.top), place.bottom, place.top);
-    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? '0 Hz' : text));
+    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? t('hertz', { value: text }) : text));
     const marks = [
       { hz: spectrum.tooth_hz, name: t('tooth_hz'), colour: theme.faint },
       { hz: spectrum.chatter_hz, name: t('chatter_hz'), colour: overColour(theme) },
@@ -81,7 +81,7 @@ export class SpectrumPicture {
       return;
     }
     const { top } = inner({ pen, width, height });
-    const text = `${name} ${fixed(hz, 0)} Hz`;
+    const text = `${name} ${t('hertz', { value: fixed(hz, 0) })}`;
     const wide = pen.measureText(text).width;
     const left = x.at(hz) + wide + 10 > width ? x.at(hz) - wide - 5 : x.at(hz) + 5;
     pen.fillStyle = theme.paper;

@@ -3,8 +3,9 @@
 import { fixed } from '../../frame/numbers';
 import type { Theme } from '../../frame/theme';
 import { niceAbove } from '../../plot/axes';
-import type { Live, SampleColumn } from '../state/live';
+import { GAP_CYCLES, type Live, type SampleColumn } from '../state/live';
 import type { Unit } from '../state/units';
+import { t } from '../texts/texts';
 import { type Area, Canvas, hatch, overColour } from './canvas';
 import { type Scale, drawFrame, inner, scale } from './frame';
 
@@ -32,7 +33,15 @@ interface Columns {
   high: Float64Array;
 }
 
-const GAP_CYCLES = 1.5;
+/** Column `at` reaches to the value, too; NaN leaves it as it is. */
+export function widen({ low, high }: Columns, at: number, value: number): void {
+  if (Number.isNaN(value)) {
+    return;
+  }
+  // A comparison with NaN is false: the first value of a column is taken.
+  if (!((low[at] as number) <= value)) low[at] = value;
+  if (!((high[at] as number) >= value)) high[at] = value;
+}
 
 export class Strip {
   readonly canvas: Canvas;
@@ -62,7 +71,7 @@ export class Strip {
     if (most !== undefined) {
       this.drawLimit(area, theme, y, most);
     }
-    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? '0 s' : text));
+    drawFrame(area, theme, x, y, (value, text) => (value === 0 ? t('seconds', { value: text }) : text));
     this.drawGaps(area, theme, x, first, now);
     for (const curve of this.options.curves) {
       this.fill(curve.column, first, now, box.left, box.right);
@@ -141,9 +150,7 @@ export class Strip {
     for (let i = first; i < samples.size; ++i) {
       const value = unit.of(samples.at(column, i));
       const at = Math.min(Math.max(Math.floor(((samples.at('t_s', i) - now) / seconds + 1) * (count - 1)), 0), count - 1);
-      // A comparison with NaN is false: the first value of a column is taken.
-      if (!((low[at] as number) <= value)) low[at] = value;
-      if (!((high[at] as number) >= value)) high[at] = value;
+      widen(this.columns, at, value);
     }
   }
 

@@ -42,6 +42,11 @@ export function whyNot({ role }: Session, needed: Role): string {
   return may(role, needed) ? '' : t('role_needed', { needed: roleName(needed), role: roleName(role) });
 }
 
+/** What moves the machine at once is then asked for twice: the server takes it only with `confirm`. */
+export function layerActs({ status }: Live): boolean {
+  return status?.mode === 'act' || status?.mode_wanted === 'act';
+}
+
 let numbered = 0;
 
 /** Disables the controls within if the role is too low, and says why beneath them. */

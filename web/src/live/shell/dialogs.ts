@@ -16,6 +16,11 @@ export interface Dialog {
   close: () => void;
 }
 
+function beside(root: HTMLElement, { target, clientX, clientY }: MouseEvent): boolean {
+  const { left, right, top, bottom } = root.getBoundingClientRect();
+  return target === root && (clientX < left || clientX > right || clientY < top || clientY > bottom);
+}
+
 /** Opens a dialog over the page. Escape, its × and a press beside it close it. */
 export function openDialog(title: string, name: string, ...content: (Node | null)[]): Dialog {
   const id = `dialog-${++numbered}`;
@@ -23,7 +28,10 @@ export function openDialog(title: string, name: string, ...content: (Node | null
   const close = () => root.close();
   root.append(h('div', { class: 'dialog-head' }, h('h2', { id }, title), handBack && button(t('hand_back'), handBack, { class: 'hand-back', title: t('hand_back_what') }), button('×', close, { class: 'close', 'aria-label': t('close') })), ...content.filter((c) => c !== null));
   root.addEventListener('close', () => root.remove());
-  root.addEventListener('click', (event) => event.target === root && close());
+  // Its own padding is the dialog too, and so is the end of a drag that began inside.
+  let pressed = false;
+  root.addEventListener('pointerdown', (event) => (pressed = beside(root, event)));
+  root.addEventListener('click', (event) => pressed && beside(root, event) && close());
   document.body.append(root);
   root.showModal();
   return { root, close };

@@ -26,7 +26,7 @@ export function setText(where: HTMLElement, text: string): void {
   }
 }
 
-/** A panel of a view. `hint` and `aside` are beside its title. */
+/** A panel of a view. */
 export function panel(title: string, name: string, ...children: Child[]): HTMLElement {
   const head = h('h2', { id: `panel-${name}` }, title);
   return h('section', { class: `panel ${name}`, 'aria-labelledby': `panel-${name}` }, head, ...children);

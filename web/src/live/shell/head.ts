@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The head of every view: machine, mode, who has the say, the connection, and the button that hands everything back.
+// The head of every view: machine, mode, who is in control, the connection, and the button that hands everything back.
 import type { Mode, Status } from '../api/types';
 import { t } from '../texts/texts';
 import { type Context, gate, whyNot } from './context';
@@ -13,8 +13,8 @@ const MODES: readonly Mode[] = ['observe', 'advise', 'act'];
 const SAME_PERCENT = 0.05;
 const SAME_UM = 0.01;
 
-/** The layer has the say where it acts and what it writes differs from what the machine would do without it. */
-export function layerHasTheSay(status: Status): boolean {
+/** The layer is in control where it acts and what it writes differs from what the machine would do without it. */
+export function layerInControl(status: Status): boolean {
   const differs = (a: number, b: number) => Math.abs(a - b) > SAME_PERCENT;
   const offset = [...status.offset_um, ...status.path_offset_um].some((v) => Math.abs(v) > SAME_UM);
   return status.mode === 'act' && (differs(status.feed_percent, status.feed_panel_percent ?? 100) || differs(status.spindle_percent, 100) || offset);
@@ -64,7 +64,7 @@ export class Head {
     const coming = status.mode_wanted !== status.mode;
     setText(this.badge, t(`mode_${status.mode}`));
     this.badge.dataset['mode'] = status.mode;
-    const layer = layerHasTheSay(status);
+    const layer = layerInControl(status);
     if (connection.state === 'down') {
       setText(this.say, t('say_unknown'));
       this.say.dataset['who'] = 'unknown';
@@ -79,7 +79,7 @@ export class Head {
 
   private updateLink(connection: Connection): void {
     this.link.dataset['state'] = connection.state;
-    setText(this.link, connection.state === 'down' ? t('reconnecting', { time: connection.since.toLocaleTimeString() }) : t(connection.state));
+    setText(this.link, connection.state === 'down' ? t('reconnecting', { time: connection.since.toLocaleTimeString(document.documentElement.lang, { hourCycle: 'h23' }) }) : t(connection.state));
     const { seconds, frames, cycles } = this.context.live.missing;
     this.missing.hidden = seconds < LEAST_MISSING_S;
     if (!this.missing.hidden) {

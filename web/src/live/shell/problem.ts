@@ -9,7 +9,7 @@ export function problemText(error: unknown): string {
   if (error instanceof ApiError) {
     return [error.message, error.toDo].filter((part) => part !== '').join(' ');
   }
-  return t('no_connection');
+  return t(error instanceof DOMException && error.name === 'TimeoutError' ? 'no_answer' : 'no_connection');
 }
 
 /** In the place of what could not be loaded. */

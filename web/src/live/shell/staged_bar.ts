@@ -3,7 +3,7 @@
 import { ApiError } from '../api/client';
 import type { Checked } from '../api/types';
 import { t } from '../texts/texts';
-import { type Context, gate } from './context';
+import { type Context, gate, layerActs } from './context';
 import { type Dialog, openDialog } from './dialogs';
 import { button, h, setText } from './h';
 import { findingList, problem, problemText, refusalList } from './problem';
@@ -56,7 +56,7 @@ class Review {
     const { context } = this;
     pressed.disabled = true;
     try {
-      await context.api.post('machine/apply', { ...context.staged.request(), sha256_before: checked.sha256_before });
+      await context.api.post('machine/apply', { ...context.staged.request(), sha256_before: checked.sha256_before, ...(layerActs(context.live) ? { confirm: true } : {}) });
       context.machine = undefined;
       context.staged.clear();
       this.dialog.close();

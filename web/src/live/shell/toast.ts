@@ -10,6 +10,10 @@ export class Toast {
   readonly root = h('div', { class: 'toasts' }, this.calm, this.urgent);
 
   say(text: string, urgent = false): void {
+    // What is outside an open dialog is behind it, and no screen reader reads it out.
+    const dialog = document.querySelector('dialog[open]');
+    (dialog ?? document.body).append(this.root);
+    dialog?.addEventListener('close', () => document.body.append(this.root), { once: true });
     const where = urgent ? this.urgent : this.calm;
     const message = h('p', { class: urgent ? 'toast urgent' : 'toast' }, text);
     where.replaceChildren(message);

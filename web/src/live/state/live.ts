@@ -7,7 +7,7 @@ import { Ring } from './ring';
 /** 16 s at 1 kHz: more than the longest plot shows. */
 const SAMPLES = 16_384;
 /** A longer distance between two samples, in cycles, is missing data. */
-const GAP_CYCLES = 1.5;
+export const GAP_CYCLES = 1.5;
 /** The tool's trail: points this far apart, mm. */
 const TRAIL = 4096;
 const TRAIL_STEP_MM = 0.25;

@@ -4,10 +4,10 @@ import { theme as themeNow } from '../../frame/theme';
 import { Strip } from '../paint/strip';
 import type { Context, MakeView } from '../shell/context';
 import { h, panel } from '../shell/h';
-import { problem } from '../shell/problem';
 import { units } from '../state/units';
 import { t } from '../texts/texts';
 import { keyRows } from './keys';
+import { machineFile } from './machine_file';
 import { errorStrip } from './now/error';
 import { type Part, together } from './part';
 import { stepsPart } from './steps';
@@ -18,18 +18,20 @@ const SECONDS = 10;
 function limitsPart(context: Context): Part {
   const body = h('div', {}, h('p', { class: 'none' }, t('loading')));
   let end = () => {};
-  const load = () => {
-    (context.machine ? Promise.resolve(context.machine) : context.loadMachine())
-      .then(({ sections }) => {
-        const rows = keyRows(context, sections.filter((s) => SECTIONS.includes(s.name)).flatMap((s) => s.keys));
-        end();
-        end = rows.close;
-        body.replaceChildren(rows.root);
-      })
-      .catch((error: unknown) => body.replaceChildren(problem(error, load)));
+  const file = machineFile(context, body, ({ sections }) => {
+    const rows = keyRows(context, sections.filter((s) => SECTIONS.includes(s.name)).flatMap((s) => s.keys));
+    end();
+    end = rows.close;
+    body.replaceChildren(rows.root);
+  });
+  return {
+    root: panel(t('limits'), 'limits', h('p', { class: 'hint' }, t('limits_hint')), body),
+    update: file.update,
+    close: () => {
+      file.close();
+      end();
+    },
   };
-  load();
-  return { root: panel(t('limits'), 'limits', h('p', { class: 'hint' }, t('limits_hint')), body), close: () => end() };
 }
 
 function coursesPart(context: Context): Part {

@@ -70,6 +70,9 @@ export function calibrationPlot(axis: EncoderAxis, theme: Theme): Plot {
   };
 }
 
+/** What is between ` and ` is a command. */
+const withCode = (text: string) => text.split('`').map((part, i) => (i % 2 === 1 ? h('code', {}, part) : part));
+
 export function encodersPart(context: Context): Part {
   const place = h('div', { id: 'encoders' }, h('p', { class: 'none' }, t('loading')));
   let plots: Plotted[] = [];
@@ -91,7 +94,7 @@ export function encodersPart(context: Context): Part {
   };
   load();
   return {
-    root: panel(t('encoders'), 'encoders-panel', h('p', { class: 'hint' }, t('encoders_hint')), place),
+    root: panel(t('encoders'), 'encoders-panel', h('p', { class: 'hint' }, ...withCode(t('encoders_hint'))), place),
     update: () => {
       const now = context.live.status?.reload?.number ?? 0;
       if (reload !== undefined && now !== reload) {

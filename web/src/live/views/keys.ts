@@ -53,9 +53,8 @@ function control(context: Context, key: MachineKey, changed: () => void): HTMLIn
   input.addEventListener('input', () => {
     const value = parsed(input.value, key.value);
     input.setAttribute('aria-invalid', String(value === undefined));
-    if (value !== undefined) {
-      stage(value);
-    }
+    // What is no value must not leave an earlier one staged.
+    stage(value ?? key.value);
   });
   return input;
 }
@@ -79,7 +78,7 @@ export function keyRow(context: Context, key: MachineKey): { root: HTMLElement; 
     input.setAttribute('aria-describedby', `${id}-about`);
   };
   dress();
-  const unit = key.unit === '' ? null : h('span', { class: 'unit' }, key.unit);
+  const unit = key.unit === '' ? null : h('span', { class: 'unit' }, key.unit === 'rev/min' ? t('rpm') : key.unit);
   const value = h('div', { class: 'key-value' }, input, unit, before);
   const about = h('div', { class: 'key-about', id: `${id}-about` }, h('span', {}, key.explanation), key.range === '' ? null : h('span', { class: 'allowed' }, `${t('range')}: ${key.range}`), key.live ? null : h('span', { class: 'restart' }, t('restart_needed')));
   root.append(h('label', { for: id }, h('code', {}, key.key.replace(/^.*\./, ''))), value, about);

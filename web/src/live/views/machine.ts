@@ -5,9 +5,10 @@ import { onChoice } from '../../frame/dom';
 import type { Machine } from '../api/types';
 import type { Context, MakeView } from '../shell/context';
 import { h, panel } from '../shell/h';
-import { findingList, problem } from '../shell/problem';
+import { findingList } from '../shell/problem';
 import { t } from '../texts/texts';
 import { keyRows } from './keys';
+import { machineFile } from './machine_file';
 import { localTime } from './times';
 
 interface Body {
@@ -15,37 +16,26 @@ interface Body {
   close: () => void;
 }
 
-function sectionsOf(context: Context, machine: Machine): Body {
-  const made = machine.sections.map((section, i) => {
+function sectionsOf(context: Context, machine: Machine, open: Set<string>): Body {
+  const made = machine.sections.map((section) => {
     const rows = keyRows(context, section.keys);
-    const details = h('details', { class: 'section', open: i === 0, 'data-section': section.name }, h('summary', {}, h('span', { class: 'section-title' }, section.title), h('code', {}, section.name === '' ? '' : `[${section.name}]`)), rows.root);
+    const details = h('details', { class: 'section', open: open.has(section.name), 'data-section': section.name }, h('summary', {}, h('span', { class: 'section-title' }, section.title), h('code', {}, section.name === '' ? '' : `[${section.name}]`)), rows.root);
+    details.addEventListener('toggle', () => (details.open ? open.add(section.name) : open.delete(section.name)));
     return { details, close: rows.close };
   });
   return { root: h('div', { class: 'sections' }, ...made.map((m) => m.details)), close: () => made.forEach((m) => m.close()) };
 }
 
-const TYPING_MS = 300;
-
 function textOf({ staged }: Context, machine: Machine): Body {
   const area = h('textarea', { id: 'whole-text', spellcheck: 'false', autocomplete: 'off', wrap: 'off', rows: 30, 'aria-label': t('whole_text') });
   area.value = staged.text ?? machine.text;
-  let timer = 0;
-  area.addEventListener('input', () => {
-    window.clearTimeout(timer);
-    timer = window.setTimeout(() => staged.setText(area.value, machine.text), TYPING_MS);
-  });
+  area.addEventListener('input', () => staged.setText(area.value, machine.text));
   const end = staged.onChange(() => {
     if (staged.text === undefined && document.activeElement !== area) {
       area.value = machine.text;
     }
   });
-  return {
-    root: h('div', {}, h('p', { class: 'hint' }, t('text_hint')), area),
-    close: () => {
-      window.clearTimeout(timer);
-      end();
-    },
-  };
+  return { root: h('div', {}, h('p', { class: 'hint' }, t('text_hint')), area), close: end };
 }
 
 function about({ file, sha256, reload }: Machine): HTMLElement {
@@ -57,46 +47,36 @@ export const machineView: MakeView = (context) => {
   const root = h('div', { class: 'panels-of machine-view' }, h('p', { class: 'none' }, t('loading')));
   let body: Body | undefined;
   let whole = context.staged.text !== undefined;
-  let shown: Machine | undefined;
-  let closed = false;
+  let open: Set<string> | undefined;
 
-  const build = (machine: Machine) => {
-    shown = machine;
+  const file = machineFile(context, root, (machine) => {
+    open ??= new Set(machine.sections.slice(0, 1).map((s) => s.name));
+    const sections = open;
+    const focused = document.activeElement?.closest<HTMLElement>('[data-section]')?.dataset['section'];
     const place = h('div', {});
     const fill = () => {
       body?.close();
-      body = whole ? textOf(context, machine) : sectionsOf(context, machine);
+      body = whole ? textOf(context, machine) : sectionsOf(context, machine, sections);
       place.replaceChildren(body.root);
     };
     const choice = h('div', {});
     choice.innerHTML = buttons('machine-as', t('machine'), [['sections', t('sections')], ['text', t('whole_text')]], whole ? 'text' : 'sections');
     root.replaceChildren(panel(t('machine'), 'file-panel', choice, place), h('div', { class: 'column narrow' }, panel(t('findings'), 'findings-panel', findingList(machine.findings ?? [])), panel(t('file'), 'about-panel', about(machine))));
     fill();
+    // Found by its id, so it must be in the page.
     onChoice('machine-as', (value) => {
       whole = value === 'text';
       fill();
     });
-  };
-  const load = () => {
-    (context.machine ? Promise.resolve(context.machine) : context.loadMachine())
-      .then((machine) => {
-        // Not in the page yet when it comes from memory: the choice is found by its id.
-        if (!closed) build(machine);
-      })
-      .catch((error: unknown) => root.replaceChildren(problem(error, load)));
-  };
-  load();
+    if (focused !== undefined) {
+      root.querySelector<HTMLElement>(`[data-section="${CSS.escape(focused)}"] summary`)?.focus();
+    }
+  });
   return {
     root,
-    update: (_, figures) => {
-      // Read anew by the layer, or applied by somebody else.
-      if (figures && shown && context.machine === undefined && !root.contains(document.activeElement)) {
-        shown = undefined;
-        load();
-      }
-    },
+    update: file.update,
     close: () => {
-      closed = true;
+      file.close();
       body?.close();
     },
   };

@@ -39,7 +39,7 @@ export function lobesPlot({ map, border, depth_mm = null }: Lobes, rpm: number, 
   ];
   if (Number.isFinite(rpm) && rpm >= x[0] && rpm <= x[1]) {
     layers.push({ ...rules('x', [rpm], theme.text, true) });
-    const label = measure(rpm, 0, 'rpm');
+    const label = measure(rpm, 0, t('rpm'));
     const side = rpm > (x[0] + x[1]) / 2 ? 'left' : 'right';
     layers.push({ kind: 'dots', name: t('working_point'), dots: [{ x: rpm, y: depth_mm === null ? y[0] : of(depth_mm), label, side }], colour: theme.run.without, size: 14, bold: true });
   }
@@ -60,10 +60,14 @@ export function lobesPart({ api, live }: Context): Part {
   let at = NaN;
   let when = 0;
   let again = 0;
+  let closed = false;
   const load = () => {
     api
       .get<LobesAnswer>('chatter/lobes')
       .then((answer) => {
+        if (closed) {
+          return undefined;
+        }
         if (!answer.lobes) {
           body.replaceChildren(h('p', { class: 'none', id: 'lobes-computing' }, t('computing', { percent: fixed(100 * answer.progress, 0) })));
           again = window.setTimeout(load, AGAIN_MS);
@@ -75,7 +79,7 @@ export function lobesPart({ api, live }: Context): Part {
         at = live.samples.newest('rpm');
         return drawn.set((theme) => lobesPlot(made, at, theme));
       })
-      .catch((error: unknown) => body.replaceChildren(h('p', { class: 'none' }, t('lobes_none')), problem(error)));
+      .catch((error: unknown) => body.replaceChildren(h('p', { class: 'none' }, t('lobes_none')), problem(error, load)));
   };
   const root = panel(t('lobes'), 'lobes-panel', h('p', { class: 'hint' }, t('lobes_hint')), body);
   let asked = false;
@@ -97,6 +101,7 @@ export function lobesPart({ api, live }: Context): Part {
     },
     redraw: (theme) => void drawn.redraw(theme),
     close: () => {
+      closed = true;
       window.clearTimeout(again);
       drawn.close();
     },

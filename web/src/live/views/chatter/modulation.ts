@@ -2,12 +2,13 @@
 // The modulator's panel: law, bounds and frequency, as an operator thinks of them; set at once, or put into the file.
 import { plain } from '../../../frame/numbers';
 import type { KeyValue, Law, Modulation } from '../../api/types';
-import { type Context, gate } from '../../shell/context';
+import { type Context, gate, layerActs } from '../../shell/context';
 import { confirmed } from '../../shell/dialogs';
 import { button, field, h, panel, select, setText } from '../../shell/h';
 import { problemText } from '../../shell/problem';
 import { may } from '../../state/role';
 import { t } from '../../texts/texts';
+import { typingIn } from '../machine_file';
 import type { Part } from '../part';
 
 export const LAWS: readonly Law[] = ['constant', 'square', 'pulse', 'triangle', 'sine', 'random', 'stop'];
@@ -55,14 +56,13 @@ const isWords = (m: Modulation) => t('modulation_is', { mean: plain(100 * m.mean
 
 /** At once, for this run. A layer that acts moves the spindle with it, so that takes a second word. */
 async function setNow({ api, live, say }: Context, m: Modulation): Promise<string> {
-  const status = live.frame?.status;
-  const acts = status?.mode === 'act' || status?.mode_wanted === 'act';
+  const acts = layerActs(live);
   const what = () => t('modulation_what', { machine: live.hello?.machine.name ?? '', modulation: `${t(`law_${m.law}`)}. ${isWords(m)}` });
   if (acts && !(await confirmed(t('modulation_ask'), what(), t('modulation_yes')))) {
     return '';
   }
   try {
-    await api.post('modulation', { ...m });
+    await api.post('modulation', acts ? { ...m, confirm: true } : m);
     say(t('modulation_set'));
     return '';
   } catch (error) {
@@ -125,19 +125,18 @@ export function modulationPart(context: Context): Part {
   let shown: string | undefined;
   const show = (modulation: Modulation | null) => {
     shown = JSON.stringify(modulation);
+    const focused = body.contains(document.activeElement) ? document.activeElement?.id : undefined;
     const none = live.hello?.chooses_speed === true ? t('modulation_chosen') : t('modulation_none');
-    body.replaceChildren(
-      modulation
-        ? form(context, modulation)
-        : h('p', { class: 'none', id: 'modulation-none' }, none),
-    );
+    body.replaceChildren(modulation ? form(context, modulation) : h('p', { class: 'none', id: 'modulation-none' }, none));
+    if (focused) {
+      document.getElementById(focused)?.focus();
+    }
   };
   return {
     root: panel(t('modulation'), 'modulation-panel', h('p', { class: 'hint' }, t('modulation_hint')), body),
     update: () => {
       const { hello } = live;
-      // What somebody is typing stays.
-      if (hello && JSON.stringify(hello.modulation) !== shown && !body.contains(document.activeElement)) {
+      if (hello && JSON.stringify(hello.modulation) !== shown && !typingIn(body)) {
         show(hello.modulation);
       }
     },

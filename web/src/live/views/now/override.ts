@@ -43,7 +43,7 @@ export function overridePart({ live }: Context): Part {
       }
       if (figures) {
         setText(speed, feed(samples.newest('speed_mm_min')));
-        setText(rpm, measure(samples.newest('rpm'), 0, 'rpm'));
+        setText(rpm, measure(samples.newest('rpm'), 0, t('rpm')));
       }
     },
   };

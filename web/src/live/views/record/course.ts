@@ -3,6 +3,7 @@
 import type { Theme } from '../../../frame/theme';
 import { axisFor } from '../../../plot/axes';
 import type { Plot } from '../../../plot/drawn';
+import { RECORD_PATIENCE_MS } from '../../api/client';
 import type { RecordData } from '../../api/types';
 import type { Context } from '../../shell/context';
 import { button, field, h, panel, select, setText } from '../../shell/h';
@@ -29,7 +30,7 @@ function about(column: ColumnName): { name: string; unit: Unit } {
     case 'path_speed_mm_min':
       return { name: t('path_speed'), unit: units().feed };
     case 'spindle_rpm':
-      return { name: t('spindle'), unit: as('rpm') };
+      return { name: t('spindle'), unit: as(t('rpm')) };
   }
 }
 
@@ -72,17 +73,19 @@ class Slider {
     windows.id = 'time-window';
     this.slide.addEventListener('input', () => this.go((Number(this.slide.value) / 1000) * this.room()));
     const step = (by: number) => this.go(this.from + by * this.window * 0.5);
-    this.root = h('div', { class: 'slider' }, field(t('window'), windows), button('◀', () => step(-1), { 'aria-label': t('earlier'), id: 'earlier' }), this.slide, button('▶', () => step(1), { 'aria-label': t('later'), id: 'later' }), this.shown);
+    const along = h('div', { class: 'along' }, button('◀', () => step(-1), { 'aria-label': t('earlier'), id: 'earlier' }), this.slide, button('▶', () => step(1), { 'aria-label': t('later'), id: 'later' }));
+    this.root = h('div', { class: 'slider', hidden: true }, field(t('window'), windows), this.shown, along);
   }
 
   range(): Range {
     return { from: this.from, to: Math.min(this.from + this.window, this.end) };
   }
 
-  /** A run of this length. */
+  /** Of a run of this length, the whole. */
   start(end: number): void {
     this.end = end;
-    this.go(0);
+    this.root.hidden = false;
+    this.show();
   }
 
   private room(): number {
@@ -91,53 +94,64 @@ class Slider {
 
   private go(to: number): void {
     this.from = Math.min(Math.max(Number.isFinite(to) ? to : 0, 0), this.room());
+    this.show();
+    this.changed(this.range());
+  }
+
+  private show(): void {
     const whole = this.window >= this.end;
     this.slide.disabled = whole;
     this.root.querySelectorAll<HTMLButtonElement>('button').forEach((b) => (b.disabled = whole));
     this.slide.value = String(this.room() === 0 ? 0 : (1000 * this.from) / this.room());
     const range = this.range();
-    setText(this.shown, `${fixed(range.from, 1)} … ${fixed(range.to, 1)} s`);
+    setText(this.shown, `${fixed(range.from, 1)} … ${t('seconds', { value: fixed(range.to, 1) })}`);
     this.slide.setAttribute('aria-valuetext', this.shown.textContent ?? '');
-    this.changed(range);
   }
 }
 
 const SLIDING_MS = 120;
 
-/** `exports` are shown below it. */
+/** `exports` are shown below it; the slider once the run's length is known. */
 export function recordCourse({ api }: Context, name: string, exports: HTMLElement): Part {
   const base = `records/${encodeURIComponent(name)}`;
   const drawn = new Plotted('course', 'high');
-  const body = h('div', {}, drawn.root);
+  const body = h('div', {}, h('p', { class: 'none' }, t('loading')));
   let column: ColumnName = COLUMNS[0];
   let asked = 0;
   let timer = 0;
-  const load = async (range?: Range) => {
+  let length: number | undefined;
+  const load = async () => {
     const mine = ++asked;
+    const [shown, range] = [column, length === undefined ? undefined : slider.range()];
     const part = range ? `from_s=${range.from}&to_s=${range.to}&` : '';
     try {
-      const data = await api.get<RecordData>(`${base}/data?${part}points=${POINTS}&columns=${column}`);
-      if (mine === asked) {
-        const { from, to } = range ?? { from: 0, to: data.t_s.at(-1) ?? 1 };
-        body.replaceChildren(drawn.root);
-        await drawn.set((theme) => coursePlot(data, column, from, to, theme));
+      const data = await api.get<RecordData>(`${base}/data?${part}points=${POINTS}&columns=${shown}`, RECORD_PATIENCE_MS);
+      if (mine !== asked) {
+        return;
       }
-      return data;
+      if (length === undefined) {
+        length = data.t_s.at(-1) ?? 0;
+        slider.start(length);
+      }
+      const { from, to } = range ?? slider.range();
+      body.replaceChildren(drawn.root);
+      await drawn.set((theme) => coursePlot(data, shown, from, to, theme));
     } catch (error) {
-      body.replaceChildren(problem(error, () => void load(range)));
-      return undefined;
+      if (mine === asked) {
+        body.replaceChildren(problem(error, () => void load()));
+      }
     }
   };
-  const slider = new Slider((range) => {
+  const slider = new Slider(() => {
     window.clearTimeout(timer);
-    timer = window.setTimeout(() => void load(range), SLIDING_MS);
+    timer = window.setTimeout(() => void load(), SLIDING_MS);
   });
   const quantity = select(COLUMNS.map((c) => [c, `${about(c).name}, ${about(c).unit.name}`]), column, (value) => {
     column = value as ColumnName;
-    void load(slider.range());
+    void load();
   });
   quantity.id = 'quantity';
-  void load().then((data) => data && slider.start(data.t_s.at(-1) ?? 0));
+  void load();
   return {
     root: panel(t('course'), 'course-panel', h('div', { class: 'fields' }, field(t('quantity'), quantity)), body, slider.root, exports),
     redraw: (theme) => void drawn.redraw(theme),

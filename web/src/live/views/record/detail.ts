@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One past run: what it was, what happened, its course, export and replay.
 import { fixed } from '../../../frame/numbers';
+import { RECORD_PATIENCE_MS } from '../../api/client';
 import type { RecordDetail } from '../../api/types';
 import { type Context, type LiveView, gate } from '../../shell/context';
 import { button, h, panel, setText } from '../../shell/h';
@@ -11,6 +12,7 @@ import { recordCourse } from './course';
 import { exportLinks } from './export';
 import { recordState } from './state';
 import { type Part, columns } from '../part';
+import { localTime } from '../times';
 
 function valueOf(value: unknown): string {
   if (typeof value === 'number') {
@@ -33,15 +35,21 @@ function flat(of: Readonly<Record<string, unknown>>, before = ''): [string, unkn
 /** A unit at a name's end is set apart: `over_limit_s` → over limit, s. */
 export function nameText(name: string): string {
   const [, stem = name, unit] = /^(.*?)_(s|us|um|mm|percent|rpm|hz)$/.exec(name) ?? [];
-  const names: Record<string, string> = { us: 'µs', um: 'µm', percent: '%', hz: 'Hz' };
+  const names: Record<string, string> = { us: 'µs', um: 'µm', percent: '%', hz: 'Hz', rpm: t('rpm') };
   return `${stem.replaceAll('_', ' ').replaceAll('.', ' · ')}${unit === undefined ? '' : `, ${names[unit] ?? unit}`}`;
 }
 
 const LONGEST = 200;
 
+/** An instant is told by the viewer's clock, as in the list of records. */
+function row([name, value]: [string, unknown]): HTMLElement[] {
+  const [at] = typeof value === 'string' ? (/^(.*)_utc$/.exec(name)?.slice(1) ?? []) : [];
+  return [h('dt', {}, nameText(at ?? name)), h('dd', {}, at === undefined ? valueOf(value) : localTime(String(value)))];
+}
+
 function list(of: Readonly<Record<string, unknown>>): HTMLElement {
   const rows = flat(of).filter(([, value]) => String(value).length <= LONGEST);
-  return h('dl', { class: 'facts-list' }, ...rows.flatMap(([name, value]) => [h('dt', {}, nameText(name)), h('dd', {}, valueOf(value))]));
+  return h('dl', { class: 'facts-list' }, ...rows.flatMap(row));
 }
 
 function eventTable(events: RecordDetail['events']): HTMLElement {
@@ -64,7 +72,7 @@ function replayPart({ api, session }: Context, name: string): Part {
     go.disabled = true;
     setText(said, t('loading'));
     api
-      .post<Replayed>(`records/${encodeURIComponent(name)}/replay`)
+      .post<Replayed>(`records/${encodeURIComponent(name)}/replay`, {}, RECORD_PATIENCE_MS)
       .then(({ cycles, first_difference }) => setText(said, first_difference === null ? t('replay_same', { cycles: fixed(cycles, 0) }) : t('replay_differs', { cycles: fixed(cycles, 0), first: fixed(first_difference, 0) })))
       .catch((error: unknown) => setText(said, problemText(error)))
       .finally(() => (go.disabled = false));
@@ -78,9 +86,12 @@ export function recordDetail(context: Context, name: string): LiveView {
   const totals = h('div', {});
   const exports = exportLinks(name);
   const course = recordCourse(context, name, exports.root);
+  // Only of a record that can be read.
+  const replay = replayPart(context, name);
+  replay.root.hidden = true;
   const load = () => {
     context.api
-      .get<{ record: RecordDetail }>(`records/${encodeURIComponent(name)}`)
+      .get<{ record: RecordDetail }>(`records/${encodeURIComponent(name)}`, RECORD_PATIENCE_MS)
       .then(({ record }) => {
         const { closed, writing } = record.totals;
         const state = closed === false ? { state: recordState({ fault: false, closed, writing: writing === true }) } : {};
@@ -88,6 +99,7 @@ export function recordDetail(context: Context, name: string): LiveView {
         exports.offer(record.formats ?? ['sqlite']);
         events.replaceChildren(eventTable(record.events ?? []));
         totals.replaceChildren(list(record.totals ?? {}));
+        replay.root.hidden = false;
       })
       .catch((error: unknown) => run.replaceChildren(problem(error, load)));
   };
@@ -95,7 +107,7 @@ export function recordDetail(context: Context, name: string): LiveView {
   const view = columns(
     'record-detail',
     [course, { root: panel(t('events'), 'events-panel', events) }],
-    [{ root: panel(t('run'), 'run-panel', run) }, { root: panel(t('totals'), 'totals-panel', totals) }, replayPart(context, name)],
+    [{ root: panel(t('run'), 'run-panel', run) }, { root: panel(t('totals'), 'totals-panel', totals) }, replay],
   );
   view.root.prepend(h('div', { class: 'back-line' }, h('a', { class: 'button', href: addressOf('record') }, `← ${t('all_records')}`), h('h2', { class: 'record-name' }, name)));
   return view;

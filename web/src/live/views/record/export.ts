@@ -14,14 +14,17 @@ export interface ExportLinks {
 export function exportLinks(name: string): ExportLinks {
   const base = `/api/v1/records/${encodeURIComponent(name)}/export`;
   const links = h('div', { class: 'actions' });
+  const root = h('div', { class: 'actions exports', hidden: true }, h('span', {}, t('export')), links, h('span', { class: 'hint' }, t('export_range')));
   return {
-    root: h('div', { class: 'actions exports' }, h('span', {}, t('export')), links, h('span', { class: 'hint' }, t('export_range'))),
-    offer: (formats) =>
+    root,
+    offer: (formats) => {
+      root.hidden = formats.length === 0;
       links.replaceChildren(
         ...formats.flatMap((format) => {
           const shown = NAMES[format];
           return shown === undefined ? [] : [h('a', { class: 'button', download: '', id: `export-${format}`, href: `${base}?format=${format}` }, shown)];
         }),
-      ),
+      );
+    },
   };
 }

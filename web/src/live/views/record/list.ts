@@ -3,7 +3,7 @@
 import { escapeHtml } from '../../../frame/html';
 import { fixed } from '../../../frame/numbers';
 import { type Cell, numeric, onSort, table } from '../../../frame/table';
-import type { RecordRow } from '../../api/types';
+import type { DamagedRecord, RecordRow } from '../../api/types';
 import type { Context, LiveView, MakeView } from '../../shell/context';
 import { field, h, panel } from '../../shell/h';
 import { problem } from '../../shell/problem';
@@ -20,19 +20,27 @@ export function bytesText(bytes: number): string {
   return `${fixed(bytes / size[0], 1)}\u00a0${size[1]}`;
 }
 
-function row(r: RecordRow): Cell[] {
+const size = (bytes: number): Cell => ({ html: escapeHtml(bytesText(bytes)), sort: bytes });
+/** Sorted behind all others. */
+const UNKNOWN: Cell = { html: '–', sort: null };
+
+function row(r: RecordRow | DamagedRecord): Cell[] {
+  if ('damaged' in r) {
+    const why = t('record_damaged', { why: r.damaged });
+    return [{ html: escapeHtml(r.name), sort: r.name }, UNKNOWN, UNKNOWN, UNKNOWN, UNKNOWN, size(r.bytes), { html: escapeHtml(why), look: 'missed' }];
+  }
   return [
     { html: `<a href="${escapeHtml(addressOf('record', r.name))}">${escapeHtml(r.name)}</a>`, sort: r.name },
     { html: escapeHtml(localTime(r.start_utc)), sort: r.start_utc },
     r.machine,
     r.program,
     { html: escapeHtml(span(r.seconds)), sort: r.seconds },
-    { html: escapeHtml(bytesText(r.bytes)), sort: r.bytes },
+    size(r.bytes),
     { html: escapeHtml(recordState(r)), look: r.fault ? 'missed' : '' },
   ];
 }
 
-function listTable(records: readonly RecordRow[]): HTMLElement {
+function listTable(records: readonly (RecordRow | DamagedRecord)[]): HTMLElement {
   const place = h('div', { class: 'record-list' });
   if (records.length === 0) {
     place.append(h('p', { class: 'none' }, `${t('records_none')} ${t('records_none_hint')}`));
@@ -55,9 +63,9 @@ function recordList({ api }: Context): LiveView {
     const mine = ++asked;
     const what = search.value.trim();
     api
-      .get<{ records: RecordRow[] }>(what === '' ? 'records' : `records?search=${encodeURIComponent(what)}`)
+      .get<{ records: (RecordRow | DamagedRecord)[] }>(what === '' ? 'records' : `records?search=${encodeURIComponent(what)}`)
       .then(({ records }) => mine === asked && body.replaceChildren(listTable(records)))
-      .catch((error: unknown) => body.replaceChildren(problem(error, load)));
+      .catch((error: unknown) => mine === asked && body.replaceChildren(problem(error, load)));
   };
   let timer = 0;
   search.addEventListener('input', () => {
@@ -67,7 +75,7 @@ function recordList({ api }: Context): LiveView {
   load();
   const root = h('div', { class: 'panels-of record-view' }, panel(t('record'), 'records-panel', h('div', { class: 'fields' }, field(t('search'), search)), body));
   onSort(root);
-  return { root };
+  return { root, close: () => window.clearTimeout(timer) };
 }
 
 export const recordView: MakeView = (context, name) => (name === '' ? recordList(context) : recordDetail(context, name));
