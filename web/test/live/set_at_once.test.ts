@@ -174,7 +174,7 @@ describe('a measured size', () => {
     mock.layer.heatSwitchedOff = true;
     for (const view of ['thermal', 'now']) {
       await show(visit.page, view);
-      await until(`document.querySelector('#thermal-off').checkVisibility() && document.querySelector('#thermal-off').textContent.startsWith('Thermal correction is off until the run ends')`);
+      await until(`document.querySelector('#thermal-off').checkVisibility() && document.querySelector('#thermal-off').textContent.startsWith('Nothing is corrected against heat')`);
     }
     mock.layer.heatSwitchedOff = false;
     await until(`document.querySelector('#thermal-off').hidden`);

@@ -138,7 +138,7 @@ export interface Frame {
   path_known?: boolean;
   steps: StepNow[] | null;
   chatter: ChatterNow | null;
-  /** `switched_off`: nothing is corrected until the run ends, as four measured sizes in a row were implausible. */
+  /** `switched_off`: the measured sizes do not fit the thermal model; nothing is corrected until they do. */
   thermal: { axes: ThermalAxis[]; switched_off?: boolean } | null;
   axes: AxisNow[];
 }

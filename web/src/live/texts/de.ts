@@ -106,7 +106,7 @@ export const de: Texts = {
   offset: 'Korrekturwert',
   remaining: 'Restfehler',
   thermal_none: 'Diese Maschinendatei hat keinen thermischen Abschnitt.',
-  thermal_off: 'Die thermische Korrektur ist bis zum Ende des Laufs abgeschaltet: Vier Messwerte nacheinander waren unplausibel. Messung und Wärmemodell prüfen, dann neu starten.',
+  thermal_off: 'Gegen Wärme wird nicht korrigiert: Die Messwerte passen nicht zum Wärmemodell. Messung und Modell prüfen; korrigiert wird wieder, sobald Messwerte passen.',
   next_correction: 'Nächste Korrektur',
   next_in: '{axis} auf {value} in {time}',
   next_now: '{axis} auf {value} jetzt',

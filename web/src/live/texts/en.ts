@@ -110,7 +110,7 @@ export const en = {
   offset: 'Offset',
   remaining: 'left over',
   thermal_none: 'This machine file has no thermal section.',
-  thermal_off: 'Thermal correction is off until the run ends: four measured sizes in a row were implausible. Check the measurement and the thermal model, then start the layer again.',
+  thermal_off: 'Nothing is corrected against heat: the measured sizes do not fit the thermal model. Check the measurement and the model; correction resumes when sizes fit again.',
   next_correction: 'Next correction',
   next_in: '{axis} to {value} in {time}',
   next_now: '{axis} to {value} now',

@@ -106,7 +106,7 @@ export const zh: Texts = {
   offset: '偏置',
   remaining: '剩余',
   thermal_none: '机床文件中没有热误差部分。',
-  thermal_off: '热校正已关闭，直到本次运行结束：连续四个实测尺寸不合理。请检查测量和热模型，然后重新启动校正层。',
+  thermal_off: '热校正已暂停：实测尺寸与热模型不符。请检查测量和模型；尺寸再次相符后恢复校正。',
   next_correction: '下一次校正',
   next_in: '{axis} 到 {value}，{time}后',
   next_now: '{axis} 到 {value}，现在',
