@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 #include <utility>
@@ -96,19 +98,28 @@ class Server final : public ControlSocket {
     }
   }
 
+  /// Under another name until it listens, so that a socket which is there answers. In place of that
+  /// of a dead program.
   Result<void> start() {
+    std::string made = path_;
+    made.back() = made.back() == '~' ? '-' : '~';
+    ::unlink(made.c_str());
     error_code fault;
     fault = acceptor_.open(stream_protocol(), fault);
     const mode_t before = ::umask(S_IXUSR | S_IRWXG | S_IRWXO);
     if (!fault) {
-      fault = acceptor_.bind(stream_protocol::endpoint(path_), fault);
+      fault = acceptor_.bind(stream_protocol::endpoint(made), fault);
     }
     ::umask(before);
-    bound_ = !fault;
     if (!fault) {
       fault = acceptor_.listen(asio::socket_base::max_listen_connections, fault);
     }
+    if (!fault) {
+      bound_ = ::rename(made.c_str(), path_.c_str()) == 0;
+      fault = bound_ ? fault : error_code(errno, boost::system::system_category());
+    }
     if (fault) {
+      ::unlink(made.c_str());
       return refuse(path_, fmt::format("the socket cannot be made: {}", fault.message()),
                     "give --socket with a folder that you may write to");
     }
@@ -187,7 +198,6 @@ Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& pa
   if (auto free = check(path); !free) {
     return std::unexpected(std::move(free.error()));
   }
-  ::unlink(path.c_str());  // of a dead program
   auto server = std::make_unique<Server>(path, std::move(answer));
   if (auto started = server->start(); !started) {
     return std::unexpected(std::move(started.error()));

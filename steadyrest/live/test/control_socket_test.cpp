@@ -50,6 +50,22 @@ extern "C" int accept(int socket, sockaddr* address, socklen_t* length) {
   return static_cast<int>(::syscall(SYS_accept4, socket, address, length, 0));
 }
 
+namespace {
+
+/// Whether this file was there when a server began to listen.
+struct {
+  std::string file;
+  bool was_there = false;
+} watched;
+
+}  // namespace
+
+/// The server's own call comes here.
+extern "C" int listen(int socket, int backlog) noexcept {
+  watched.was_there = ::access(watched.file.c_str(), F_OK) == 0;
+  return static_cast<int>(::syscall(SYS_listen, socket, backlog));
+}
+
 namespace steadyrest::live {
 namespace {
 
@@ -64,6 +80,14 @@ class OnSocket : public ::testing::Test {
   kernel::file::testing::OwnFolder folder;
   std::string path = folder.at("s");
 };
+
+TEST_F(OnSocket, IsThereOnlyOnceItListens) {
+  watched.file = path;
+  const auto socket = ControlSocket::open(path, echo);
+  ASSERT_TRUE(socket.has_value()) << socket.error().what;
+  EXPECT_FALSE(watched.was_there);
+  EXPECT_TRUE(ask(path, "hello", 10.0));
+}
 
 TEST_F(OnSocket, AnswersLinesOfManyClients) {
   const auto socket = ControlSocket::open(path, echo);
