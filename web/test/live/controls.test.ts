@@ -297,6 +297,11 @@ describe('settings', () => {
     expect(await text('nav a[data-view=now]')).toBe('Jetzt');
     expect(await visit.page.getAttribute('html', 'lang')).toBe('de');
     await visit.page.click('#settings');
+    await visit.page.selectOption('#set-language', 'ru');
+    await until(`document.querySelector('#error-limit').textContent === '10.0\u00a0мкм'`);
+    await visit.page.click('#settings');
+    await visit.page.selectOption('#set-language', 'de');
+    await visit.page.click('#settings');
     await visit.page.selectOption('#set-units', 'inch');
     await until(`document.querySelector('#error-limit').textContent === '0.394\u00a0mil'`);
     await visit.page.click('#settings');

@@ -2,6 +2,7 @@
 // Lengths and feeds in the viewer's units: mm and µm, or inch and mil (0.001 in).
 import type { Maybe } from '../../frame/data';
 import { fixed, measure } from '../../frame/numbers';
+import { type TextKey, t } from '../texts/texts';
 import type { Units } from './settings';
 
 const MM_PER_INCH = 25.4;
@@ -17,7 +18,15 @@ export interface Unit {
   back: (value: number) => number;
 }
 
-const same = (name: string, decimals: number): Unit => ({ name, decimals, of: (v) => v, back: (v) => v });
+/** Its name is in the viewer's language. */
+const same = (key: TextKey, decimals: number): Unit => ({
+  get name() {
+    return t(key);
+  },
+  decimals,
+  of: (v) => v,
+  back: (v) => v,
+});
 const per = (name: string, decimals: number, by: number): Unit => ({ name, decimals, of: (v) => v / by, back: (v) => v * by });
 
 interface UnitSet {
@@ -28,7 +37,7 @@ interface UnitSet {
 }
 
 const SETS: Record<Units, UnitSet> = {
-  mm: { length: same('mm', 3), small: same('µm', 1), feed: same('mm/min', 0), acceleration: same('mm/s²', 0) },
+  mm: { length: same('mm', 3), small: same('um', 1), feed: same('mm_min', 0), acceleration: same('mm_s2', 0) },
   inch: { length: per('in', 4, MM_PER_INCH), small: per('mil', 3, UM_PER_MIL), feed: per('ipm', 1, MM_PER_INCH), acceleration: per('in/s²', 1, MM_PER_INCH) },
 };
 

@@ -36,10 +36,10 @@ function columns(): Column[] {
   return [
     of(length, t('position'), (a) => a.position_mm, '°'),
     of(small, t('following_error'), (a) => a.following_um, 'm°'),
-    of(feed, t('velocity'), (a) => a.velocity_mm_min, '°/min'),
-    bound(feed, (a) => a.velocity_bound_mm_min, '°/min'),
-    of(acceleration, t('acceleration'), (a) => a.acceleration_mm_s2, '°/s²'),
-    bound(acceleration, (a) => a.acceleration_bound_mm_s2, '°/s²'),
+    of(feed, t('velocity'), (a) => a.velocity_mm_min, t('deg_min')),
+    bound(feed, (a) => a.velocity_bound_mm_min, t('deg_min')),
+    of(acceleration, t('acceleration'), (a) => a.acceleration_mm_s2, t('deg_s2')),
+    bound(acceleration, (a) => a.acceleration_bound_mm_s2, t('deg_s2')),
   ];
 }
 

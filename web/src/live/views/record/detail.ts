@@ -35,7 +35,7 @@ function flat(of: Readonly<Record<string, unknown>>, before = ''): [string, unkn
 /** A unit at a name's end is set apart: `over_limit_s` → over limit, s. */
 export function nameText(name: string): string {
   const [, stem = name, unit] = /^(.*?)_(s|us|um|mm|percent|rpm|hz)$/.exec(name) ?? [];
-  const names: Record<string, string> = { us: 'µs', um: 'µm', percent: '%', hz: 'Hz', rpm: t('rpm') };
+  const names: Record<string, string> = { us: 'µs', um: t('um'), mm: t('mm'), percent: '%', hz: 'Hz', rpm: t('rpm') };
   return `${stem.replaceAll('_', ' ').replaceAll('.', ' · ')}${unit === undefined ? '' : `, ${names[unit] ?? unit}`}`;
 }
 
