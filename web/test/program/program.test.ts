@@ -6,25 +6,9 @@ import { join } from 'node:path';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { until as untilIn } from '../live/look';
-import { PROGRAM, Running } from './running';
+import { PROGRAM, ROOMS, Running } from './running';
 
 const running = new Running();
-
-/** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
-const ROOMS = `
-[chatter]
-enabled = true
-m_code_on = 0
-m_code_off = 0
-[thermal]
-enabled = true
-[[thermal.axis]]
-name = "Z"
-[[thermal.axis.mode]]
-tau_min = 15
-speeds_rpm = [0, 6000]
-levels_um = [0, 0]
-`;
 
 let opened: Open;
 

@@ -9,6 +9,22 @@ import { fileURLToPath } from 'node:url';
 export const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 
+/** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
+export const ROOMS = `
+[chatter]
+enabled = true
+m_code_on = 0
+m_code_off = 0
+[thermal]
+enabled = true
+[[thermal.axis]]
+name = "Z"
+[[thermal.axis.mode]]
+tau_min = 15
+speeds_rpm = [0, 6000]
+levels_um = [0, 0]
+`;
+
 /** What the program prints. */
 export const steadyrest = (of: readonly string[], input = ''): string => execFileSync(PROGRAM, of, { encoding: 'utf8', input });
 

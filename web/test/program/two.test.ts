@@ -4,25 +4,10 @@ import { join } from 'node:path';
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
-import { Running, steadyrest } from './running';
+import { ROOMS, Running, steadyrest } from './running';
 
 const SOON_MS = 1500;
 const PASSWORD = 'a long password';
-
-const ROOMS = `
-[chatter]
-enabled = true
-m_code_on = 0
-m_code_off = 0
-[thermal]
-enabled = true
-[[thermal.axis]]
-name = "Z"
-[[thermal.axis.mode]]
-tau_min = 15
-speeds_rpm = [0, 6000]
-levels_um = [0, 0]
-`;
 
 const running = new Running();
 let anna: Open;

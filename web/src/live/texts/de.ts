@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { UNITS } from './units';
 import type { Texts } from './texts';
 
 export const de: Texts = {
@@ -21,12 +22,7 @@ export const de: Texts = {
   units_mm: 'Metrisch (mm, µm)',
   units_inch: 'Zoll (in, mil)',
   rpm: 'U/min',
-  mm: 'mm',
-  um: 'µm',
-  mm_min: 'mm/min',
-  mm_s2: 'mm/s²',
-  deg_min: '°/min',
-  deg_s2: '°/s²',
+  ...UNITS,
   log_out: 'Abmelden',
   logged_in: '{name}, {role}',
   close: 'Schließen',

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // English, and the list of what every language must say. Names in braces are filled in.
 
+import { UNITS } from './units';
+
 export const en = {
   // Frame
   views: 'Views',
@@ -22,12 +24,7 @@ export const en = {
   units_mm: 'Metric (mm, µm)',
   units_inch: 'Inch (in, mil)',
   rpm: 'rpm',
-  mm: 'mm',
-  um: 'µm',
-  mm_min: 'mm/min',
-  mm_s2: 'mm/s²',
-  deg_min: '°/min',
-  deg_s2: '°/s²',
+  ...UNITS,
   log_out: 'Log out',
   logged_in: '{name}, {role}',
   close: 'Close',

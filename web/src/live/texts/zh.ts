@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import { UNITS } from './units';
 import type { Texts } from './texts';
 
 export const zh: Texts = {
@@ -21,12 +22,7 @@ export const zh: Texts = {
   units_mm: '公制（mm、µm）',
   units_inch: '英制（in、mil）',
   rpm: 'r/min',
-  mm: 'mm',
-  um: 'µm',
-  mm_min: 'mm/min',
-  mm_s2: 'mm/s²',
-  deg_min: '°/min',
-  deg_s2: '°/s²',
+  ...UNITS,
   log_out: '退出登录',
   logged_in: '{name}，{role}',
   close: '关闭',
