@@ -11,6 +11,7 @@
 #include <steadyrest/kernel/machine/contour.hpp>
 #include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/machine/envelope.hpp>
+#include <steadyrest/kernel/machine/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>
 #include <steadyrest/kernel/machine/spindle.hpp>
@@ -43,6 +44,7 @@ struct Machine {
   Thermal thermal;
   Envelope envelope;
   Simulation simulation;
+  OpcUa opcua;  ///< of the port `opcua`
 };
 
 }  // namespace steadyrest::kernel::machine
