@@ -68,7 +68,7 @@ class MotionStage {
 
   static kernel::outcome::Result<MotionStage> make(const Config& config);
   static kernel::outcome::Result<MotionStage> make(const kernel::machine::Machine& machine) {
-    return make({.axes = machine.axes, .cycle_s = machine.control.interpolator_period_s});
+    return make({.axes = machine.axes, .cycle_s = kernel::machine::layer_cycle_s(machine)});
   }
 
   /// Fills in the estimates; `fit` false: the frame is unusable and gets no estimates.

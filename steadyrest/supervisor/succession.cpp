@@ -41,6 +41,9 @@ std::string misfit(const Machine& running, const Machine& wanted) {
   if (wanted.control.servo_period_s != running.control.servo_period_s) {
     return "[control] servo_period_ms differs";
   }
+  if (wanted.lines != running.lines || wanted.recorder != running.recorder) {
+    return "[lines] or [recorder] differs";
+  }
   if (wanted.envelope.stale_after_s != running.envelope.stale_after_s) {
     return "[envelope] stale_after_ms differs";
   }

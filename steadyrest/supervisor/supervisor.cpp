@@ -130,7 +130,7 @@ Result<Supervisor> Supervisor::make(const machine::Machine& machine,
   if (!path_offset) {
     return std::unexpected(std::move(path_offset.error()));
   }
-  auto clock = FrameClock::make({.usual_s = machine.control.interpolator_period_s});
+  auto clock = FrameClock::make({.usual_s = machine::layer_cycle_s(machine)});
   if (!clock) {
     return std::unexpected(std::move(clock.error()));
   }
@@ -164,7 +164,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
                        const OffsetEnvelope& path_offset)
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
-      cycle_s_(machine.control.interpolator_period_s),
+      cycle_s_(machine::layer_cycle_s(machine)),
       watchdog_s_(machine.envelope.stale_after_s),
       motion_(std::move(motion)),
       offset_(offset),

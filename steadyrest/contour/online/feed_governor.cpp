@@ -99,7 +99,7 @@ void FeedGovernor::refresh_model(double dt) noexcept {
   if (!renew) {
     return;
   }
-  cycle_s_ = dt > 0.0 ? dt : config_.control.interpolator_period_s;
+  cycle_s_ = dt > 0.0 ? dt : config_.cycle_s;
   for (std::size_t i = 0; i < 3; ++i) {
     model_[i] = servo_.axis(i);
     cycle_step_[i] = AxisStep::of(model_[i], cycle_s_);

@@ -99,7 +99,8 @@ class FeedGovernor {
     kernel::machine::OverrideTable feed_override;
     kernel::machine::Contour contour;
     kernel::machine::Envelope envelope;  ///< of the feed, and the age limit of a frame
-    kernel::machine::Control control;    ///< its period and its limit along the path
+    kernel::machine::Control control;    ///< its limit along the path
+    double cycle_s = 0.0;                ///< between two updates; 0 = the interpolator's period
     double decision_s = 0.0;             ///< 0 = the override's scan period, 4…10 ms
     double objective_s = 0.10;           ///< period of the full search of the other strategies
     double pause_s = 0.3;                ///< after a fall; rises then need more room

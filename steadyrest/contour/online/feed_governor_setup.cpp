@@ -164,6 +164,7 @@ FeedGovernor::Config FeedGovernor::Config::of(const Machine& machine) {
   config.contour = machine.contour;
   config.envelope = machine.envelope;
   config.control = machine.control;
+  config.cycle_s = kernel::machine::layer_cycle_s(machine);
   return config;
 }
 
@@ -171,17 +172,19 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Machine& machine)
   return make(Config::of(machine));
 }
 
-kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& config) {
-  if (auto fit = check(config); !fit) {
+kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& given) {
+  if (auto fit = check(given); !fit) {
     return std::unexpected(fit.error());
   }
+  Config config = given;
+  config.cycle_s = given.cycle_s > 0.0 ? given.cycle_s : given.control.interpolator_period_s;
   ContourError::Config contour_config;
   contour_config.servo_gain_1_s = softest(config.axes);
   auto contour = ContourError::make(contour_config);
   if (!contour) {
     return std::unexpected(contour.error());
   }
-  auto servo = ServoModel::make(config.axes, config.control.interpolator_period_s);
+  auto servo = ServoModel::make(config.axes, config.cycle_s);
   if (!servo) {
     return std::unexpected(servo.error());
   }
@@ -241,8 +244,9 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   // Deciding more often than the control scans the word changes nothing.
   decision_s_ = config_.decision_s > 0.0 ? config_.decision_s
                                          : std::clamp(m.feed_override.scan_period_s, 0.004, 0.010);
-  search_steps_ = static_cast<std::size_t>(
-      std::max(1.0, config_.work_share * m.control.interpolator_period_s / kForecastStepCostS));
+  decision_s_ = std::max(decision_s_, m.cycle_s);
+  search_steps_ =
+      static_cast<std::size_t>(std::max(1.0, config_.work_share * m.cycle_s / kForecastStepCostS));
   Forecast::Timing timing;
   // The step itself is exact; the change of curvature within one step must stay small.
   timing.step_s = config_.forecast_step_s > 0.0 ? config_.forecast_step_s
@@ -251,7 +255,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   // jerk filter.
   timing.dead_s =
       m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m.axes);
-  timing.scan_s = m.feed_override.scan_period_s + m.control.interpolator_period_s;
+  timing.scan_s = m.feed_override.scan_period_s + m.cycle_s;
   const double walk_1_s = walking_1_s(m.feed_override, candidate_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
@@ -270,9 +274,8 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
 // half of the forecast reach, so that the other half shows what the next one does.
 kernel::outcome::Result<void> FeedGovernor::check_reach() const {
   const Forecast::Timing& timing = forecast_.timing();
-  const double most_s =
-      std::min(static_cast<double>(kHistory - 1) * config_.control.interpolator_period_s,
-               0.5 * static_cast<double>(Forecast::kMaxSteps) * timing.step_s);
+  const double most_s = std::min(static_cast<double>(kHistory - 1) * config_.cycle_s,
+                                 0.5 * static_cast<double>(Forecast::kMaxSteps) * timing.step_s);
   if (timing.dead_s + timing.scan_s <= most_s) {
     return {};
   }

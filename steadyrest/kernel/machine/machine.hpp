@@ -11,6 +11,7 @@
 #include <steadyrest/kernel/machine/contour.hpp>
 #include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/machine/envelope.hpp>
+#include <steadyrest/kernel/machine/lines.hpp>
 #include <steadyrest/kernel/machine/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>
@@ -24,7 +25,7 @@
 /// working default; the schema (`passport/keys/schema.cpp`) gives each key its unit and its range.
 namespace steadyrest::kernel::machine {
 
-enum class PortKind : std::uint8_t { sim, linuxcnc, modbus, opcua, replay };
+enum class PortKind : std::uint8_t { sim, linuxcnc, lines, opcua, replay };
 enum class Mode : std::uint8_t { observe, advise, act };
 
 struct Machine {
@@ -44,7 +45,16 @@ struct Machine {
   Thermal thermal;
   Envelope envelope;
   Simulation simulation;
+  Lines lines;        ///< of the port `lines`
+  Recorder recorder;  ///< of the port `lines`
   OpcUa opcua;  ///< of the port `opcua`
 };
+
+/// Time between two cycles of the layer: the interpolator's period, or how often the port is read.
+[[nodiscard]] inline double layer_cycle_s(const Machine& machine) noexcept {
+  return machine.port == PortKind::lines   ? machine.lines.cycle_s
+         : machine.port == PortKind::opcua ? machine.opcua.cycle_s
+                                           : machine.control.interpolator_period_s;
+}
 
 }  // namespace steadyrest::kernel::machine

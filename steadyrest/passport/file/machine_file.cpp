@@ -11,6 +11,7 @@
 #include <steadyrest/passport/file/contradictions.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/passport/file/override_table.hpp>
+#include <steadyrest/passport/file/port_sections.hpp>
 #include <steadyrest/passport/file/thermal_section.hpp>
 #include <steadyrest/passport/keys/section_reader.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
@@ -53,7 +54,7 @@ class FileReader {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
     top.read(root, machine_,
              {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
-              "thermal", "envelope", "simulation"});
+              "thermal", "envelope", "simulation", "lines", "recorder"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
     axes(root);
     overrides(root);
@@ -64,6 +65,7 @@ class FileReader {
     read_thermal(root, machine_.thermal, faults_);
     section<Envelope>(root, "envelope", envelope_keys(), machine_.envelope, contradictions);
     simulation(root);
+    read_ports(root, machine_, faults_);
     return machine_;
   }
 

@@ -168,6 +168,16 @@ std::string reference_page() {
   out += section("`[envelope]`", "\nThe last step before any write. It is always on.\n",
                  envelope_keys());
   out += section("`[simulation]`", "\nUsed only by the simulated machine.\n", simulation_keys());
+  out += section("`[lines]`",
+                 "\nDigital lines between panel and control, for `port = \"lines\"`; "
+                 "[how they are wired](wiring.md).\n",
+                 lines_keys());
+  out +=
+      section("`[lines.feed]`, `[lines.spindle]`", "\nThe wires of one override.\n", wires_keys());
+  out += section("`[recorder]`",
+                 "\nEncoders read by a recorder, for `port = \"lines\"`; "
+                 "[its protocol](../steadyrest/adapters/lines/README.md).\n",
+                 recorder_keys());
   return out;
 }
 

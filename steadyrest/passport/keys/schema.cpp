@@ -23,9 +23,9 @@ using kernel::machine::Spindle;
 
 using std::string_view;
 
-constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "modbus", "opcua", "replay"};
+constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "lines", "opcua", "replay"};
 /// Those with an adapter; a file with another one is refused.
-constexpr auto kBuiltPorts = std::span(kPorts).first<2>();
+constexpr auto kBuiltPorts = std::span(kPorts).first<3>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
 
@@ -41,8 +41,8 @@ std::span<const Key<Machine>> top_keys() noexcept {
   static const std::array kKeys = {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
       Key<Machine>{"port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
-                   "The port to the machine: `sim`, the simulated machine, or `linuxcnc`, a "
-                   "running LinuxCNC."},
+                   "The port to the machine: `sim`, the simulated machine; `linuxcnc`, a running "
+                   "LinuxCNC; `lines`, the override lines between panel and control."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };

@@ -78,6 +78,9 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::span<const Key<kernel::machine::ThermalAmbient>> thermal_ambient_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Envelope>> envelope_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Simulation>> simulation_keys() noexcept;
+[[nodiscard]] std::span<const Key<kernel::machine::Lines>> lines_keys() noexcept;
+[[nodiscard]] std::span<const Key<kernel::machine::OverrideWires>> wires_keys() noexcept;
+[[nodiscard]] std::span<const Key<kernel::machine::Recorder>> recorder_keys() noexcept;
 
 /// The dialect that a method belongs to; `own` if the method is by_dialect.
 [[nodiscard]] kernel::machine::Dialect dialect_of(kernel::machine::CompensationMethod method,

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <steadyrest/passport/file/port_sections.hpp>
+
+// A line that is named twice, or a word that is too narrow for its table, would make the layer
+// write another word than it means: both are refused here, before any port is opened.
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::kNoLine;
+using kernel::machine::Lines;
+using kernel::machine::LinesKind;
+using kernel::machine::Machine;
+using kernel::machine::OverrideTable;
+using kernel::machine::OverrideWires;
+using kernel::machine::PortKind;
+using kernel::machine::Recorder;
+using kernel::machine::Wiring;
+
+/// The section `name`; null when absent, a fault when it is something else.
+const toml::table* section_of(const toml::table& parent, std::string_view name,
+                              std::string_view head, Faults& faults) {
+  const toml::node* node = parent.get(name);
+  if (node == nullptr) {
+    return nullptr;
+  }
+  if (node->as_table() == nullptr) {
+    faults.add(line_of(node->source()), fmt::format("{} = {} is not a section", name, shown(*node)),
+               fmt::format("write {} on a separate line, with its keys below", head));
+  }
+  return node->as_table();
+}
+
+void check_kind(const Lines& lines, const Given& given, Faults& faults) {
+  const bool network = lines.kind == LinesKind::modbus_tcp;
+  const bool modbus = network || lines.kind == LinesKind::modbus_rtu;
+  if (network && lines.address.empty()) {
+    faults.add(given.at({"kind"}), "[lines] has no address for kind = \"modbus_tcp\"",
+               "add address = \"HOST\" or \"HOST:PORT\"");
+  }
+  if (!network && lines.device.empty()) {
+    faults.add(given.at({"kind"}), "[lines] has no device for this kind",
+               "add device = \"/dev/…\": the serial device, the GPIO chip or the comedi device");
+  }
+  if (!lines.watchdog_registers.empty() && (!modbus || lines.watchdog_registers.size() % 2 != 0)) {
+    faults.add(
+        given.at({"watchdog_registers"}),
+        modbus ? fmt::format("watchdog_registers has {} entries", lines.watchdog_registers.size())
+               : std::string("watchdog_registers are for Modbus modules"),
+        modbus ? "write an address and its value in turn" : "leave them out");
+  }
+  if (lines.wiring == Wiring::through && lines.watchdog_s <= 0.0) {
+    faults.add(given.at({"wiring"}),
+               "wiring = \"through\" without an output watchdog: a dead layer would leave its last "
+               "word in force for ever",
+               "set watchdog_ms of a module that has one, or use wiring = \"relay\"");
+  }
+}
+
+void check_wires(const OverrideWires& wires, const Given& given, Wiring wiring,
+                 const OverrideTable& table, Faults& faults) {
+  if (wires.out.size() != wires.panel.size()) {
+    faults.add(given.at({"out"}),
+               fmt::format("{}: {} lines in out, {} in panel", given.section, wires.out.size(),
+                           wires.panel.size()),
+               "wire every bit of the word both ways");
+  }
+  if (wires.mask == kNoLine && wiring != Wiring::through) {
+    faults.add(given.line, fmt::format("{} has no mask", given.section),
+               "add mask = the output that puts the layer's word in force");
+  }
+  std::uint32_t widest = 0;
+  for (const std::uint32_t code : table.code) {
+    widest = std::max(widest, code);
+  }
+  const auto needed = static_cast<std::size_t>(std::bit_width(widest));
+  if (table.ratio.size() < 2) {
+    faults.add(given.line, fmt::format("{} is wired, but its override has no table", given.section),
+               "add the [override] section of that switch");
+  } else if (wires.panel.size() < needed) {
+    faults.add(given.at({"panel"}),
+               fmt::format("{} has {} lines; the table's code {:#b} needs {}", given.section,
+                           wires.panel.size(), widest, needed),
+               "wire all bits of the word, or correct the table");
+  }
+}
+
+/// One line for two purposes.
+void check_twice(std::vector<std::uint32_t> lines, std::string_view what, const Given& given,
+                 Faults& faults) {
+  std::erase(lines, kNoLine);
+  std::ranges::sort(lines);
+  const auto twice = std::ranges::adjacent_find(lines);
+  if (twice != lines.end()) {
+    faults.add(given.line, fmt::format("{} {} has two purposes", what, *twice),
+               "give each line one purpose");
+  }
+}
+
+void check_all_lines(const Lines& lines, const Given& given, Faults& faults) {
+  std::vector<std::uint32_t> inputs = {lines.running, lines.cutting, lines.locked, lines.modulate};
+  std::vector<std::uint32_t> outputs = {lines.heartbeat, lines.feed.mask, lines.spindle.mask};
+  for (const OverrideWires* wires : {&lines.feed, &lines.spindle}) {
+    inputs.insert(inputs.end(), wires->panel.begin(), wires->panel.end());
+    outputs.insert(outputs.end(), wires->out.begin(), wires->out.end());
+  }
+  check_twice(inputs, "input", given, faults);
+  // One relay may switch both words.
+  if (lines.feed.mask != kNoLine && lines.feed.mask == lines.spindle.mask) {
+    outputs[1] = kNoLine;
+  }
+  check_twice(outputs, "output", given, faults);
+  if (lines.wiring == Wiring::plc && lines.heartbeat == kNoLine) {
+    faults.add(given.at({"wiring"}), "wiring = \"plc\" without a heartbeat",
+               "add heartbeat = the output that the PLC watches");
+  }
+  if (lines.feed.out.empty() && lines.spindle.out.empty()) {
+    faults.add(given.line, "[lines] wires no override", "add [lines.feed] or [lines.spindle]");
+  }
+}
+
+void wires_at(const toml::table& parent, std::string_view name, const OverrideTable& table,
+              Wiring wiring, OverrideWires& out, Faults& faults) {
+  const std::string head = fmt::format("[lines.{}]", name);
+  const toml::table* section = section_of(parent, name, head, faults);
+  if (section == nullptr) {
+    return;
+  }
+  const std::size_t before = faults.list.size();
+  SectionReader<OverrideWires> reader(faults, wires_keys(), head);
+  const Given given = reader.read(*section, out);
+  if (faults.list.size() == before) {
+    check_wires(out, given, wiring, table, faults);
+  }
+}
+
+void read_lines(const toml::table& section, Machine& out, Faults& faults) {
+  const std::size_t before = faults.list.size();
+  SectionReader<Lines> reader(faults, lines_keys(), "[lines]");
+  const Given given = reader.read(section, out.lines, {"feed", "spindle"});
+  if (!given.has("output_copy")) {
+    out.lines.output_copy = out.lines.first_output;
+  }
+  if (faults.list.size() == before) {
+    check_kind(out.lines, given, faults);
+  }
+  wires_at(section, "feed", out.feed_override, out.lines.wiring, out.lines.feed, faults);
+  wires_at(section, "spindle", out.spindle_override, out.lines.wiring, out.lines.spindle, faults);
+  if (faults.list.size() == before) {
+    check_all_lines(out.lines, given, faults);
+  }
+}
+
+void read_recorder(const toml::table& section, Machine& out, Faults& faults) {
+  const std::size_t before = faults.list.size();
+  SectionReader<Recorder> reader(faults, recorder_keys(), "[recorder]");
+  const Given given = reader.read(section, out.recorder);
+  if (faults.list.size() == before && out.recorder.start_mm.size() > out.axes.size()) {
+    faults.add(given.at({"start_mm"}),
+               fmt::format("start_mm has {} entries; the machine has {} axes",
+                           out.recorder.start_mm.size(), out.axes.size()),
+               "give one for each axis, X first");
+  }
+}
+
+}  // namespace
+
+void read_ports(const toml::table& root, Machine& out, Faults& faults) {
+  const std::size_t before = faults.list.size();
+  if (const toml::table* lines = section_of(root, "lines", "[lines]", faults)) {
+    read_lines(*lines, out, faults);
+  } else if (out.port == PortKind::lines && faults.list.size() == before) {
+    faults.add(0, "port = \"lines\", but there is no [lines]",
+               "add [lines] with its kind and the wires of an override");
+  }
+  if (const toml::table* recorder = section_of(root, "recorder", "[recorder]", faults)) {
+    read_recorder(*recorder, out, faults);
+  }
+}
+
+}  // namespace steadyrest::passport

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include <steadyrest/passport/keys/choice.hpp>
+#include <steadyrest/passport/keys/schema.hpp>
+
+// Keys of the ports that reach a control by lines or by a network.
+namespace steadyrest::passport {
+namespace {
+
+using kernel::machine::Lines;
+using kernel::machine::OverrideWires;
+using kernel::machine::Recorder;
+using std::string_view;
+
+constexpr std::array<string_view, 4> kKinds = {"modbus_tcp", "modbus_rtu", "gpio", "comedi"};
+constexpr std::array<string_view, 3> kParities = {"none", "even", "odd"};
+constexpr std::array<string_view, 3> kWirings = {"relay", "plc", "through"};
+constexpr double kMostLines = 1023;
+constexpr double kLastAddress = 65535;
+
+}  // namespace
+
+std::span<const Key<Lines>> lines_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Lines>{
+          "kind", choice<Lines, &Lines::kind>(kKinds), 0, 0,
+          "How the lines are reached: a Modbus module by network or serial line, Linux GPIO, "
+          "or a comedi card.",
+          Need::mandatory},
+      Key<Lines>{"address", &Lines::address, 1, 255,
+                 "modbus_tcp: `HOST` or `HOST:PORT`; the port is 502 by default."},
+      Key<Lines>{"device", &Lines::device, 1, 255,
+                 "modbus_rtu: the serial device; gpio: the chip, `/dev/gpiochip0`; comedi: "
+                 "`/dev/comedi0`."},
+      Key<Lines>{"unit", &Lines::unit, 0, 247, "Modbus: the module's unit number."},
+      Key<Lines>{"baud", &Lines::baud, 1200, 4000000, "modbus_rtu: bits per second."},
+      Key<Lines>{"parity", choice<Lines, &Lines::parity>(kParities), 0, 0, "modbus_rtu: parity."},
+      Key<Lines>{"registers", &Lines::registers, 0, 0,
+                 "Modbus: the module shows its lines as 16-bit registers (functions 3 and 16), not "
+                 "as coils and discrete inputs (1, 2 and 15)."},
+      Key<Lines>{"first_input", &Lines::first_input, 0, kLastAddress,
+                 "Modbus: address of input 0, or of the register with it."},
+      Key<Lines>{"first_output", &Lines::first_output, 0, kLastAddress,
+                 "Modbus: address of output 0, or of the register with it."},
+      Key<Lines>{"output_copy", &Lines::output_copy, 0, kLastAddress,
+                 "Modbus: address at which the outputs are read back; by default `first_output`."},
+      Key<Lines>{"input_device", &Lines::input_device, 0, 255,
+                 "comedi: the subdevice of the inputs."},
+      Key<Lines>{"output_device", &Lines::output_device, 0, 255,
+                 "comedi: the subdevice of the outputs."},
+      Key<Lines>{"wiring", choice<Lines, &Lines::wiring>(kWirings), 0, 0,
+                 "What stands between outputs and control: change-over relays, the machine's PLC, "
+                 "or nothing (docs/wiring.md)."},
+      Key<Lines>{"cycle_ms", &Lines::cycle_s, 1, 1000,
+                 "The layer reads and writes the lines this often."},
+      Key<Lines>{"reply_ms", &Lines::reply_s, 1, 10000, "Longest wait for the module's answer."},
+      Key<Lines>{"heartbeat", &Lines::heartbeat, 0, kMostLines,
+                 "Output that changes in each cycle of the layer while it acts."},
+      Key<Lines>{"running", &Lines::running, 0, kMostLines, "Input: a program runs."},
+      Key<Lines>{"cutting", &Lines::cutting, 0, kMostLines,
+                 "Input: the axes move at a programmed feed (G1 … G3), not at rapid."},
+      Key<Lines>{"locked", &Lines::locked, 0, kMostLines,
+                 "Input: threading or tapping, the overrides must not move."},
+      Key<Lines>{"modulate", &Lines::modulate, 0, kMostLines,
+                 "Input: the program asks for spindle speed modulation (an M function)."},
+      Key<Lines>{"watchdog_ms", &Lines::watchdog_s, 0, 60000,
+                 "The module drops its outputs when it has not been written for this long; 0: it "
+                 "has no output watchdog."},
+      Key<Lines>{"watchdog_registers", &Lines::watchdog_registers, 0, kLastAddress,
+                 "Modbus: registers that set that watchdog, address and value in turn. They are "
+                 "written at each connection and read back.",
+                 Need::optional, For::any, 32},
+  };
+  return kKeys;
+}
+
+std::span<const Key<OverrideWires>> wires_keys() noexcept {
+  static const std::array kKeys = {
+      Key<OverrideWires>{"panel", &OverrideWires::panel, 0, kMostLines,
+                         "Inputs that carry the panel's word, lowest bit first.", Need::mandatory,
+                         For::any, 16},
+      Key<OverrideWires>{"out", &OverrideWires::out, 0, kMostLines,
+                         "Outputs for the layer's word, lowest bit first, as many as `panel`.",
+                         Need::mandatory, For::any, 16},
+      Key<OverrideWires>{"mask", &OverrideWires::mask, 0, kMostLines,
+                         "Output that puts the layer's word in force: the relays' coils, or the "
+                         "PLC's mask bit. Mandatory but for wiring = \"through\"."},
+      Key<OverrideWires>{"panel_inverted", &OverrideWires::panel_inverted, 0, 0,
+                         "A 1 of the panel's word is a low level."},
+      Key<OverrideWires>{"out_inverted", &OverrideWires::out_inverted, 0, 0,
+                         "A 1 of the layer's word is a low level."},
+  };
+  return kKeys;
+}
+
+std::span<const Key<Recorder>> recorder_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Recorder>{"device", &Recorder::device, 1, 255, "Serial device of the recorder.",
+                    Need::mandatory},
+      Key<Recorder>{"baud", &Recorder::baud, 9600, 4000000, "Bits per second; USB ignores it."},
+      Key<Recorder>{"start_mm", &Recorder::start_mm, -1e5, 1e5,
+                    "Positions of the axes, X first, when the layer starts; by default 0: start it "
+                    "with the machine at its reference point.",
+                    Need::optional, For::any, 8},
+      Key<Recorder>{"spindle_counts_rev", &Recorder::spindle_counts_rev, 0, 1e7,
+                    "Counts of the spindle's encoder in one turn, after ×4 decoding; 0: it has no "
+                    "encoder."},
+  };
+  return kKeys;
+}
+
+}  // namespace steadyrest::passport
