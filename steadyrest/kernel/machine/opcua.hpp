@@ -117,6 +117,17 @@ struct OpcUaPlace {
   friend bool operator==(const OpcUaPlace&, const OpcUaPlace&) = default;
 };
 
+/// R parameters of the control's side for so many axes (adapters/opcua/control/STEADYREST.SPF).
+[[nodiscard]] constexpr std::size_t sample_count(std::size_t axes) noexcept {
+  return 11 + 3 * axes;
+}
+[[nodiscard]] constexpr std::size_t order_count(std::size_t axes) noexcept {
+  return 7 + axes;
+}
+[[nodiscard]] constexpr std::size_t work_count(std::size_t axes) noexcept {
+  return 12 + 2 * axes;
+}
+
 /// A control that is reached through its OPC UA server, and the mapping of its nodes.
 struct OpcUa {
   std::string endpoint;  ///< opc.tcp://HOST:PORT
