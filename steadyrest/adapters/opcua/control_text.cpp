@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -94,7 +95,7 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"OFFSET_MAX", number(envelope.max_offset_mm)},
       {"OFFSET_STEP", number(envelope.offset_slew_mm_s * ipo_s)},
       {"R_NEEDED",
-       number(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
+       std::to_string(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
                         config.first_order + kernel::machine::order_count(axes.size()),
                         config.first_work + kernel::machine::work_count(axes.size())}))},
       {"HAS_SPINDLE", unless(spindle)},
