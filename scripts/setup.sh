@@ -11,13 +11,14 @@ packages="
   g++ cmake ninja-build ccache make pkg-config util-linux
   libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libeigen3-dev libboost-dev libtbb-dev
   zlib1g-dev libssl-dev libsodium-dev libsqlite3-dev libhdf5-dev
+  libmodbus-dev libgpiod-dev libcomedi-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
 "
 if [ "${1:-}" = --linuxcnc ]; then
   packages="$packages python3 linuxcnc-uspace linuxcnc-uspace-dev"
 elif [ "${1:-}" = --test ]; then
   packages="$packages
-    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 chromium linuxcnc-uspace linuxcnc-uspace-dev
+    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 python3-pymodbus chromium linuxcnc-uspace linuxcnc-uspace-dev
   "
 fi
 

@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
 
 // The cycle says which route it looks at before it looks; a route is freed when it is neither that
 // one nor the newest.
 namespace steadyrest::live {
+
+namespace {
+
+/// As a control would show it that knows where it is.
+void show_path(kernel::signal::Frame& frame) noexcept {
+  const auto& segment = frame.path[frame.path_index];
+  const double u = math::geometry::parameter_at(
+      segment, std::clamp(frame.path_position_mm - segment.position_mm, 0.0, segment.length_mm));
+  const kernel::signal::Point on_path = math::geometry::point_at(segment, u);
+  for (std::size_t i = 0; i < on_path.size(); ++i) {
+    frame.axis.at(i).command_mm = on_path.at(i) + frame.axis.at(i).offset_mm;
+  }
+  frame.program_line = segment.line;
+  frame.programmed_feed_mm_s = segment.feed_mm_s;
+  if (frame.motion == kernel::signal::Motion::feed) {
+    frame.motion = segment.motion;
+  }
+}
+
+}  // namespace
 
 using kernel::outcome::Result;
 using kernel::signal::Frame;
@@ -24,6 +46,9 @@ Result<Frame> FollowedPort::read() noexcept {
     frame->path = now_->path();
     frame->path_index = found.index;
     frame->path_position_mm = found.position_mm;
+    if (estimated_) {
+      show_path(*frame);
+    }
   }
   return frame;
 }

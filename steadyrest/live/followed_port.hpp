@@ -15,8 +15,17 @@ namespace steadyrest::live {
 /// as long as the commanded point is found on it. They get none where it is lost.
 class FollowedPort final : public kernel::port::Port {
  public:
+  struct Config {
+    nc::follow::PathLocator::Config locator{};
+    /// Commanded positions are estimates (CommandedPort): where the path is found they are put onto
+    /// it, and line, feed and kind of motion are those of the path.
+    bool estimated = false;
+  };
+
   /// `machine` outlives this.
-  explicit FollowedPort(kernel::port::Port& machine) noexcept : machine_(machine) {}
+  explicit FollowedPort(kernel::port::Port& machine) noexcept : FollowedPort(machine, Config{}) {}
+  FollowedPort(kernel::port::Port& machine, const Config& config) noexcept
+      : machine_(machine), locator_(config.locator), estimated_(config.estimated) {}
 
   [[nodiscard]] kernel::port::Capability capability() const noexcept override {
     return machine_.capability();
@@ -38,6 +47,7 @@ class FollowedPort final : public kernel::port::Port {
 
   kernel::port::Port& machine_;
   nc::follow::PathLocator locator_;
+  bool estimated_;
   const Route* now_ = nullptr;  ///< of the cycle
   std::atomic<nc::follow::Place> place_{nc::follow::Place::no_route};
   std::atomic<const Route*> offered_{nullptr};

@@ -57,6 +57,7 @@ struct Lines {
   std::uint32_t cutting = kNoLine;    ///< input: feed motion (G1–G3)
   std::uint32_t locked = kNoLine;     ///< input: threading or tapping
   std::uint32_t modulate = kNoLine;   ///< input: the program asks for speed modulation
+  double programmed_rev_s = 0.0;      ///< S of the program, where no encoder shows it; 0: not known
   double watchdog_s = 0.0;  ///< the module drops its outputs after this time; 0: it has no watchdog
   /// Registers that set it: address and value in turn, written at each connection and read back.
   std::vector<std::uint32_t> watchdog_registers;

@@ -38,6 +38,7 @@ constexpr double kPreference = 0.01;    ///< of the expected place among equally
 constexpr double kRotaryWeight = 10.0;  ///< mm for a radian
 constexpr double kSame_mm = 1e-6;
 constexpr double kLongestGap_s = 0.5;
+constexpr std::uint32_t kAnyLine = 1;
 
 struct Nearest {
   double position_mm = 0.0;
@@ -216,7 +217,7 @@ PathLocator::Output PathLocator::update(const kernel::signal::Frame& frame) noex
     check(frame.program_line, travel_mm);
   }
   if (!found_) {
-    scan(point, frame.program_line);
+    scan(point, config_.without_lines ? kAnyLine : frame.program_line);
     found_ = decided();
   }
   if (!found_) {
@@ -341,21 +342,33 @@ void PathLocator::scan(const Axes& point, std::uint32_t line) noexcept {
     passed_over_ = passed_over_ && goes_on;
     scan_line_ = line;
   }
-  const auto segments = route_->of_line(line);
-  const auto after = route_->after_line(line);
-  const std::size_t end = std::min(segments.size() + after.size(), scanned_ + kLinesPerCycle);
+  const std::size_t end = std::min(to_scan(line), scanned_ + kLinesPerCycle);
   for (; scanned_ < end; ++scanned_) {
-    const bool of_line = scanned_ < segments.size();
-    const std::size_t at = of_line ? segments[scanned_] : after[scanned_ - segments.size()];
-    const std::size_t first = at - std::min(at, kLineAhead);
-    const std::size_t last = std::min(route_->path().size() - 1, at + (of_line ? kLineBehind : 0));
-    for (std::size_t i = first; i <= last; ++i) {
-      look_at(i, point);
+    if (config_.without_lines) {
+      look_at(scanned_, point);
+    } else {
+      look_around(point, line, scanned_);
     }
   }
 }
 
+/// One segment of the line with those that may show it as theirs.
+void PathLocator::look_around(const Axes& point, std::uint32_t line, std::size_t number) noexcept {
+  const auto segments = route_->of_line(line);
+  const bool of_line = number < segments.size();
+  const std::size_t at =
+      of_line ? segments[number] : route_->after_line(line)[number - segments.size()];
+  const std::size_t first = at - std::min(at, kLineAhead);
+  const std::size_t last = std::min(route_->path().size() - 1, at + (of_line ? kLineBehind : 0));
+  for (std::size_t i = first; i <= last; ++i) {
+    look_at(i, point);
+  }
+}
+
 std::size_t PathLocator::to_scan(std::uint32_t line) const noexcept {
+  if (config_.without_lines) {
+    return route_->path().size();
+  }
   return route_->of_line(line).size() + route_->after_line(line).size();
 }
 
@@ -363,7 +376,9 @@ bool PathLocator::decided() const noexcept {
   if (trails_ == 0 || trail_[0].position_mm - trail_[0].born_mm < kConfirm_mm) {
     return false;
   }
-  return from_start_ || (trails_ == 1 && !overflow_ && scanned_ >= to_scan(scan_line_));
+  // Without lines only the path's own begin tells the first pass from a later one.
+  const bool first_pass = from_start_ && (!config_.without_lines || trail_[0].born_mm <= kBegin_mm);
+  return first_pass || (trails_ == 1 && !overflow_ && scanned_ >= to_scan(scan_line_));
 }
 
 bool PathLocator::line_fits(std::uint32_t line) const noexcept {

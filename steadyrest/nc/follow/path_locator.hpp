@@ -26,8 +26,9 @@ enum class Place : std::uint8_t {
 class PathLocator {
  public:
   struct Config {
-    double near_mm = 0.01;  ///< on the path; > 0
-    double far_mm = 1.0;    ///< lost; ≥ near_mm
+    double near_mm = 0.01;       ///< on the path; > 0
+    double far_mm = 1.0;         ///< lost; ≥ near_mm
+    bool without_lines = false;  ///< the control shows no program line: the whole path is searched
   };
   struct Output {
     Place place = Place::no_route;
@@ -68,6 +69,7 @@ class PathLocator {
   [[nodiscard]] bool advance(Trail& trail, const Axes& point, double travel_mm) const noexcept;
   void advance_all(const Axes& point, double travel_mm) noexcept;
   void scan(const Axes& point, std::uint32_t line) noexcept;
+  void look_around(const Axes& point, std::uint32_t line, std::size_t number) noexcept;
   [[nodiscard]] std::size_t to_scan(std::uint32_t line) const noexcept;
   void look_at(std::size_t index, const Axes& point) noexcept;
   void keep(std::size_t index, double position_mm, double away_mm) noexcept;

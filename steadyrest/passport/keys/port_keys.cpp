@@ -37,8 +37,8 @@ std::span<const Key<Lines>> lines_keys() noexcept {
       Key<Lines>{"baud", &Lines::baud, 1200, 4000000, "modbus_rtu: bits per second."},
       Key<Lines>{"parity", choice<Lines, &Lines::parity>(kParities), 0, 0, "modbus_rtu: parity."},
       Key<Lines>{"registers", &Lines::registers, 0, 0,
-                 "Modbus: the module shows its lines as 16-bit registers (functions 3 and 16), not "
-                 "as coils and discrete inputs (1, 2 and 15)."},
+                 "Modbus: the module shows its lines as 16-bit registers (functions 4, 3 and 16), "
+                 "not as discrete inputs and coils (2, 1 and 15)."},
       Key<Lines>{"first_input", &Lines::first_input, 0, kLastAddress,
                  "Modbus: address of input 0, or of the register with it."},
       Key<Lines>{"first_output", &Lines::first_output, 0, kLastAddress,
@@ -64,6 +64,9 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "Input: threading or tapping, the overrides must not move."},
       Key<Lines>{"modulate", &Lines::modulate, 0, kMostLines,
                  "Input: the program asks for spindle speed modulation (an M function)."},
+      Key<Lines>{"programmed_rpm", &Lines::programmed_rev_s, 0, 1e6,
+                 "Spindle speed that the program asks for (S), where no encoder on the recorder "
+                 "shows it; 0: not known, and no law of speed acts."},
       Key<Lines>{"watchdog_ms", &Lines::watchdog_s, 0, 60000,
                  "The module drops its outputs when it has not been written for this long; 0: it "
                  "has no output watchdog."},

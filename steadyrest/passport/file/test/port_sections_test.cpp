@@ -57,6 +57,7 @@ running = 11
 cutting = 12
 locked = 13
 modulate = 14
+programmed_rpm = 1200
 watchdog_ms = 15
 watchdog_registers = [4384, 16]
 [lines.feed]
@@ -99,6 +100,7 @@ TEST(PortSections, EveryKeyReachesItsField) {
                  .cutting = 12,
                  .locked = 13,
                  .modulate = 14,
+                 .programmed_rev_s = 20,
                  .watchdog_registers = {4384, 16}};
   EXPECT_DOUBLE_EQ(read->lines.cycle_s, 0.008);
   EXPECT_DOUBLE_EQ(read->lines.reply_s, 0.009);

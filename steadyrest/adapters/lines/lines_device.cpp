@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <steadyrest/adapters/lines/lines_device.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::lines {
+namespace {
+
+using kernel::machine::kNoLine;
+using kernel::machine::Lines;
+using kernel::machine::OverrideWires;
+using kernel::machine::Wiring;
+using kernel::outcome::Result;
+using kernel::outcome::unavailable;
+
+constexpr int kSilentReadings = 3;
+constexpr int kDifferingReadings = 2;
+constexpr double kTimeTolerance = 1e-9;
+
+void mark(std::uint32_t line, Levels& levels) {
+  if (line < kMostLines) {
+    levels.set(line);
+  }
+}
+
+Levels outputs_set(const Lines& lines) {
+  Levels all;
+  for (const OverrideWires* wires : {&lines.feed, &lines.spindle}) {
+    std::ranges::for_each(wires->out, [&all](std::uint32_t line) { mark(line, all); });
+    mark(wires->mask, all);
+  }
+  mark(lines.heartbeat, all);
+  return all;
+}
+
+}  // namespace
+
+LinesDevice::LinesDevice(const Lines& lines, Parts parts)
+    : lines_(lines), parts_(std::move(parts)), ours_(outputs_set(lines)), words_(ours_) {
+  if (lines.heartbeat < kMostLines) {
+    words_.reset(lines.heartbeat);
+  }
+}
+
+LinesDevice::~LinesDevice() {
+  if (acting_) {
+    Levels outputs = on_wires_;
+    release(outputs);
+    static_cast<void>(parts_.wires->write(outputs));
+  }
+}
+
+void LinesDevice::release(Levels& outputs) noexcept {
+  if (parts_.feed) {
+    parts_.feed->release(outputs);
+  }
+  if (parts_.spindle) {
+    parts_.spindle->release(outputs);
+  }
+}
+
+Result<void> LinesDevice::send(const Levels& outputs) {
+  const bool changed = ((outputs ^ on_wires_) & words_).any();
+  stood_s_ = changed ? 0.0 : stood_s_;
+  on_wires_ = outputs;
+  auto written = parts_.wires->write(outputs);
+  sent_ = written.has_value();
+  return written;
+}
+
+Result<void> LinesDevice::check_outputs(const Levels& outputs) {
+  const Levels differ = sent_ ? (outputs ^ on_wires_) & ours_ : Levels();
+  differing_ = differ.any() ? differing_ + 1 : 0;
+  if (differing_ < kDifferingReadings) {
+    return {};
+  }
+  differing_ = 0;
+  sent_ = false;
+  const std::size_t line = differ._Find_first();
+  return unavailable(
+      fmt::format("output {} of the module is {}, but {} was written", line,
+                  outputs[line] ? "on" : "off", outputs[line] ? "off" : "on"),
+      "its watchdog has dropped the outputs, the line is stuck, or another client writes: "
+      "steadyrest lines test");
+}
+
+/// What must be written without an order: masks that nobody asks for, and the panel's word where
+/// the layer stands between panel and control.
+Result<void> LinesDevice::pass_on() {
+  ++silent_;
+  const bool ends = acting_ && silent_ > kSilentReadings;
+  if (!ends && (acting_ || lines_.wiring != Wiring::through)) {
+    return {};
+  }
+  acting_ = false;
+  Levels outputs = on_wires_;
+  release(outputs);
+  const bool same = sent_ && ((outputs ^ on_wires_) & ours_).none();
+  return same ? Result<void>() : send(outputs);
+}
+
+Result<void> LinesDevice::read(LineSample& sample) {
+  if (auto got = parts_.wires->read(sample.inputs, sample.outputs); !got) {
+    sent_ = false;
+    return got;
+  }
+  sample.read_s = kernel::link::monotonic_s();
+  if (parts_.wires->connections() != connection_) {
+    connection_ = parts_.wires->connections();
+    sent_ = false;
+  }
+  if (auto as_written = check_outputs(sample.outputs); !as_written) {
+    return as_written;
+  }
+  if (!sent_) {
+    on_wires_ = sample.outputs;
+    for (auto* line : {&parts_.feed, &parts_.spindle}) {
+      if (*line) {
+        (*line)->forget();
+      }
+    }
+  }
+  if (parts_.feed) {
+    static_cast<void>(parts_.feed->see(sample.inputs, sample.outputs));
+  }
+  if (parts_.spindle) {
+    static_cast<void>(parts_.spindle->see(sample.inputs, sample.outputs));
+  }
+  if (auto passed = pass_on(); !passed) {
+    return passed;
+  }
+  if (parts_.encoders) {
+    auto encoders = parts_.encoders->next();
+    if (!encoders) {
+      return std::unexpected(std::move(encoders.error()));
+    }
+    sample.encoders = *encoders;
+  }
+  return {};
+}
+
+Result<void> LinesDevice::write(const LineOrder& order) {
+  acting_ = true;
+  silent_ = 0;
+  stood_s_ += lines_.cycle_s;
+  Levels outputs = on_wires_;
+  const auto settled = [this](const OverrideLine& line) {
+    return stood_s_ >= line.table().scan_period_s() - kTimeTolerance;
+  };
+  bool feed = true;
+  bool spindle = true;
+  if (parts_.feed) {
+    feed = parts_.feed->put(order.feed, settled(*parts_.feed), outputs);
+  }
+  if (parts_.spindle) {
+    spindle = parts_.spindle->put(order.spindle, settled(*parts_.spindle), outputs);
+  }
+  if (lines_.feed.mask != kNoLine && lines_.feed.mask == lines_.spindle.mask) {
+    outputs[lines_.feed.mask] = feed && spindle;  // one relay for both words
+  }
+  if (lines_.heartbeat != kNoLine) {
+    outputs.flip(lines_.heartbeat);
+  }
+  return send(outputs);
+}
+
+}  // namespace steadyrest::adapters::lines

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <steadyrest/adapters/lines/encoder_source.hpp>
+#include <steadyrest/adapters/lines/override_line.hpp>
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/kernel/link/exchange.hpp>
+#include <steadyrest/kernel/machine/lines.hpp>
+
+namespace steadyrest::adapters::lines {
+
+/// One reading of everything.
+struct LineSample {
+  Levels inputs;
+  Levels outputs;  ///< as the module has them
+  EncoderReading encoders;
+  double read_s = 0.0;  ///< monotonic clock
+};
+
+/// What the layer wants of both overrides.
+struct LineOrder {
+  Word feed;
+  Word spindle;
+};
+
+/// Lines and encoders together, in the exchange's thread.
+///
+/// The layer acts from its first order on. When no order has come for three readings it does not
+/// act any more: the masks are taken off. While it does not act nothing is written, but for the
+/// wiring `through`, which needs the panel's word passed on. Outputs that are not as they were
+/// written in two readings one after the other are a fault of the link: the module's watchdog has
+/// dropped them, a line is stuck, or another client writes.
+class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
+ public:
+  struct Parts {
+    std::unique_ptr<Wires> wires;
+    std::unique_ptr<EncoderSource> encoders;  ///< null: none
+    std::optional<OverrideLine> feed;         ///< empty: not wired
+    std::optional<OverrideLine> spindle;
+  };
+
+  LinesDevice(const kernel::machine::Lines& lines, Parts parts);
+  /// Takes the masks off.
+  ~LinesDevice() override;
+
+  kernel::outcome::Result<void> read(LineSample& sample) override;
+  kernel::outcome::Result<void> write(const LineOrder& order) override;
+
+ private:
+  kernel::outcome::Result<void> check_outputs(const Levels& outputs);
+  kernel::outcome::Result<void> pass_on();
+  kernel::outcome::Result<void> send(const Levels& outputs);
+  void release(Levels& outputs) noexcept;
+
+  kernel::machine::Lines lines_;
+  Parts parts_;
+  Levels ours_;   ///< outputs that the layer sets
+  Levels words_;  ///< of them without the heartbeat
+  Levels on_wires_;
+  std::uint64_t connection_ = 0;
+  bool sent_ = false;  ///< `on_wires_` is what was written on this connection
+  bool acting_ = false;
+  int silent_ = 0;      ///< readings since the last order
+  int differing_ = 0;   ///< readings with other outputs
+  double stood_s_ = 0;  ///< the words have been on the wires, by the layer's cycles
+};
+
+}  // namespace steadyrest::adapters::lines

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <steadyrest/adapters/lines/lines_port.hpp>
+#include <steadyrest/adapters/lines/serial_recorder.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::lines {
+namespace {
+
+using kernel::machine::kNoLine;
+using kernel::machine::Machine;
+using kernel::machine::OverrideTable;
+using kernel::machine::OverrideWires;
+using kernel::machine::Wiring;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using kernel::signal::Frame;
+using kernel::signal::Motion;
+using kernel::signal::OverrideState;
+using kernel::signal::ProgramState;
+
+/// Beyond a module's and a recorder's longest answers, one after the other.
+constexpr double kPatience = 3.0;
+
+Result<std::optional<OverrideLine>> line_of(const OverrideWires& wires, const OverrideTable& table,
+                                            Wiring wiring) {
+  if (wires.out.empty()) {
+    return std::nullopt;
+  }
+  auto made = OverrideLine::make({.wires = wires, .table = table, .wiring = wiring});
+  if (!made) {
+    return std::unexpected(std::move(made.error()));
+  }
+  return std::move(*made);
+}
+
+OverrideState state_of(const OverrideLine::Seen& seen) noexcept {
+  return {.panel_ratio = seen.panel_ratio,
+          .effective_ratio = seen.effective_ratio,
+          .panel_code = seen.panel_code,
+          .panel_code_known = seen.panel_known};
+}
+
+Word word_of_command(double ratio, std::uint32_t code, bool masks) noexcept {
+  return {.code = code, .masks = masks && std::isfinite(ratio)};
+}
+
+bool is_on(const Levels& inputs, std::uint32_t line) noexcept {
+  return line < kMostLines && inputs[line];
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LinesPort>> LinesPort::make(const Machine& machine,
+                                                   std::unique_ptr<Wires> wires,
+                                                   std::unique_ptr<EncoderSource> encoders) {
+  const auto& lines = machine.lines;
+  auto feed = line_of(lines.feed, machine.feed_override, lines.wiring);
+  auto spindle = line_of(lines.spindle, machine.spindle_override, lines.wiring);
+  if (!feed || !spindle) {
+    return std::unexpected(std::move(feed ? spindle.error() : feed.error()));
+  }
+  if (!*feed && !*spindle) {
+    return refuse("[lines] wires no override", "add [lines.feed] or [lines.spindle]");
+  }
+  const bool shows = encoders != nullptr;
+  LinesDevice::Parts parts{.wires = std::move(wires),
+                           .encoders = std::move(encoders),
+                           .feed = *feed,
+                           .spindle = *spindle};
+  return std::unique_ptr<LinesPort>(
+      new LinesPort(machine, std::move(*feed), std::move(*spindle), std::move(parts), shows));
+}
+
+Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
+  auto wires = open_wires(machine.lines);
+  if (!wires) {
+    return std::unexpected(std::move(wires.error()));
+  }
+  std::unique_ptr<EncoderSource> encoders;
+  if (!machine.recorder.device.empty()) {
+    auto recorder = SerialRecorder::open(machine.recorder, machine.lines.reply_s);
+    if (!recorder) {
+      return std::unexpected(std::move(recorder.error()));
+    }
+    encoders = std::move(*recorder);
+  }
+  return make(machine, std::move(*wires), std::move(encoders));
+}
+
+LinesPort::LinesPort(const Machine& machine, std::optional<OverrideLine> feed,
+                     std::optional<OverrideLine> spindle, LinesDevice::Parts parts, bool encoders)
+    : lines_(machine.lines),
+      axes_(machine.axes),
+      start_count_(machine.axes.size()),
+      encoders_(encoders),
+      feed_(std::move(feed)),
+      spindle_(std::move(spindle)),
+      exchange_("the override lines",
+                std::make_unique<LinesDevice>(machine.lines, std::move(parts)),
+                kPatience * machine.lines.reply_s) {
+  for (std::size_t i = 0; i < axes_.size() && i < machine.recorder.start_mm.size(); ++i) {
+    const double count_mm = axes_[i].encoder.count_au;
+    start_count_[i] = count_mm > 0.0 ? std::llround(machine.recorder.start_mm[i] / count_mm) : 0;
+  }
+  if (encoders && machine.recorder.spindle_counts_rev > 0.0) {
+    spindle_watch_.emplace(machine.recorder.spindle_counts_rev);
+  }
+}
+
+kernel::port::Capability LinesPort::capability() const noexcept {
+  // Words walk where their table says so; the module sets all outputs at once.
+  return {.feed_override = feed_.has_value(),
+          .spindle_override = spindle_.has_value(),
+          .latched_word = true};
+}
+
+double LinesPort::position_mm(std::size_t axis, std::int64_t count) const noexcept {
+  return axes_[axis].encoder.count_au * static_cast<double>(count);
+}
+
+/// The recorder's encoders are the present axes in the machine file's order, then the spindle.
+void LinesPort::show_axes(const EncoderReading& encoders, Frame& frame) noexcept {
+  const double passed_s = frame.time_s - before_s_;
+  double travel_mm2 = 0.0;
+  std::size_t counter = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!axes_[i].present || counter >= encoders.counters) {
+      continue;
+    }
+    auto& axis = frame.axis.at(i);
+    axis.encoder_shown = axes_[i].encoder.count_au > 0.0;
+    axis.count = start_count_[i] + encoders.count.at(counter);
+    axis.edge_s = encoders.edge_s.at(counter);
+    axis.edge_direction = encoders.direction.at(counter);
+    axis.actual_mm = position_mm(i, axis.count);
+    axis.command_mm = axis.actual_mm;
+    const double moved_mm = axis.actual_mm - before_mm_.at(i);
+    travel_mm2 += i < 3 ? moved_mm * moved_mm : 0.0;
+    before_mm_.at(i) = axis.actual_mm;
+    ++counter;
+  }
+  frame.path_speed_mm_s = cycle_ > 1 && passed_s > 0.0 ? std::sqrt(travel_mm2) / passed_s : 0.0;
+  before_s_ = frame.time_s;
+}
+
+void LinesPort::show_spindle(const EncoderReading& encoders, Frame& frame) noexcept {
+  const double ratio = frame.spindle.effective_ratio;
+  frame.spindle_programmed_rev_s = lines_.programmed_rev_s;
+  frame.spindle_actual_rev_s = lines_.programmed_rev_s * ratio;
+  if (spindle_watch_ && encoders.counters > 0) {
+    const auto count = static_cast<double>(encoders.count.at(encoders.counters - 1));
+    spindle_watch_->update(frame.time_s, count, ratio);
+    frame.spindle_actual_rev_s = spindle_watch_->actual_rev_s();
+    if (lines_.programmed_rev_s <= 0.0) {
+      frame.spindle_programmed_rev_s = spindle_watch_->programmed_rev_s();
+    }
+  }
+  frame.spindle_command_rev_s = frame.spindle_programmed_rev_s * ratio;
+}
+
+/// What is not wired is taken for the most common case: a program that cuts.
+void LinesPort::show_program(const Levels& inputs, Frame& frame) const noexcept {
+  frame.motion = Motion::feed;
+  if (lines_.running != kNoLine) {
+    const bool runs = is_on(inputs, lines_.running);
+    frame.program = runs ? ProgramState::running : ProgramState::stopped;
+    frame.motion = runs ? Motion::feed : Motion::idle;
+  }
+  if (lines_.cutting != kNoLine && frame.motion == Motion::feed && !is_on(inputs, lines_.cutting)) {
+    frame.motion = Motion::rapid;
+  }
+  if (is_on(inputs, lines_.locked)) {
+    frame.motion = Motion::thread;
+  }
+  frame.speed_modulation = is_on(inputs, lines_.modulate);
+}
+
+Result<Frame> LinesPort::read() noexcept {
+  auto taken = exchange_.read();
+  if (!taken) {
+    return std::unexpected(std::move(taken.error()));
+  }
+  const LineSample& sample = taken->sample;
+  Frame frame;
+  frame.cycle = ++cycle_;
+  frame.age_s = taken->age_s;
+  frame.axis_count = static_cast<std::uint8_t>(axes_.size());
+  frame.time_s = encoders_ ? sample.encoders.time_s : sample.read_s;
+  if (feed_) {
+    frame.feed = state_of(feed_->see(sample.inputs, sample.outputs));
+  }
+  if (spindle_) {
+    frame.spindle = state_of(spindle_->see(sample.inputs, sample.outputs));
+  }
+  show_program(sample.inputs, frame);
+  if (encoders_) {
+    show_axes(sample.encoders, frame);
+  }
+  show_spindle(sample.encoders, frame);
+  return frame;
+}
+
+Result<void> LinesPort::write(const kernel::signal::Command& command) noexcept {
+  if (!command.write) {
+    return refuse("a command that must not be written", "write in the mode act only");
+  }
+  return exchange_.write(
+      {.feed = word_of_command(command.feed_ratio, command.feed_code, command.feed_masks_panel),
+       .spindle = word_of_command(command.spindle_ratio, command.spindle_code,
+                                  command.spindle_masks_panel)});
+}
+
+}  // namespace steadyrest::adapters::lines

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+#include <modbus.h>
+
+#include <steadyrest/adapters/lines/modbus_wires.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::lines {
+namespace {
+
+using kernel::machine::Lines;
+using kernel::machine::LinesKind;
+using kernel::machine::Parity;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+using kernel::outcome::unavailable;
+
+constexpr std::uint32_t kPerRegister = 16;
+constexpr const char* kPort = "502";
+
+struct HostAndPort {
+  std::string host;
+  std::string port;
+};
+
+/// `HOST`, `HOST:PORT`, `[V6]`, `[V6]:PORT`.
+HostAndPort split(const std::string& address) {
+  const bool bracketed = address.starts_with('[');
+  const std::size_t end = bracketed ? address.find(']') : address.find(':');
+  if (end == std::string::npos) {
+    return {.host = address, .port = kPort};
+  }
+  const std::size_t colon = bracketed ? end + 1 : end;
+  const std::string port = colon < address.size() && address[colon] == ':'
+                               ? address.substr(colon + 1)
+                               : std::string(bracketed ? kPort : "");
+  return {.host = bracketed ? address.substr(1, end - 1) : address.substr(0, end), .port = port};
+}
+
+bool is_port(const std::string& port) {
+  return !port.empty() && port.size() <= 5 &&
+         std::ranges::all_of(port, [](char c) { return c >= '0' && c <= '9'; }) &&
+         std::stoul(port) >= 1 && std::stoul(port) <= 65535;
+}
+
+char parity_letter(Parity parity) {
+  return parity == Parity::even ? 'E' : parity == Parity::odd ? 'O' : 'N';
+}
+
+/// Registers that hold these lines.
+Range registers_of(const Range& lines) {
+  const std::uint32_t first = lines.first / kPerRegister;
+  const std::uint32_t last = (lines.first + lines.count - 1) / kPerRegister;
+  return {.first = first, .count = last - first + 1};
+}
+
+}  // namespace
+
+void ModbusWires::Free::operator()(_modbus* link) const noexcept {
+  modbus_close(link);
+  modbus_free(link);
+}
+
+Result<std::unique_ptr<ModbusWires>> ModbusWires::make(const Lines& lines) {
+  Link link;
+  if (lines.kind == LinesKind::modbus_tcp) {
+    const HostAndPort at = split(lines.address);
+    if (at.host.empty() || !is_port(at.port)) {
+      return refuse(fmt::format("[lines] address = \"{}\" is no HOST or HOST:PORT", lines.address),
+                    "give the module's name or number, and its port (1 … 65535) if it is not 502");
+    }
+    link.reset(modbus_new_tcp_pi(at.host.c_str(), at.port.c_str()));
+  } else {
+    link.reset(modbus_new_rtu(lines.device.c_str(), static_cast<int>(lines.baud),
+                              parity_letter(lines.parity), 8,
+                              lines.parity == Parity::none ? 2 : 1));
+  }
+  if (link == nullptr) {
+    return refuse(
+        fmt::format("no Modbus link to that module can be made: {}", modbus_strerror(errno)),
+        "correct address or device in [lines]");
+  }
+  return std::unique_ptr<ModbusWires>(new ModbusWires(lines, std::move(link)));
+}
+
+ModbusWires::ModbusWires(const Lines& lines, Link link)
+    : lines_(lines),
+      inputs_(inputs_of(lines)),
+      outputs_(outputs_of(lines)),
+      link_(std::move(link)) {
+  const auto reply_us = static_cast<std::uint32_t>(1e6 * lines.reply_s);
+  modbus_set_slave(link_.get(), static_cast<int>(lines.unit));
+  modbus_set_response_timeout(link_.get(), reply_us / 1000000, reply_us % 1000000);
+}
+
+ModbusWires::~ModbusWires() = default;
+
+std::string ModbusWires::name() const {
+  return lines_.kind == LinesKind::modbus_tcp ? lines_.address : lines_.device;
+}
+
+/// Whatever went wrong, the next request begins with a connection: an answer that comes late would
+/// be taken for another's.
+Result<void> ModbusWires::done(int got, const Request& request) {
+  if (got == static_cast<int>(request.count)) {
+    return {};
+  }
+  const int fault = errno;
+  modbus_close(link_.get());
+  connected_ = false;
+  const bool refused = fault == EMBXILADD || fault == EMBXILFUN || fault == EMBXILVAL;
+  return unavailable(
+      fmt::format("the module {} does not take {} {} … {}: {}", name(), request.what,
+                  request.address, request.address + request.count - 1, modbus_strerror(fault)),
+      refused
+          ? "see the module's manual for its addresses: first_input, first_output, output_copy, "
+            "registers in [lines]"
+          : "see its power and its link, and reply_ms in [lines]");
+}
+
+Result<void> ModbusWires::connect() {
+  if (connected_) {
+    return {};
+  }
+  if (modbus_connect(link_.get()) != 0) {
+    return unavailable(
+        fmt::format("the module {} cannot be reached: {}", name(), modbus_strerror(errno)),
+        "see its power, its link and its address in [lines]");
+  }
+  connected_ = true;
+  ++connections_;
+  return set_watchdog();
+}
+
+Result<void> ModbusWires::set_watchdog() {
+  const auto& all = lines_.watchdog_registers;
+  for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
+    const Request request{.what = "the watchdog's register", .address = all[i], .count = 1};
+    const int at = static_cast<int>(all[i]);
+    const auto value = static_cast<std::uint16_t>(all[i + 1]);
+    if (auto set = done(modbus_write_registers(link_.get(), at, 1, &value), request); !set) {
+      return set;
+    }
+    std::uint16_t copy = 0;
+    if (auto seen = done(modbus_read_registers(link_.get(), at, 1, &copy), request); !seen) {
+      return seen;
+    }
+    if (copy != value) {
+      modbus_close(link_.get());
+      connected_ = false;
+      return unavailable(fmt::format("the module {} keeps {} in the watchdog's register {}, not {}",
+                                     name(), copy, at, value),
+                         "see the module's manual: some can be set only while stopped");
+    }
+  }
+  return {};
+}
+
+Result<void> ModbusWires::get(bool input, Levels& levels) {
+  const Range& lines = input ? inputs_ : outputs_;
+  const std::uint32_t from = input ? lines_.first_input : lines_.output_copy;
+  if (lines.count == 0) {
+    return {};
+  }
+  if (lines_.registers) {
+    const Range all = registers_of(lines);
+    std::array<std::uint16_t, kMostLines / kPerRegister> words{};
+    const Request request{.what = input ? "the input registers" : "the output registers",
+                          .address = from + all.first,
+                          .count = all.count};
+    const auto read = input ? modbus_read_input_registers : modbus_read_registers;
+    if (auto got = done(read(link_.get(), static_cast<int>(request.address),
+                             static_cast<int>(all.count), words.data()),
+                        request);
+        !got) {
+      return got;
+    }
+    for (std::uint32_t i = lines.first; i < lines.first + lines.count; ++i) {
+      levels[i] = (words[i / kPerRegister - all.first] >> (i % kPerRegister) & 1U) != 0;
+    }
+    return {};
+  }
+  std::array<std::uint8_t, kMostLines> bits{};
+  const Request request{
+      .what = input ? "inputs" : "coils", .address = from + lines.first, .count = lines.count};
+  const auto read = input ? modbus_read_input_bits : modbus_read_bits;
+  if (auto got = done(read(link_.get(), static_cast<int>(request.address),
+                           static_cast<int>(lines.count), bits.data()),
+                      request);
+      !got) {
+    return got;
+  }
+  for (std::uint32_t i = 0; i < lines.count; ++i) {
+    levels[lines.first + i] = bits[i] != 0;
+  }
+  return {};
+}
+
+Result<void> ModbusWires::read(Levels& inputs, Levels& outputs) {
+  if (auto connected = connect(); !connected) {
+    return connected;
+  }
+  if (auto got = get(true, inputs); !got) {
+    return got;
+  }
+  return get(false, outputs);
+}
+
+Result<void> ModbusWires::write(const Levels& outputs) {
+  if (auto connected = connect(); !connected) {
+    return connected;
+  }
+  if (lines_.registers) {
+    const Range all = registers_of(outputs_);
+    std::array<std::uint16_t, kMostLines / kPerRegister> words{};
+    for (std::uint32_t i = outputs_.first; i < outputs_.first + outputs_.count; ++i) {
+      words[i / kPerRegister - all.first] |=
+          static_cast<std::uint16_t>(static_cast<unsigned>(outputs[i]) << (i % kPerRegister));
+    }
+    const Request request{.what = "the output registers",
+                          .address = lines_.first_output + all.first,
+                          .count = all.count};
+    return done(modbus_write_registers(link_.get(), static_cast<int>(request.address),
+                                       static_cast<int>(all.count), words.data()),
+                request);
+  }
+  std::array<std::uint8_t, kMostLines> bits{};
+  for (std::uint32_t i = 0; i < outputs_.count; ++i) {
+    bits[i] = static_cast<std::uint8_t>(outputs[outputs_.first + i]);
+  }
+  const Request request{
+      .what = "coils", .address = lines_.first_output + outputs_.first, .count = outputs_.count};
+  return done(modbus_write_bits(link_.get(), static_cast<int>(request.address),
+                                static_cast<int>(outputs_.count), bits.data()),
+              request);
+}
+
+}  // namespace steadyrest::adapters::lines

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/override_table.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+
+namespace steadyrest::adapters::lines {
+
+/// What the layer wants of one override.
+struct Word {
+  std::uint32_t code = 0;
+  bool masks = false;  ///< the layer's word replaces the panel's
+};
+
+/// One override on its wires: the panel's word in, the layer's word and its mask out.
+///
+/// Law, by wiring:
+///   relay    the relay stays in while the layer acts, so that its contacts do not move in the cut:
+///            without a mask the panel's own word passes through it. It falls for the operator:
+///            panel at 0, at an unknown code, or below the word.
+///   plc      word and mask as the layer has them; the PLC takes the lower one.
+///   through  the layer's word where it masks, else the panel's, known or not.
+/// A word that is not in the table is never written: the panel's takes its place. A word whose bits
+/// do not take effect together changes only where every mixture of its bits lies between the two
+/// ends (kernel/override/transition), else it goes to the next step and waits there.
+class OverrideLine {
+ public:
+  struct Config {
+    kernel::machine::OverrideWires wires;
+    kernel::machine::OverrideTable table;
+    kernel::machine::Wiring wiring = kernel::machine::Wiring::relay;
+  };
+  /// Ratios as the wires show them.
+  struct Seen {
+    std::uint32_t panel_code = 0;
+    bool panel_known = false;
+    double panel_ratio = 1.0;      ///< the last known one
+    double effective_ratio = 1.0;  ///< of the layer's word where it is in force, else the panel's
+  };
+
+  /// Refused: a table that cannot be one, or whose steps cannot be walked where they must be.
+  [[nodiscard]] static kernel::outcome::Result<OverrideLine> make(const Config& config);
+
+  /// From a reading of all lines.
+  Seen see(const Levels& inputs, const Levels& outputs) noexcept;
+  /// Sets this override's outputs to what the layer wants; `step_time`: the last change has been on
+  /// the wires for a scan. True: the mask is on.
+  bool put(const Word& word, bool step_time, Levels& outputs) noexcept;
+  /// Its outputs while the layer does not act.
+  void release(Levels& outputs) noexcept;
+  /// The outputs may be others than those that were put.
+  void forget() noexcept { step_.reset(); }
+
+  [[nodiscard]] const kernel::override::Table& table() const noexcept { return table_; }
+  [[nodiscard]] const Config& config() const noexcept { return config_; }
+
+ private:
+  OverrideLine(const Config& config, kernel::override::Table table)
+      : config_(config), table_(std::move(table)) {}
+  [[nodiscard]] std::size_t walk(std::size_t step, bool step_time) noexcept;
+  [[nodiscard]] bool operator_has_it(std::size_t step) const noexcept;
+  bool put_mask(bool on, Levels& outputs) const noexcept;
+  void put_code(std::uint32_t code, Levels& outputs) const noexcept;
+
+  Config config_;
+  kernel::override::Table table_;
+  Seen seen_;
+  std::optional<std::size_t> step_;  ///< that the outputs have
+};
+
+}  // namespace steadyrest::adapters::lines
