@@ -49,7 +49,12 @@ export class Certificates {
   }
 
   /** Makes key and certificate where there are none; keeps them otherwise. */
-  async own() {
+  own() {
+    this.made ??= this.#make();
+    return this.made;
+  }
+
+  async #make() {
     if (fs.existsSync(this.file) && fs.existsSync(this.keyFile)) return;
     const manager = new OPCUACertificateManager({ rootFolder: this.folder });
     await manager.initialize();

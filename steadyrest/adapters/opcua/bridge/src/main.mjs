@@ -31,8 +31,10 @@ async function end(code) {
 
 const kActs = {
   async configure(message) {
-    await link?.stop();
+    // At once: the next line may be here already.
+    const before = link;
     link = new Link(message, say);
+    await before?.stop();
     link.run().catch((error) => {
       say({ event: "state", state: "lost", why: "failed", detail: textOf(error) });
       end(1);
