@@ -39,7 +39,7 @@ std::uint32_t ticks(double time_s) {
 void BareLink::meet(Terminals& terminals) {
   now_s_ = terminals.now_s;
   inputs_ = terminals.inputs;
-  if (watchdog_s > 0.0 && now_s_ - written_s_ > watchdog_s) {
+  if (dead || (watchdog_s > 0.0 && now_s_ - written_s_ > watchdog_s)) {
     outputs_.reset();
   }
   terminals.outputs = outputs_;
@@ -125,6 +125,13 @@ LineChain::LineChain(const Machine& machine,
   // The recorder counts from where the axes stand at the start.
   machine_.recorder.start_mm = {path->segments.front().start_mm.begin(),
                                 path->segments.front().start_mm.end()};
+  route_ = std::make_shared<const nc::follow::Route>(path->segments);
+  begin();
+}
+
+LineChain::~LineChain() = default;
+
+void LineChain::begin() {
   auto port = adapters::lines::LinesPort::make(machine_, std::make_unique<Side::LinkWires>(*side_),
                                                std::make_unique<Side::Encoders>(*side_));
   if (!port) {
@@ -137,11 +144,14 @@ LineChain::LineChain(const Machine& machine,
       *commanded_,
       live::FollowedPort::Config{.locator = {.near_mm = 0.1, .far_mm = 2.0, .without_lines = true},
                                  .estimated = true});
-  followed_->offer(std::make_shared<const nc::follow::Route>(path->segments));
+  followed_->offer(route_);
   layer_.emplace(supervisor::Supervisor::make(machine_, followed_->capability()).value());
 }
 
-LineChain::~LineChain() = default;
+void LineChain::restart() {
+  killed_ = false;
+  begin();
+}
 
 Link& LineChain::link() {
   return *side_->link;
@@ -177,7 +187,7 @@ Command LineChain::cycle(const Frame& frame) {
   side_->link->meet(wires);
   if (!killed_ && frame.time_s >= next_s_ - 1e-9) {
     next_s_ = frame.time_s + lines.cycle_s;
-    if (auto done = layer_->cycle(*followed_, {}); !done) {
+    if (auto done = layer_->cycle(*followed_, requests); !done) {
       ++faults_;
       last_fault_ = kernel::outcome::text(done.error());
     }

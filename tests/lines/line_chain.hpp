@@ -37,6 +37,7 @@ class BareLink final : public Link {
   kernel::outcome::Result<void> write(const adapters::lines::Levels& outputs) override;
   [[nodiscard]] std::uint64_t connections() const noexcept override { return connections_; }
 
+  bool dead = false;        ///< the module has lost its supply: all outputs are off
   bool cut = false;         ///< from any thread between two readings
   double watchdog_s = 0.0;  ///< outputs drop when they were not written for so long; 0: never
 
@@ -69,18 +70,24 @@ class LineChain {
   [[nodiscard]] supervisor::Supervisor& layer() { return *layer_; }
   [[nodiscard]] Link& link();
   [[nodiscard]] const Terminals& terminals() const;
-  /// The layer does not run from here on.
+  /// What is asked for beside the rooms' own requests.
+  supervisor::Supervisor::Requests requests;
+  /// The layer's process does not run from here on; the wires stay as they are.
   void kill() { killed_ = true; }
+  /// Another process begins.
+  void restart();
   [[nodiscard]] std::uint64_t faults() const { return faults_; }
   [[nodiscard]] const std::string& last_fault() const { return last_fault_; }
   [[nodiscard]] std::uint64_t on_path() const { return on_path_; }
 
  private:
   struct Side;
+  void begin();
 
   kernel::machine::Machine machine_;
   std::unique_ptr<Side> side_;
   std::unique_ptr<adapters::lines::LinesPort> port_;
+  std::shared_ptr<const nc::follow::Route> route_;
   std::unique_ptr<live::CommandedPort> commanded_;
   std::unique_ptr<live::FollowedPort> followed_;
   std::optional<supervisor::Supervisor> layer_;
