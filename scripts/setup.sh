@@ -18,7 +18,7 @@ if [ "${1:-}" = --linuxcnc ]; then
   packages="$packages python3 linuxcnc-uspace linuxcnc-uspace-dev"
 elif [ "${1:-}" = --test ]; then
   packages="$packages
-    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 python3-pymodbus chromium linuxcnc-uspace linuxcnc-uspace-dev
+    clang-19 clang-format-19 clang-tidy-19 libclang-rt-19-dev python3 python3-pymodbus python3-serial-asyncio chromium linuxcnc-uspace linuxcnc-uspace-dev
   "
 fi
 

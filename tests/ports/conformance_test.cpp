@@ -287,6 +287,7 @@ TEST_P(PortConformance, AllocatesNothingInTheCycle) {
 INSTANTIATE_TEST_SUITE_P(
     Every, PortConformance,
     testing::Values(PortCase{"fake", fake},                                       //
+                    PortCase{"lines", on_lines},                                  //
                     PortCase{"linuxcnc", on_linuxcnc},                            //
                     PortCase{"linuxcnc_with_offsets", on_linuxcnc_with_offsets},  //
                     PortCase{"replay", replayed},                                 //

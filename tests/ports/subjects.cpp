@@ -4,8 +4,10 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <tests/lines/line_chain.hpp>
 #include <tests/ports/fake_port.hpp>
 #include <tests/ports/hal_mill.hpp>
+#include <tests/ports/lines_mill.hpp>
 #include <tests/ports/subject.hpp>
 
 #include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
@@ -140,6 +142,10 @@ Subject on_linuxcnc(const std::vector<Turn>& turns) {
 
 Subject on_linuxcnc_with_offsets(const std::vector<Turn>& turns) {
   return linuxcnc(turns, true);
+}
+
+Subject on_lines(const std::vector<Turn>& turns) {
+  return LinesMill::subject(test::lines::wired_840d(0.0), turns);
 }
 
 Subject fake(const std::vector<Turn>& turns) {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+namespace steadyrest::adapters::lines::testing {
+
+/// What hangs on the lines, in the test's hands.
+struct Held {
+  Levels inputs;
+  Levels outputs;
+  std::vector<Levels> written;
+  Levels stuck_on;  ///< outputs that stay on
+  bool cut = false;
+  std::uint64_t connections = 1;
+};
+
+class HeldWires final : public Wires {
+ public:
+  explicit HeldWires(Held& held) : held_(held) {}
+
+  kernel::outcome::Result<void> read(Levels& inputs, Levels& outputs) override {
+    if (held_.cut) {
+      return kernel::outcome::unavailable("the link is cut", "mend it");
+    }
+    inputs = held_.inputs;
+    outputs = held_.outputs;
+    return {};
+  }
+  kernel::outcome::Result<void> write(const Levels& outputs) override {
+    if (held_.cut) {
+      return kernel::outcome::unavailable("the link is cut", "mend it");
+    }
+    held_.outputs = outputs | held_.stuck_on;
+    held_.written.push_back(outputs);
+    return {};
+  }
+  [[nodiscard]] std::uint64_t connections() const noexcept override { return held_.connections; }
+
+ private:
+  Held& held_;
+};
+
+}  // namespace steadyrest::adapters::lines::testing

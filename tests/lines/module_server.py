@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An I/O module for tests: pymodbus answers the Modbus side, the test is what its terminals are wired to.
+
+  module_server.py tcp            on a free port of 127.0.0.1
+  module_server.py serial DEVICE  RTU
+
+Prints `ready PORT` (serial: `ready 0`). Then one line in, one line out:
+  INPUTS NOW    levels of the inputs as a hexadecimal number, the machine's time in seconds
+  → OUTPUTS N   levels of the outputs likewise, and how many times they were written
+  watchdog S    the outputs drop when they were not written for S seconds of the machine's time
+  stick LINE L  output LINE stays at level L whatever is written
+  hang          answers no Modbus request any more
+"""
+import asyncio
+import sys
+
+from pymodbus.datastore import ModbusSequentialDataBlock, ModbusServerContext, ModbusSlaveContext
+from pymodbus.server import StartAsyncSerialServer, StartAsyncTcpServer
+from pymodbus.transaction import ModbusRtuFramer
+
+LINES = 64
+
+
+class Terminals:
+    """Levels of all lines, in the machine's time."""
+
+    def __init__(self):
+        self.inputs = 0
+        self.outputs = 0
+        self.written = 0
+        self.now = 0.0
+        self.last = 0.0
+        self.watchdog = 0.0
+        self.stuck = {}
+        self.hangs = False
+
+    def write(self, first, levels):
+        for i, level in enumerate(levels):
+            bit = 1 << (first + i)
+            self.outputs = self.outputs | bit if level else self.outputs & ~bit
+        self.written += 1
+        self.last = self.now
+        self.hold()
+
+    def hold(self):
+        for line, level in self.stuck.items():
+            self.outputs = self.outputs | 1 << line if level else self.outputs & ~(1 << line)
+
+    def tick(self, inputs, now):
+        self.inputs = inputs
+        self.now = now
+        if self.watchdog > 0 and now - self.last > self.watchdog:
+            self.outputs = 0
+            self.hold()
+
+
+class Block(ModbusSequentialDataBlock):
+    """Lines as bits (`width` 1) or as registers (16); `out` can be written."""
+
+    def __init__(self, terminals, width, out):
+        super().__init__(0, [0] * LINES)
+        self.terminals = terminals
+        self.width = width
+        self.out = out
+
+    def validate(self, address, count=1):
+        return 0 <= address and (address + count) * self.width <= LINES
+
+    def getValues(self, address, count=1):
+        word = self.terminals.outputs if self.out else self.terminals.inputs
+        return [word >> (self.width * (address + i)) & ((1 << self.width) - 1) for i in range(count)]
+
+    def setValues(self, address, values):
+        levels = [bool(value >> bit & 1) for value in values for bit in range(self.width)]
+        self.terminals.write(self.width * address, levels)
+
+
+class Registers(Block):
+    """Output registers, with registers of its own from 4384 on, as the watchdog of some modules."""
+
+    def __init__(self, terminals):
+        super().__init__(terminals, 16, True)
+        self.own = {}
+
+    def validate(self, address, count=1):
+        return address >= 4384 or super().validate(address, count)
+
+    def getValues(self, address, count=1):
+        if address < 4384:
+            return super().getValues(address, count)
+        return [self.own.get(address + i, 0) for i in range(count)]
+
+    def setValues(self, address, values):
+        if address < 4384:
+            super().setValues(address, values)
+            return
+        for i, value in enumerate(values):
+            # 4386 can be read only, as registers are while a watchdog runs.
+            if address + i != 4386:
+                self.own[address + i] = value
+        self.terminals.watchdog = self.own.get(4384, 0) / 1000.0
+
+
+def answer(terminals, words):
+    if words[0] == "watchdog":
+        terminals.watchdog = float(words[1])
+    elif words[0] == "stick":
+        terminals.stuck[int(words[1])] = int(words[2])
+        terminals.hold()
+    elif words[0] == "hang":
+        terminals.hangs = True
+    else:
+        terminals.tick(int(words[0], 16), float(words[1]))
+    return f"{terminals.outputs:x} {terminals.written}"
+
+
+def hanging(terminals):
+    """No answer goes out while the module hangs."""
+
+    def manipulate(response):
+        if terminals.hangs:
+            response.should_respond = False
+        return response, False
+
+    return manipulate
+
+
+async def main():
+    terminals = Terminals()
+    slave = ModbusSlaveContext(
+        di=Block(terminals, 1, False),
+        co=Block(terminals, 1, True),
+        ir=Block(terminals, 16, False),
+        hr=Registers(terminals),
+        zero_mode=True,
+    )
+    context = ModbusServerContext(slaves=slave, single=True)
+    if sys.argv[1] == "tcp":
+        server = await StartAsyncTcpServer(
+            context=context,
+            address=("127.0.0.1", 0),
+            defer_start=True,
+            allow_reuse_address=True,
+            response_manipulator=hanging(terminals),
+        )
+        asyncio.ensure_future(server.serve_forever())
+        await server.serving
+        port = server.server.sockets[0].getsockname()[1]
+    else:
+        server = await StartAsyncSerialServer(
+            context=context,
+            framer=ModbusRtuFramer,
+            port=sys.argv[2],
+            baudrate=115200,
+            defer_start=True,
+            response_manipulator=hanging(terminals),
+        )
+        await server.start()
+        port = 0
+    print(f"ready {port}", flush=True)
+    reader = asyncio.StreamReader()
+    loop = asyncio.get_running_loop()
+    await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), sys.stdin)
+    while line := await reader.readline():
+        sys.stdout.write(answer(terminals, line.decode().split()) + "\n")
+        sys.stdout.flush()
+
+
+asyncio.run(main())
