@@ -172,19 +172,20 @@ void Rig::advance(const std::function<void()>& each) {
   server.push(control);
 }
 
-void Rig::deliver() {
+bool Rig::deliver() {
   auto order = server.order();
-  if (order != last_order_) {
-    last_order_ = order;
-    control.write(server.order_node(), order);
+  if (order == last_order_) {
+    return false;
   }
+  last_order_ = order;
+  control.write(server.order_node(), order);
+  return true;
 }
 
 bool Rig::write(const kernel::signal::Command& command, double wait_s) {
   const auto before = last_order_;
-  if (!port->write(command)) {
-    return false;
-  }
+  // A refusal is of an earlier order; this one is on its way.
+  static_cast<void>(port->write(command));
   kernel::link::Event pause;
   const double until_s = kernel::link::monotonic_s() + wait_s;
   for (;;) {

@@ -52,8 +52,8 @@ class Rig {
   /// The control goes on for one cycle of the layer, and the server shows where it is. `each`: after
   /// every interpolator period.
   void advance(const std::function<void()>& each = {});
-  /// The newest order on the server goes to the control.
-  void deliver();
+  /// The newest order on the server goes to the control; false: it has it already.
+  bool deliver();
   /// Hands over, waits until the server has it (at most `wait_s`), and delivers it.
   bool write(const kernel::signal::Command& command, double wait_s = 2.0);
   /// Until the port has a frame, at most 30 s of the computer's time.

@@ -137,14 +137,14 @@ struct OpcUa {
   OpcUaSecurity security = OpcUaSecurity::sign_and_encrypt;
   std::string certificates;  ///< folder; empty: the user's state folder
   std::string mapping;       ///< file
-  double cycle_s = 0.04;     ///< the layer reads and writes this often
-  double reply_s = 1.0;      ///< longest wait for the control's answer
+  double cycle_s = 0.02;     ///< the layer reads and writes this often
+  double reply_s = 0.5;      ///< longest wait for the control's answer
   std::uint32_t channel = 1;
   std::uint32_t first_sample = 700;  ///< R parameters that the control's side fills
   std::uint32_t first_order = 760;   ///< R parameters that the layer writes
   std::uint32_t first_work = 780;    ///< R parameters that the control's side works with
   std::uint32_t first_action = 101;  ///< number of its first synchronized action
-  double dead_man_s = 0.3;           ///< without a new heartbeat the control's side hands back
+  double dead_man_s = 0.2;           ///< without a new heartbeat the control's side hands back
   double hand_back_1_s = 2.0;        ///< the feed rises by no more, in the control itself
   std::string spindle = "S1";        ///< as the control calls it
   std::string machine_axes;          ///< names of the machine axes, X1 Y1 …; empty: those
