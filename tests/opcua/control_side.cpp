@@ -54,9 +54,9 @@ ControlSide::ControlSide(const Config& config)
       delay_s_(config.order_delay_s),
       program_(config.program),
       text_(adapters::opcua::control_texts(config.machine).value().front().text),
+      planned_(config.path),
       body_(body_of(config)),
-      interpolator_(nc::plan::Interpolator::make(config.machine, nc::plan::whole(*config.path)).value()),
-      path_(config.path->segments) {
+      interpolator_(nc::plan::Interpolator::make(config.machine, nc::plan::whole(*planned_)).value()) {
   text_.start(*this);
   frame_ = body_.frame();
   step();
@@ -122,7 +122,6 @@ void ControlSide::write(const std::string& name, double value) {
 }
 
 void ControlSide::step() {
-  const double period_s = machine_.control.interpolator_period_s;
   while (!due_.empty() && due_.front().time_s <= frame_.time_s + 1e-9) {
     for (std::size_t i = 0; i < due_.front().values.size(); ++i) {
       r(due_.front().first + static_cast<int>(i)) = due_.front().values[i];
@@ -141,8 +140,7 @@ void ControlSide::step() {
   overrides.feed_ratio = panel_ * ovr_;
   body_.end(interpolator_.update(overrides));
   frame_ = body_.frame();
-  frame_.path = path_;
-  static_cast<void>(period_s);
+  frame_.path = planned_->segments;
 }
 
 bool ControlSide::range_of(const std::string& node, Range& out) {

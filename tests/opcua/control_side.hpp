@@ -80,16 +80,15 @@ class ControlSide final : public Variables {
   double delay_s_;
   std::string program_;
   SyncActions text_;
+  std::shared_ptr<const nc::plan::PlannedPath> planned_;
   sim::MachineBody body_;
   nc::plan::Interpolator interpolator_;
-  kernel::signal::PathView path_;
   std::vector<double> r_ = std::vector<double>(1000, 0.0);
   std::deque<Due> due_;
   double panel_ = 1.0;
   double spindle_panel_ = 1.0;
   double ovr_ = 1.0;          ///< $AC_OVR of the last cycle
   double spindle_ovr_ = 1.0;  ///< $AA_OVR[S1]
-  bool written_ovr_ = false;
   kernel::signal::AxisValues offset_{};
   std::uint64_t beats_ = 0;
   kernel::signal::Frame frame_;
