@@ -7,8 +7,8 @@
 
 #include <steadyrest/adapters/lines/lines_port.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/live/commanded_port.hpp>
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/path/commanded_port.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 

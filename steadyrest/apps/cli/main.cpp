@@ -13,6 +13,7 @@
 #include <steadyrest/apps/cli/chatter/verb_chatter_simulate.hpp>
 #include <steadyrest/apps/cli/cut/verb_contour_limit.hpp>
 #include <steadyrest/apps/cli/cut/verb_cut.hpp>
+#include <steadyrest/apps/cli/lines/verb_lines_test.hpp>
 #include <steadyrest/apps/cli/linuxcnc/verb_linuxcnc_setup.hpp>
 #include <steadyrest/apps/cli/linuxcnc/verb_machine_from_linuxcnc.hpp>
 #include <steadyrest/apps/cli/live/verb_mode.hpp>
@@ -91,6 +92,11 @@ constexpr Entry kVerbs[] = {
      "Fit servo gain and feed-forward of each axis to a record, and put them into the machine file",
      add_verb_machine_from_log,
      {"examples/logs/servo-test.csv --machine examples/machines/vmc-840d.toml -o fitted.toml"}},
+    {"lines", "Override lines between panel and control"},
+    {"lines test",
+     "Test the wiring of the override lines: list the levels, watch the switches, walk the words",
+     add_verb_lines_test,
+     {"--machine examples/machines/mill-802d.toml --list"}},
     {"linuxcnc", "LinuxCNC configurations"},
     {"linuxcnc setup",
      "Put the layer into a LinuxCNC configuration, or take it out",

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/live/test/desk.hpp>
 
 namespace steadyrest::live {

@@ -11,7 +11,7 @@
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
 #include <steadyrest/live/test/desk.hpp>
 
 namespace steadyrest::live {

@@ -4,8 +4,7 @@
 #include <limits>
 
 #include <steadyrest/kernel/units/constants.hpp>
-#include <steadyrest/math/geometry/foot_point.hpp>
-#include <steadyrest/math/geometry/segment.hpp>
+#include <steadyrest/nc/follow/nearest_place.hpp>
 #include <steadyrest/nc/follow/path_locator.hpp>
 
 // A search looks at the segments of the control's line, some in each cycle, and keeps every place
@@ -33,44 +32,11 @@ constexpr double kConfirm_mm = 0.1;    ///< on the way since it was found
 constexpr double kWrongLine_mm = 5.0;
 /// A segment that follows from the start is found only this near to it.
 constexpr double kBegin_mm = 5.0;
-constexpr double kOffPath_mm = 20.0;    ///< no rounded corner is longer
-constexpr double kPreference = 0.01;    ///< of the expected place among equally near ones
-constexpr double kRotaryWeight = 10.0;  ///< mm for a radian
+constexpr double kOffPath_mm = 20.0;  ///< no rounded corner is longer
+constexpr double kPreference = 0.01;  ///< of the expected place among equally near ones
 constexpr double kSame_mm = 1e-6;
 constexpr double kLongestGap_s = 0.5;
 constexpr std::uint32_t kAnyLine = 1;
-
-struct Nearest {
-  double position_mm = 0.0;
-  double away_mm = std::numeric_limits<double>::infinity();
-};
-
-Point linear(const kernel::signal::AxisValues& point) noexcept {
-  return {point[0], point[1], point[2]};
-}
-
-/// Distance of the axes beyond the third at u, as a length.
-double others_away(const PathSegment& segment, const kernel::signal::AxisValues& point,
-                   double u) noexcept {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < segment.other_start.size(); ++i) {
-    const double there = std::lerp(segment.other_start[i], segment.other_end[i], u);
-    sum += std::pow(kRotaryWeight * (point[i + 3] - there), 2);
-  }
-  return std::sqrt(sum);
-}
-
-/// The place of the other axes on a segment that moves them alone.
-double u_of_others(const PathSegment& segment, const kernel::signal::AxisValues& point) noexcept {
-  double along = 0.0;
-  double length = 0.0;
-  for (std::size_t i = 0; i < segment.other_start.size(); ++i) {
-    const double step = segment.other_end[i] - segment.other_start[i];
-    along += step * (point[i + 3] - segment.other_start[i]);
-    length += step * step;
-  }
-  return length > 0.0 ? along / length : 0.0;
-}
 
 bool is_finite(const kernel::signal::Frame& frame) noexcept {
   bool finite = std::isfinite(frame.time_s) && std::isfinite(frame.path_speed_mm_s) &&
@@ -92,21 +58,6 @@ kernel::signal::AxisValues point_of(const kernel::signal::Frame& frame) noexcept
     point[i] = frame.axis[i].command_mm - frame.axis[i].offset_mm;
   }
   return point;
-}
-
-/// The nearest place of a segment between two distances from its start.
-Nearest nearest(const PathSegment& segment, const kernel::signal::AxisValues& point, double low_mm,
-                double high_mm, double expected_mm) noexcept {
-  namespace geometry = math::geometry;
-  const double u_low = geometry::parameter_at(segment, low_mm);
-  const double u_high = geometry::parameter_at(segment, high_mm);
-  const double u_near = geometry::parameter_at(segment, expected_mm);
-  geometry::Foot foot = geometry::foot_point(segment, linear(point), u_low, u_high, u_near);
-  if (geometry::arc_length_mm(segment) < kSame_mm) {
-    foot.u = std::clamp(u_of_others(segment, point), u_low, u_high);
-  }
-  return {.position_mm = segment.position_mm + geometry::distance_at(segment, foot.u),
-          .away_mm = std::hypot(foot.distance_mm, others_away(segment, point, foot.u))};
 }
 
 }  // namespace

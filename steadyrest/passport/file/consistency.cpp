@@ -111,10 +111,10 @@ void envelope(const Machine& machine, List& out) {
     out.push_back({Severity::error, "envelope", "[envelope] does not allow 100 % spindle speed",
                    "let min_spindle_percent … max_spindle_percent contain 100"});
   }
-  if (envelope.stale_after_s < machine.control.interpolator_period_s) {
+  if (envelope.stale_after_s < layer_cycle_s(machine)) {
     out.push_back(
         {Severity::error, "stale",
-         "stale_after_ms is shorter than one interpolator period: every input would be stale",
+         "stale_after_ms is shorter than one cycle of the layer: every input would be stale",
          "set stale_after_ms to several periods"});
   }
 }
@@ -134,6 +134,34 @@ void chatter(const Machine& machine, List& out) {
                    "[chatter] is enabled, but the spindle override has fewer than two steps within "
                    "[envelope]",
                    "give [override.spindle], or set enabled = false in [chatter]"});
+  }
+}
+
+/// What would leave a dead layer's word in force, or the layer blind.
+void lines(const Machine& machine, List& out) {
+  const auto& of = machine.lines;
+  if (machine.port != kernel::machine::PortKind::lines) {
+    return;
+  }
+  const bool beats = of.heartbeat != kernel::machine::kNoLine;
+  if (of.wiring == kernel::machine::Wiring::relay && !beats && of.watchdog_s <= 0.0) {
+    out.push_back({Severity::error, "lines",
+                   "wiring = \"relay\" with neither an output watchdog nor a heartbeat: a dead "
+                   "layer would keep the relays in",
+                   "set watchdog_ms of a module that has one, or wire heartbeat to a relay that "
+                   "watches its edges"});
+  }
+  if (of.wiring == kernel::machine::Wiring::plc &&
+      of.cycle_s < 2.0 * machine.feed_override.scan_period_s) {
+    out.push_back({Severity::warning, "lines",
+                   "cycle_ms is shorter than two scans of the PLC, which may miss the heartbeat's "
+                   "edges",
+                   "set cycle_ms to twice the longest scan, or more"});
+  }
+  if (machine.contour.enabled && machine.recorder.device.empty()) {
+    out.push_back({Severity::error, "lines",
+                   "[contour] is enabled, but without [recorder] the lines show no positions",
+                   "add [recorder], or set enabled = false in [contour]"});
   }
 }
 
@@ -160,6 +188,7 @@ std::vector<Finding> findings(const Machine& machine) {
   envelope(machine, out);
   chatter(machine, out);
   tempo(machine, out);
+  lines(machine, out);
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <steadyrest/apps/cli/cut/cut_chatter.hpp>
-#include <steadyrest/apps/cli/live/live_port.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
 #include <steadyrest/apps/cli/shared/progress.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/apps/live_page/desk.hpp>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include <steadyrest/apps/cli/live/live_port.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/live/loop.hpp>
 #include <steadyrest/record/record_writer.hpp>

@@ -13,8 +13,6 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/apps/cli/live/live_port.hpp>
-#include <steadyrest/apps/cli/live/lossy_port.hpp>
 #include <steadyrest/apps/cli/live/machine_reload.hpp>
 #include <steadyrest/apps/cli/live/run_chatter.hpp>
 #include <steadyrest/apps/cli/live/run_page.hpp>
@@ -23,6 +21,8 @@
 #include <steadyrest/apps/cli/live/socket_option.hpp>
 #include <steadyrest/apps/cli/live/verb_run.hpp>
 #include <steadyrest/apps/cli/machine/start_checks.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
+#include <steadyrest/apps/cli/ports/lossy_port.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/live/control_socket.hpp>

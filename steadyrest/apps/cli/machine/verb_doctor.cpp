@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include <steadyrest/apps/cli/machine/start_checks.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
+#include <steadyrest/apps/cli/ports/lines_live.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -141,7 +143,10 @@ Outcome run(const std::string& path, Progress& progress) {
   if (!machine) {
     return report_refused(std::move(machine.error()));
   }
-  const Measured measured = measure(*machine, progress);
+  Measured measured = measure(*machine, progress);
+  if (machine->port == kernel::machine::PortKind::lines) {
+    std::ranges::move(live::lines_findings(*machine), std::back_inserter(measured.findings));
+  }
   return report(*machine, measured, examine(*machine, measured.findings));
 }
 

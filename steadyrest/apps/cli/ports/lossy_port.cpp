@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <steadyrest/apps/cli/live/lossy_port.hpp>
+#include <steadyrest/apps/cli/ports/lossy_port.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::apps::cli::live {

@@ -7,8 +7,8 @@
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/linuxcnc/config/machine_differences.hpp>
-#include <steadyrest/apps/cli/live/linuxcnc_control.hpp>
-#include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_control.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_live.hpp>
 
 namespace steadyrest::apps::cli::live {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 
 namespace steadyrest::live {

@@ -4,8 +4,8 @@
 #include <expected>
 
 #include <steadyrest/adapters/linuxcnc/control_state.hpp>
-#include <steadyrest/apps/cli/live/live_port.hpp>
-#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
 
 namespace steadyrest::apps::cli::live {
 

@@ -12,7 +12,7 @@
 #include <steadyrest/adapters/linuxcnc/control_peer.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
-#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
 
 namespace steadyrest::apps::cli::live {

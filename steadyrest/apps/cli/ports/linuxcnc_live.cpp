@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include <steadyrest/adapters/linuxcnc/hal_process.hpp>
 #include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
-#include <steadyrest/apps/cli/live/linuxcnc_control.hpp>
-#include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_control.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_live.hpp>
+#include <steadyrest/apps/cli/ports/program_place.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 
 // Beside the port runs a process that reads LinuxCNC's status, and a thread that plans the program
 // it has loaded.
@@ -26,30 +25,6 @@ struct Beside {
   std::unique_ptr<adapter::HalProcess> hal;
   std::unique_ptr<adapter::LinuxCncPort> port;
 };
-
-Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
-  struct Words {
-    std::string_view place;
-    std::string_view why;  ///< there is no place on the path; empty: not needed
-  };
-  constexpr std::array<Words, 6> kPlaces = {
-      {{"no_route", ""},
-       {"no_program", ""},
-       {"searching",
-        "the commanded point is not on the program's path here, or in several places of it"},
-       {"off_path", "the control rounds a corner otherwise than planned"},
-       {"on_path", ""},
-       {"start_unseen",
-        "the path follows from where the axes stood when the program began, and that was not seen; "
-        "begin it again from its first line"}}};
-  const ProgramWatch::Status status = watch.status();
-  const Words& place = kPlaces[static_cast<std::size_t>(port.place())];
-  const std::string words = status.words.empty() ? std::string(place.why) : status.words;
-  return {{"file", status.file},
-          {"segments", status.segments},
-          {"place", place.place},
-          {"words", words.empty() ? Json(nullptr) : Json(words)}};
-}
 
 Json stalls_json(const adapter::LinuxCncPort& port) {
   return {{"lost", port.missed()}, {"passed_over", port.skipped()}, {"rearmed", port.rearmed()}};

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include <steadyrest/live/commanded_port.hpp>
+#include <steadyrest/live/path/commanded_port.hpp>
 
 namespace steadyrest::live {
 

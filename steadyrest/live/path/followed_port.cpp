@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 
 // The cycle says which route it looks at before it looks; a route is freed when it is neither that

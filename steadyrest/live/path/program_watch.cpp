@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 
 namespace steadyrest::live {

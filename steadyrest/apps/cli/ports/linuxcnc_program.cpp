@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_live.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include <steadyrest/apps/cli/live/repeating_port.hpp>
+#include <steadyrest/apps/cli/ports/repeating_port.hpp>
 
 namespace steadyrest::apps::cli::live {
 

@@ -5,9 +5,10 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/cut/cut_plan.hpp>
-#include <steadyrest/apps/cli/live/linuxcnc_live.hpp>
-#include <steadyrest/apps/cli/live/live_port.hpp>
-#include <steadyrest/apps/cli/live/repeating_port.hpp>
+#include <steadyrest/apps/cli/ports/lines_live.hpp>
+#include <steadyrest/apps/cli/ports/linuxcnc_live.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
+#include <steadyrest/apps/cli/ports/repeating_port.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
@@ -73,9 +74,9 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
 }
 
 #if STEADYREST_HAS_LINUXCNC
-constexpr const char* kPorts = "sim, linuxcnc";
+constexpr const char* kPorts = "sim, linuxcnc, lines";
 #else
-constexpr const char* kPorts = "sim";
+constexpr const char* kPorts = "sim, lines";
 #endif
 
 }  // namespace
@@ -88,6 +89,9 @@ std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& mach
   if (of.repeats) {
     return refused(bad_input("--repeat is for the simulated machine",
                              "leave it out; a control repeats its program itself"));
+  }
+  if (machine.port == kernel::machine::PortKind::lines) {
+    return open_lines(machine, program);
   }
 #if STEADYREST_HAS_LINUXCNC
   if (machine.port == kernel::machine::PortKind::linuxcnc) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <steadyrest/adapters/lines/wire_diagnosis.hpp>
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Tests of the wiring, without a layer and with every mask off.
+namespace steadyrest::adapters::lines {
+
+/// One override walked through its table.
+struct Walk {
+  std::vector<WordPair> copy;    ///< as the module reads its outputs back
+  std::vector<WordPair> inputs;  ///< as the panel's inputs have them (jumpers)
+};
+
+/// Writes every word of the table, a neighbour after the other, with all masks off, and reads it
+/// back after `settle`. At the end the word is the first one again. Refused: the link.
+[[nodiscard]] kernel::outcome::Result<Walk> walk(Wires& wires, const kernel::machine::Lines& lines,
+                                                 const kernel::machine::OverrideWires& of,
+                                                 const kernel::machine::OverrideTable& table,
+                                                 const std::function<void()>& settle);
+
+/// The words that the operator's switch has shown, each where it differs from the one before it.
+class PanelWatch {
+ public:
+  explicit PanelWatch(std::size_t steps) : steps_(steps) {}
+
+  /// One reading. A word counts when two readings one after the other have shown it.
+  void see(std::uint32_t word);
+  [[nodiscard]] const std::vector<std::uint32_t>& words() const noexcept { return words_; }
+  /// As many words as the switch has positions have been seen, one after another.
+  [[nodiscard]] bool complete() const noexcept { return words_.size() == steps_; }
+
+ private:
+  std::size_t steps_;
+  std::vector<std::uint32_t> words_;
+  std::uint32_t last_ = 0;
+  bool started_ = false;
+};
+
+/// Table and words of a switch that was turned from its first position to its last; shorter of
+/// both.
+[[nodiscard]] std::vector<WordPair> paired(const kernel::machine::OverrideTable& table,
+                                           const std::vector<std::uint32_t>& words);
+
+}  // namespace steadyrest::adapters::lines

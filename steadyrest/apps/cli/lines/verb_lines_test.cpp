@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <steadyrest/adapters/lines/line_walk.hpp>
+#include <steadyrest/adapters/lines/wire_diagnosis.hpp>
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/apps/cli/lines/verb_lines_test.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+
+// Three tests, in the order in which a machine is wired: what is on which line (--list), the switch
+// (--panel), the outputs (the walk; with --jumpers all the way round). Every mask stays off.
+namespace steadyrest::apps::cli {
+namespace lines_test {
+namespace {
+
+namespace adapter = adapters::lines;
+using adapter::WordPair;
+using kernel::machine::Machine;
+using kernel::machine::OverrideTable;
+using kernel::machine::OverrideWires;
+
+constexpr double kSlowest_s = 0.02;  ///< a walk waits at least so long on each word
+constexpr double kPanelPause_s = 0.01;
+
+struct Options {
+  std::string machine;
+  bool list = false;
+  bool panel = false;
+  bool jumpers = false;
+  double for_s = 60.0;
+};
+
+/// One override that is wired.
+struct Wired {
+  const char* name;
+  const OverrideWires* wires;
+  const OverrideTable* table;
+};
+
+std::vector<Wired> wired(const Machine& machine) {
+  std::vector<Wired> all;
+  for (const Wired& one : {Wired{"feed", &machine.lines.feed, &machine.feed_override},
+                           Wired{"spindle", &machine.lines.spindle, &machine.spindle_override}}) {
+    if (!one.wires->out.empty()) {
+      all.push_back(one);
+    }
+  }
+  return all;
+}
+
+std::string binary(std::uint32_t word, std::size_t bits) {
+  return fmt::format("{:0{}b}", word, bits);
+}
+
+/// The levels on each line, position by position: what a multimeter must show.
+void list(const Wired& of, Answer& answer) {
+  const std::size_t bits = of.wires->panel.size();
+  Table table({"position", "%", "word", "inputs that are on", "outputs that are on"});
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < of.table->ratio.size(); ++i) {
+    const std::uint32_t code = of.table->code[i];
+    const auto on = [&](const std::vector<std::uint32_t>& lines, bool inverted) {
+      std::vector<std::uint32_t> which;
+      for (std::size_t bit = 0; bit < lines.size(); ++bit) {
+        if (((code >> bit & 1U) != 0) != inverted) {
+          which.push_back(lines[bit]);
+        }
+      }
+      return which;
+    };
+    const auto inputs = on(of.wires->panel, of.wires->panel_inverted);
+    const auto outputs = on(of.wires->out, of.wires->out_inverted);
+    table.row({fmt::format("{}", i + 1), fmt::format("{:g}", 100.0 * of.table->ratio[i]),
+               binary(code, bits), fmt::format("{}", fmt::join(inputs, " ")),
+               fmt::format("{}", fmt::join(outputs, " "))});
+    rows.push_back({{"percent", 100.0 * of.table->ratio[i]},
+                    {"code", code},
+                    {"inputs_on", inputs},
+                    {"outputs_on", outputs}});
+  }
+  answer.json[of.name] = {{"positions", rows}};
+  answer.text += fmt::format("[lines.{}]\n{}", of.name, table.text());
+}
+
+/// What is wrong with the wires of one way, as text and JSON. True: nothing.
+bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs, Answer& answer) {
+  const std::size_t bits = of.wires->panel.size();
+  const auto faults = adapter::diagnose(pairs, bits);
+  Json told = Json::array();
+  for (const auto& fault : faults) {
+    const bool out = std::string_view(way) == "outputs";
+    const auto& lines = out ? of.wires->out : of.wires->panel;
+    const std::string line = fmt::format("{} {}: {}", out ? "output" : "input", lines[fault.bit],
+                                         adapter::text_of(fault));
+    told.push_back(line);
+    answer.text += fmt::format("[lines.{}] {}: {}\n", of.name, way, line);
+  }
+  if (faults.empty()) {
+    answer.text +=
+        fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way, pairs.size());
+  }
+  Json words = Json::array();
+  for (const WordPair& pair : pairs) {
+    words.push_back({{"sent", pair.sent}, {"seen", pair.seen}});
+  }
+  answer.json[of.name][way] = {{"ok", faults.empty()}, {"faults", told}, {"words", words}};
+  return faults.empty();
+}
+
+void pause(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// Walks both words. Refused: the link.
+std::expected<bool, Refusals> walk_all(const Machine& machine, const Options& options,
+                                       adapter::Wires& wires, Progress& progress, Answer& answer) {
+  bool ok = true;
+  for (const Wired& of : wired(machine)) {
+    const double settle_s =
+        std::max({kSlowest_s, 2.0 * machine.lines.cycle_s, 2.0 * of.table->scan_period_s});
+    std::size_t done = 0;
+    const auto seen = adapter::walk(wires, machine.lines, *of.wires, *of.table, [&] {
+      progress.update(static_cast<double>(done++) / static_cast<double>(of.table->code.size() + 1),
+                      of.name);
+      pause(settle_s);
+    });
+    if (!seen) {
+      return refused(seen.error());
+    }
+    ok = judge(of, "outputs", seen->copy, answer) && ok;
+    if (options.jumpers) {
+      ok = judge(of, "inputs", seen->inputs, answer) && ok;
+    }
+  }
+  return ok;
+}
+
+/// Reads the switches until each has shown as many words as its table has.
+std::expected<bool, Refusals> watch_panel(const Machine& machine, const Options& options,
+                                          adapter::Wires& wires, Progress& progress,
+                                          Answer& answer) {
+  const auto all = wired(machine);
+  std::vector<adapter::PanelWatch> watches;
+  watches.reserve(all.size());
+  for (const Wired& of : all) {
+    watches.emplace_back(of.table->code.size());
+  }
+  const auto pauses = static_cast<int>(options.for_s / kPanelPause_s);
+  const auto complete = [](const adapter::PanelWatch& watch) { return watch.complete(); };
+  for (int i = 0; i < pauses && !std::ranges::all_of(watches, complete); ++i) {
+    adapter::Levels inputs;
+    adapter::Levels outputs;
+    if (auto read = wires.read(inputs, outputs); !read) {
+      return refused(read.error());
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      watches[k].see(adapter::word_of(inputs, all[k].wires->panel, all[k].wires->panel_inverted));
+    }
+    progress.update(static_cast<double>(i) / pauses, "turn each switch from its first position");
+    pause(kPanelPause_s);
+  }
+  bool ok = true;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& words = watches[k].words();
+    if (!watches[k].complete()) {
+      answer.text += fmt::format(
+          "[lines.{}] inputs: {} words were seen, the table has {}: turn the switch from its first "
+          "position to its last, or correct the table\n",
+          all[k].name, words.size(), all[k].table->code.size());
+      answer.json[all[k].name]["incomplete"] = true;
+      ok = false;
+    }
+    ok = judge(all[k], "inputs", adapter::paired(*all[k].table, words), answer) && ok;
+  }
+  return ok;
+}
+
+Outcome run(const Options& options, Progress& progress) {
+  auto machine = read_machine(options.machine);
+  if (!machine) {
+    return std::unexpected(machine.error());
+  }
+  if (wired(*machine).empty()) {
+    return refused(bad_input(machine->file, "there is no [lines] with the wires of an override",
+                             "add [lines] and [lines.feed] or [lines.spindle]"));
+  }
+  Answer answer;
+  if (options.list) {
+    for (const Wired& of : wired(*machine)) {
+      list(of, answer);
+    }
+    return answer;
+  }
+  if (machine->lines.wiring == kernel::machine::Wiring::through && !options.panel &&
+      !options.jumpers) {
+    return refused(bad_input(machine->file,
+                             "with wiring = \"through\" a walk would change the control's override",
+                             "take the control's plug off, put jumpers from the outputs to the "
+                             "inputs, and give --jumpers"));
+  }
+  auto wires = adapter::open_wires(machine->lines);
+  if (!wires) {
+    return refused(wires.error());
+  }
+  const auto ok = options.panel ? watch_panel(*machine, options, **wires, progress, answer)
+                                : walk_all(*machine, options, **wires, progress, answer);
+  progress.clear();
+  if (!ok) {
+    return std::unexpected(ok.error());
+  }
+  answer.json["ok"] = *ok;
+  answer.exit_code = *ok ? kDone : kFailed;
+  return answer;
+}
+
+}  // namespace
+}  // namespace lines_test
+
+void add_verb_lines_test(Session& session, Verb& verb) {
+  auto options = std::make_shared<lines_test::Options>();
+  add_machine_option(verb, options->machine);
+  auto* const list = verb.add_flag("--list", options->list,
+                                   "Only list the levels on each line at each position; touches "
+                                   "nothing");
+  auto* const panel =
+      verb.add_flag("--panel", options->panel,
+                    "Watch the inputs while you turn each switch from its first position to its "
+                    "last; writes nothing")
+          ->excludes(list);
+  verb.add_flag("--jumpers", options->jumpers,
+                "Outputs are joined to the panel's inputs: compare what comes back")
+      ->excludes(list)
+      ->excludes(panel);
+  verb.add_option("--for-s", options->for_s, "Longest time to watch the switches")
+      ->check(within(0.1, 3600.0))
+      ->capture_default_str();
+  session.on(verb, [options](Progress& progress) { return lines_test::run(*options, progress); });
+}
+
+}  // namespace steadyrest::apps::cli

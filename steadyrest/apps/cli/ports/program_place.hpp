@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
+
+namespace steadyrest::apps::cli::live {
+
+/// The key `program`: file, segments, and where on its path the control is.
+[[nodiscard]] Json program_json(const steadyrest::live::ProgramWatch& watch,
+                                const steadyrest::live::FollowedPort& port);
+
+}  // namespace steadyrest::apps::cli::live
