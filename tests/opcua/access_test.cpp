@@ -31,17 +31,29 @@ class Access : public testing::Test {
     control_ = new ControlSide({.machine = *of_, .path = circles(*of_)});
     server_ = new Server(*of_, *control_, {{"orders_read_only", true}});
     of_->opcua.endpoint = server_->endpoint();
+    trusting_ = new Machine(*of_);
+    give_state_folder(*trusting_);
+    trust(*trusting_);
   }
   static void TearDownTestSuite() {
     delete server_;
     delete control_;
     delete of_;
+    delete trusting_;
   }
 
   /// The same control, and certificates of its own.
   static Machine fresh() {
     Machine out = *of_;
     give_state_folder(out);
+    return out;
+  }
+  /// The same after `steadyrest opcua trust`.
+  static Machine trusting() {
+    Machine out = fresh();
+    std::filesystem::copy(trusting_->opcua.certificates, out.opcua.certificates,
+                          std::filesystem::copy_options::recursive |
+                              std::filesystem::copy_options::skip_existing);
     return out;
   }
   static std::string why_not(const Machine& of) {
@@ -67,10 +79,12 @@ class Access : public testing::Test {
   static Machine* of_;
   static ControlSide* control_;
   static Server* server_;
+  static Machine* trusting_;
 };
 Machine* Access::of_ = nullptr;
 ControlSide* Access::control_ = nullptr;
 Server* Access::server_ = nullptr;
+Machine* Access::trusting_ = nullptr;
 
 MATCHER_P(Says, part, "") {
   return arg.find(part) != std::string::npos;
@@ -92,8 +106,7 @@ TEST_F(Access, ACertificateThatNobodyTrustsIsRefusedUntilItsFingerprintIsGiven) 
 }
 
 TEST_F(Access, AnotherCertificateThanTheTrustedOneIsNamedAsSuch) {
-  const Machine of = fresh();
-  trust(of);
+  const Machine of = trusting();
   // As after a change of the control's: what was trusted is another one.
   const std::filesystem::path folder(of.opcua.certificates);
   std::filesystem::remove_all(folder / "controls");
@@ -103,15 +116,13 @@ TEST_F(Access, AnotherCertificateThanTheTrustedOneIsNamedAsSuch) {
 }
 
 TEST_F(Access, AWrongUserOrPasswordIsNamed) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   of.opcua.user = "nobody";
   EXPECT_THAT(why_not(of), Says("refuses the user or the password"));
 }
 
 TEST_F(Access, APasswordThatOthersMayReadIsRefused) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   std::filesystem::permissions(of.opcua.password_file, std::filesystem::perms::group_read,
                                std::filesystem::perm_options::add);
   EXPECT_THAT(why_not(of), Says("others may read the password file"));
@@ -120,8 +131,7 @@ TEST_F(Access, APasswordThatOthersMayReadIsRefused) {
 }
 
 TEST_F(Access, NoAnonymousUserAndNobodyWhoListens) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   of.opcua.user.clear();
   EXPECT_THAT(why_not(of), testing::Not(Says("connected")));
   of.opcua.endpoint = "opc.tcp://127.0.0.1:9";
@@ -129,8 +139,7 @@ TEST_F(Access, NoAnonymousUserAndNobodyWhoListens) {
 }
 
 TEST_F(Access, ReadOnlyOrdersUnknownNamesAndWrongTypesAreAllNamed) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   auto& reads = of.opcua.reads;
   const auto place = [&](kernel::machine::Quantity quantity) -> auto& {
     return *std::ranges::find(reads, quantity, &kernel::machine::OpcUaPlace::quantity);
@@ -148,15 +157,13 @@ TEST_F(Access, ReadOnlyOrdersUnknownNamesAndWrongTypesAreAllNamed) {
 }
 
 TEST_F(Access, AnotherNamespaceIsNamed) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   of.opcua.uri = "urn:another:control";
   EXPECT_THAT(why_not(of), Says("does not have the mapping's namespace"));
 }
 
 TEST_F(Access, HostileValuesAreNotKnownOrPassedOnAsTheyAre) {
-  Machine of = fresh();
-  trust(of);
+  Machine of = trusting();
   adapters::opcua::BridgeDevice device(client_config(of));
   adapters::opcua::Reading reading;
   const auto read = [&] {
@@ -193,10 +200,10 @@ TEST_F(Access, HostileValuesAreNotKnownOrPassedOnAsTheyAre) {
   server_->ask({{"do", "set"}, {"values", {{node, {1.0, 2.0}}}}});
   ASSERT_TRUE(device.read(reading));
   EXPECT_TRUE(std::isnan(reading(kernel::machine::Quantity::command_mm, 0)));
-  server_->ask({{"do", "status"}, {"id", node}, {"status", "BadCommunicationError"}});
+  server_->ask({{"do", "status"}, {"node", node}, {"status", "BadCommunicationError"}});
   ASSERT_TRUE(device.read(reading));
   EXPECT_TRUE(std::isnan(reading[kernel::machine::Quantity::time_s]));
-  server_->ask({{"do", "status"}, {"id", node}, {"status", "Good"}});
+  server_->ask({{"do", "status"}, {"node", node}, {"status", "Good"}});
   // The control's side does not run: its sample stays.
   server_->push(*control_);
   static_cast<void>(device.read(reading));

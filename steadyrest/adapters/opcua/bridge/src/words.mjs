@@ -17,7 +17,7 @@ const kByStatus = [
   [/BadCertificate|BadSecurityChecksFailed|BadApplicationSignatureInvalid|BadNonceInvalid/, "own_certificate_refused"],
   [/BadSecurityPolicyRejected|BadSecurityModeRejected|security mode|security policy/i, "security_not_offered"],
   [/ENOTFOUND|EAI_AGAIN/, "host_unknown"],
-  [/ECONNREFUSED/, "nobody_listens"],
+  [/ECONNREFUSED|cannot be established/, "nobody_listens"],
   [/EHOSTUNREACH|ENETUNREACH|ETIMEDOUT/, "no_way"],
   [/timeout|BadTimeout|BadRequestTimeout|BadConnectionClosed|Connection Break|ECONNRESET|EPIPE|socket/i, "link_lost"],
 ];

@@ -114,12 +114,12 @@ const kActs = {
     for (const [id, value] of Object.entries(values)) nodes.get(id).value = Array.isArray(value) ? value.map(real) : real(value);
     return {};
   },
-  type({ id, type, value }) {
-    Object.assign(nodes.get(id), { type: DataType[type], value });
+  type({ node, type, value }) {
+    Object.assign(nodes.get(node), { type: DataType[type], value });
     return {};
   },
-  status({ id, status }) {
-    nodes.get(id).status = StatusCodes[status];
+  status({ node, status }) {
+    nodes.get(node).status = StatusCodes[status];
     return {};
   },
   get({ ids }) {
