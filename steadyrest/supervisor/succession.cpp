@@ -44,6 +44,9 @@ std::string misfit(const Machine& running, const Machine& wanted) {
   if (wanted.lines != running.lines || wanted.recorder != running.recorder) {
     return "[lines] or [recorder] differs";
   }
+  if (wanted.opcua != running.opcua) {
+    return "[opcua] differs";
+  }
   if (wanted.envelope.stale_after_s != running.envelope.stale_after_s) {
     return "[envelope] stale_after_ms differs";
   }

@@ -290,6 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
                     PortCase{"lines", on_lines},                                  //
                     PortCase{"linuxcnc", on_linuxcnc},                            //
                     PortCase{"linuxcnc_with_offsets", on_linuxcnc_with_offsets},  //
+                    PortCase{"opcua", on_opcua},                                  //
                     PortCase{"replay", replayed},                                 //
                     PortCase{"sim", simulated},                                   //
                     PortCase{"sim_without_offsets", simulated_without_offsets}),

@@ -46,6 +46,8 @@ inline void PrintTo(const PortCase& port, std::ostream* out) {
 [[nodiscard]] Subject replayed(const std::vector<Turn>& turns);
 [[nodiscard]] Subject on_linuxcnc(const std::vector<Turn>& turns);
 [[nodiscard]] Subject on_linuxcnc_with_offsets(const std::vector<Turn>& turns);
+/// Behind an OPC UA server, with the shipped synchronized actions in the control.
+[[nodiscard]] Subject on_opcua(const std::vector<Turn>& turns);
 /// Behind override lines, wiring `plc`.
 [[nodiscard]] Subject on_lines(const std::vector<Turn>& turns);
 [[nodiscard]] Subject fake(const std::vector<Turn>& turns);

@@ -12,6 +12,7 @@
 #include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/machine/envelope.hpp>
 #include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>
 #include <steadyrest/kernel/machine/spindle.hpp>
@@ -46,12 +47,14 @@ struct Machine {
   Simulation simulation;
   Lines lines;        ///< of the port `lines`
   Recorder recorder;  ///< of the port `lines`
+  OpcUa opcua;  ///< of the port `opcua`
 };
 
 /// Time between two cycles of the layer: the interpolator's period, or how often the port is read.
 [[nodiscard]] inline double layer_cycle_s(const Machine& machine) noexcept {
-  return machine.port == PortKind::lines ? machine.lines.cycle_s
-                                         : machine.control.interpolator_period_s;
+  return machine.port == PortKind::lines   ? machine.lines.cycle_s
+         : machine.port == PortKind::opcua ? machine.opcua.cycle_s
+                                           : machine.control.interpolator_period_s;
 }
 
 }  // namespace steadyrest::kernel::machine

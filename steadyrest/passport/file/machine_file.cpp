@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/signal/path.hpp>
 #include <steadyrest/passport/file/contradictions.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
+#include <steadyrest/passport/file/opcua_section.hpp>
 #include <steadyrest/passport/file/override_table.hpp>
 #include <steadyrest/passport/file/port_sections.hpp>
 #include <steadyrest/passport/file/thermal_section.hpp>
@@ -54,7 +55,8 @@ class FileReader {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
     top.read(root, machine_,
              {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
-              "thermal", "envelope", "simulation", "lines", "recorder"});
+              "thermal", "envelope", "simulation", "lines", "recorder",
+              "opcua"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
     axes(root);
     overrides(root);
@@ -66,6 +68,7 @@ class FileReader {
     section<Envelope>(root, "envelope", envelope_keys(), machine_.envelope, contradictions);
     simulation(root);
     read_ports(root, machine_, faults_);
+    read_opcua(root, machine_, faults_);
     return machine_;
   }
 

@@ -178,6 +178,10 @@ std::string reference_page() {
                  "\nEncoders read by a recorder, for `port = \"lines\"`; "
                  "[its protocol](../steadyrest/adapters/lines/README.md).\n",
                  recorder_keys());
+  out += section("`[opcua]`",
+                 "\nA control behind its OPC UA server, for `port = \"opcua\"`; "
+                 "[how it is connected](opcua.md).\n",
+                 opcua_keys());
   return out;
 }
 

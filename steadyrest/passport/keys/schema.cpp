@@ -25,7 +25,7 @@ using std::string_view;
 
 constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "lines", "opcua", "replay"};
 /// Those with an adapter; a file with another one is refused.
-constexpr auto kBuiltPorts = std::span(kPorts).first<3>();
+constexpr auto kBuiltPorts = std::span(kPorts).first<4>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
 

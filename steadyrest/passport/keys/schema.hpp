@@ -60,6 +60,17 @@ struct OverrideKeys {
   double max_ratio = 2.0;
 };
 
+/// One [[read]] or [[write]] of a mapping file as written.
+struct MappingEntry {
+  std::string quantity;
+  std::string node;
+  std::int64_t index = 0;
+  std::uint32_t step = 0;
+  std::uint32_t length = 0;
+  double scale = 1.0;
+  double offset = 0.0;
+};
+
 [[nodiscard]] std::span<const Key<kernel::machine::Machine>> top_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Control>> control_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Axis>> axis_keys() noexcept;
@@ -81,6 +92,8 @@ inline constexpr std::size_t kMaxLineTable = 1U << 20U;
 [[nodiscard]] std::span<const Key<kernel::machine::Lines>> lines_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::OverrideWires>> wires_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Recorder>> recorder_keys() noexcept;
+[[nodiscard]] std::span<const Key<kernel::machine::OpcUa>> opcua_keys() noexcept;
+[[nodiscard]] std::span<const Key<MappingEntry>> mapping_keys() noexcept;
 
 /// The dialect that a method belongs to; `own` if the method is by_dialect.
 [[nodiscard]] kernel::machine::Dialect dialect_of(kernel::machine::CompensationMethod method,

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include <steadyrest/adapters/opcua/bridge_client.hpp>
+#include <steadyrest/adapters/opcua/node_plan.hpp>
+#include <steadyrest/adapters/opcua/reading.hpp>
+#include <steadyrest/kernel/link/exchange.hpp>
+
+namespace steadyrest::adapters::opcua {
+
+/// The control behind the bridge, for the thread of an exchange.
+///
+/// A block that is torn (its first and last number differ) is read again at once, three times at
+/// most; one that is the last one's again after 2 ms, five times at most.
+class BridgeDevice final : public kernel::link::Device<Reading, Order> {
+ public:
+  explicit BridgeDevice(BridgeClient::Config config)
+      : plan_(config.machine),
+        patience_s_(config.machine.reply_s),
+        config_(config.machine),
+        client_(std::move(config), plan_) {}
+
+  kernel::outcome::Result<void> read(Reading& sample) override;
+  kernel::outcome::Result<void> write(const Order& order) override;
+
+  /// From any thread: bridges started, and the newest one's process.
+  [[nodiscard]] std::uint64_t starts() const noexcept { return starts_.load(); }
+  [[nodiscard]] pid_t process_id() const noexcept { return process_.load(); }
+
+ private:
+  NodePlan plan_;
+  double patience_s_;
+  kernel::machine::OpcUa config_;
+  BridgeClient client_;
+  double last_sample_ = -1.0;
+  std::atomic<std::uint64_t> starts_{0};
+  std::atomic<pid_t> process_{-1};
+};
+
+}  // namespace steadyrest::adapters::opcua

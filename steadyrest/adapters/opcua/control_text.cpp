@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include <steadyrest/adapters/opcua/control_text.hpp>
+#include <steadyrest/adapters/opcua/control_texts.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+
+// A template's line that begins with @ stands once for each axis. {s:N}, {o:N}, {w:N} are R
+// parameters of the three blocks, {w:12+2i} one for each axis, {id} the next action's number.
+// {HAS_SPINDLE} and its like make the line a comment where the machine has none.
+namespace steadyrest::adapters::opcua {
+namespace {
+
+using kernel::machine::Machine;
+using kernel::outcome::refuse;
+using kernel::outcome::Result;
+
+constexpr std::uint32_t kLastAction = 255;
+constexpr std::string_view kWithout = "; not on this machine: ";
+constexpr int kPlcBlock = 170;
+constexpr int kPlcInstance = 171;
+constexpr int kSpindleDb = 34;  ///< DB31 + machine axis − 1, fourth axis
+
+using Fields = std::map<std::string, std::string, std::less<>>;
+
+struct Axis {
+  std::string name;
+  std::string machine_name;
+};
+
+std::string number(double value) {
+  return fmt::format("{:.10g}", value);
+}
+
+std::vector<Axis> axes_of(const Machine& machine) {
+  std::vector<Axis> out;
+  std::istringstream names(machine.opcua.machine_axes);
+  for (const auto& axis : machine.axes) {
+    if (axis.present) {
+      std::string own;
+      names >> own;
+      out.push_back({axis.name, own.empty() ? axis.name + "1" : own});
+    }
+  }
+  return out;
+}
+
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= 16 &&
+         std::ranges::all_of(text, [](unsigned char letter) {
+           return std::isalnum(letter) != 0 || letter == '_';
+         });
+}
+
+std::string scl_cases(const kernel::machine::OverrideTable& table, bool to_position,
+                      std::string_view place) {
+  std::string out;
+  for (std::size_t i = 0; i < table.code.size(); ++i) {
+    out += to_position ? fmt::format("  {}: panel := {};   // {:g} %\n", table.code[i], i + 1,
+                                     100.0 * table.ratio[i])
+                       : fmt::format("    {}: {} := B#16#{:02X};   // {:g} %\n", i + 1, place,
+                                     table.code[i], 100.0 * table.ratio[i]);
+  }
+  return out;
+}
+
+Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
+  const auto& config = machine.opcua;
+  const double ipo_s = machine.control.interpolator_period_s;
+  const auto& envelope = machine.envelope;
+  const bool spindle = machine.spindle_override.ratio.size() > 1;
+  const auto unless = [](bool has) { return has ? std::string() : std::string(kWithout); };
+  const auto dead_cycles = static_cast<int>(std::floor(config.dead_man_s / ipo_s + 1e-9));
+  return {
+      {"NAME", machine.name},
+      {"FILE", machine.file.empty() ? "M" : machine.file},
+      {"IPO_MS", number(1e3 * ipo_s)},
+      {"IPO_S", number(ipo_s)},
+      {"DEAD_MS", number(1e3 * config.dead_man_s)},
+      {"DEAD_CYCLES", number(dead_cycles)},
+      {"RISE", number(100.0 * config.hand_back_1_s * ipo_s)},
+      {"RISE_PERCENT_S", number(100.0 * config.hand_back_1_s)},
+      {"SPINDLE_RISE", number(100.0 * envelope.spindle_slew_1_s * ipo_s)},
+      {"FEED_MAX", number(100.0 * envelope.max_feed_ratio)},
+      {"SPINDLE_MIN", number(100.0 * std::min(1.0, envelope.min_spindle_ratio))},
+      {"SPINDLE_MAX", number(100.0 * std::max(1.0, envelope.max_spindle_ratio))},
+      {"SPINDLE", config.spindle},
+      {"OFFSET_MAX", number(envelope.max_offset_mm)},
+      {"OFFSET_STEP", number(envelope.offset_slew_mm_s * ipo_s)},
+      {"R_NEEDED",
+       std::to_string(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
+                        config.first_order + kernel::machine::order_count(axes.size()),
+                        config.first_work + kernel::machine::work_count(axes.size())}))},
+      {"HAS_SPINDLE", unless(spindle)},
+      {"HAS_OFFSETS", unless(envelope.max_offset_mm > 0.0)},
+      {"FEED_EXCEEDS", unless(machine.feed_override.layer_may_exceed_panel)},
+      {"SPINDLE_EXCEEDS", unless(spindle && machine.spindle_override.layer_may_exceed_panel)},
+      {"DB", number(kPlcBlock)},
+      {"IDB", number(kPlcInstance)},
+      {"AXIS_DB", number(kSpindleDb)},
+      {"GRAY", machine.feed_override.coding == kernel::machine::Coding::gray ? "1" : "0"},
+      {"STEP_MS", number(std::max(20.0, std::round(1e3 * 0.05 / config.hand_back_1_s)))},
+      {"FEED_TO_POSITION", scl_cases(machine.feed_override, true, "")},
+      {"POSITION_TO_FEED", scl_cases(machine.feed_override, false, "DB21.DB4")},
+      {"SPINDLE_TO_POSITION", scl_cases(machine.spindle_override, true, "")},
+      {"POSITION_TO_SPINDLE", scl_cases(machine.spindle_override, false,
+                                        fmt::format("DB{}.DB19", kSpindleDb))},
+  };
+}
+
+/// Fills in templates line by line.
+class Filler {
+ public:
+  Filler(const Machine& machine, std::vector<Axis> axes)
+      : axes_(std::move(axes)),
+        fields_(fields_of(machine, axes_)),
+        next_action_(machine.opcua.first_action) {
+    const std::size_t count = axes_.size();
+    blocks_['s'] = {machine.opcua.first_sample, kernel::machine::sample_count(count)};
+    blocks_['o'] = {machine.opcua.first_order, kernel::machine::order_count(count)};
+    blocks_['w'] = {machine.opcua.first_work, kernel::machine::work_count(count)};
+    fields_["FIRST_ID"] = std::to_string(next_action_);
+  }
+
+  std::string fill(std::string_view text) {
+    std::string out;
+    std::istringstream lines{std::string(text)};
+    for (std::string line; std::getline(lines, line);) {
+      const bool each = line.starts_with('@');
+      for (std::size_t i = 0; i < (each ? axes_.size() : 1); ++i) {
+        out += fill_line(each ? line.substr(1) : line, i) + "\n";
+      }
+    }
+    return out;
+  }
+  [[nodiscard]] std::uint32_t next_action() const noexcept { return next_action_; }
+  void put(const std::string& name, const std::string& value) { fields_[name] = value; }
+
+ private:
+  struct Block {
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
+
+  std::string fill_line(const std::string& line, std::size_t axis) {
+    std::string out;
+    std::size_t at = 0;
+    while (at < line.size()) {
+      const std::size_t open = line.find('{', at);
+      const std::size_t close = open == std::string::npos ? open : line.find('}', open);
+      if (close == std::string::npos) {
+        return out + line.substr(at);
+      }
+      out += line.substr(at, open - at) + field(line.substr(open + 1, close - open - 1), axis, out);
+      at = close + 1;
+    }
+    // Several cases of a switch end in a line's end of their own.
+    if (out.ends_with('\n')) {
+      out.pop_back();
+    }
+    return out;
+  }
+
+  std::string field(const std::string& name, std::size_t axis, const std::string& before) {
+    if (name == "id") {
+      return before.starts_with(';') ? "n" : std::to_string(next_action_++);
+    }
+    if (name == "AXIS") {
+      return axes_[axis].name;
+    }
+    if (name == "MACHINE_AXIS") {
+      return axes_[axis].machine_name;
+    }
+    if (name.size() > 2 && name[1] == ':') {
+      const Block& block = blocks_[name[0]];
+      const std::string place = name.substr(2);
+      if (place == "LAST") {
+        return std::to_string(block.first + block.count - 1);
+      }
+      const std::size_t plus = place.find('+');
+      const std::size_t step = plus == std::string::npos ? 0 : std::stoul(place.substr(plus + 1));
+      return std::to_string(block.first + std::stoul(place) + step * axis);
+    }
+    const auto found = fields_.find(name);
+    return found == fields_.end() ? "{" + name + "}" : found->second;
+  }
+
+  std::vector<Axis> axes_;
+  Fields fields_;
+  std::map<char, Block> blocks_;
+  std::uint32_t next_action_;
+};
+
+}  // namespace
+
+Result<std::vector<ControlText>> control_texts(const Machine& machine) {
+  if (machine.opcua.endpoint.empty()) {
+    return refuse(machine.file, "there is no [opcua]", "add it, with endpoint and mapping");
+  }
+  const std::vector<Axis> axes = axes_of(machine);
+  for (const Axis& axis : axes) {
+    if (!is_name(axis.machine_name)) {
+      return refuse(machine.file, "machine_axes has the name " + axis.machine_name,
+                    "write names such as X1, with blanks between");
+    }
+  }
+  if (!is_name(machine.opcua.spindle)) {
+    return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"", "write S1, for example");
+  }
+  // The number of actions stands at the top, so the text is filled in twice.
+  Filler counting(machine, axes);
+  static_cast<void>(counting.fill(kActionsTemplate));
+  const std::uint32_t actions = counting.next_action() - machine.opcua.first_action;
+  if (counting.next_action() - 1 > kLastAction) {
+    return refuse(machine.file,
+                  fmt::format("first_action = {}: {} actions are needed, and {} is the last number",
+                              machine.opcua.first_action, actions, kLastAction),
+                  fmt::format("give {} or less", kLastAction + 1 - actions));
+  }
+  Filler filler(machine, axes);
+  filler.put("ACTIONS", std::to_string(actions));
+  filler.put("LAST_ID", std::to_string(counting.next_action() - 1));
+  std::vector<ControlText> out;
+  out.push_back({"STEADYREST.SPF", filler.fill(kActionsTemplate)});
+  out.push_back({"PROG_EVENT.SPF", filler.fill(kEventTemplate)});
+  out.push_back({"STEADYREST.SCL", filler.fill(kPlcTemplate)});
+  return out;
+}
+
+double neutral_after_s(const Machine& machine, double from_ratio, double panel_ratio) noexcept {
+  return machine.opcua.dead_man_s +
+         std::max(0.0, panel_ratio - from_ratio) / machine.opcua.hand_back_1_s +
+         2.0 * machine.control.interpolator_period_s;
+}
+
+}  // namespace steadyrest::adapters::opcua

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <steadyrest/adapters/opcua/bridge_device.hpp>
+#include <steadyrest/adapters/opcua/node_check.hpp>
+#include <steadyrest/adapters/opcua/opcua_port.hpp>
+#include <steadyrest/apps/cli/ports/opcua_live.hpp>
+#include <steadyrest/apps/cli/ports/program_place.hpp>
+#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/program_watch.hpp>
+
+namespace steadyrest::apps::cli::live {
+namespace {
+
+namespace adapter = adapters::opcua;
+using adapter::BridgeClient;
+using adapter::BridgeDevice;
+using adapter::OpcUaPort;
+using kernel::machine::Machine;
+using passport::Finding;
+using passport::Severity;
+using steadyrest::live::FollowedPort;
+using steadyrest::live::LoadedProgram;
+using steadyrest::live::ProgramWatch;
+
+constexpr double kConnect_s = 20.0;
+constexpr std::chrono::milliseconds kBetweenSamples(50);
+constexpr const char* kCheck = "opcua";
+
+std::string beside_program() {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return (self.parent_path().parent_path() / "libexec" / "steadyrest" / "opcua-bridge.cjs").string();
+}
+
+std::string state_folder() {
+  const char* const state = std::getenv("XDG_STATE_HOME");
+  const char* const home = std::getenv("HOME");
+  const std::filesystem::path base = state != nullptr && *state != '\0'
+                                         ? std::filesystem::path(state)
+                                         : std::filesystem::path(home != nullptr ? home : "/var/lib") /
+                                               ".local" / "state";
+  return (base / "steadyrest" / "opcua").string();
+}
+
+/// The control's side shows another sample each time.
+void check_sample(const Machine& machine, std::vector<Finding>& out) {
+  BridgeDevice device(opcua_client(machine));
+  adapter::Reading reading;
+  for (int i = 0; i < 2; ++i) {
+    // The first read may find the bridge still starting.
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kConnect_s);
+    auto read = device.read(reading);
+    while (!read && i == 0 && std::chrono::steady_clock::now() < until && device.starts() > 0 &&
+           read.error().what.starts_with("the OPC UA bridge starts")) {
+      read = device.read(reading);
+    }
+    if (!read) {
+      out.push_back({Severity::error, kCheck, read.error().what, read.error().to_do});
+      return;
+    }
+    std::this_thread::sleep_for(kBetweenSamples);
+  }
+}
+
+/// Of the control's program what the operator names; its state is the control's own.
+ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
+  return [program = std::move(program), &port,
+          seen = std::optional<bool>()](double wait_s) mutable
+             -> Result<std::optional<LoadedProgram>> {
+    const auto state = port.program().state;
+    const bool stopped = state == kernel::signal::ProgramState::stopped;
+    if (seen == stopped) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+      return std::nullopt;
+    }
+    seen = stopped;
+    program.stopped = stopped;
+    return program;
+  };
+}
+
+}  // namespace
+
+BridgeClient::Config opcua_client(const Machine& machine) {
+  const char* const named = std::getenv("STEADYREST_OPCUA_BRIDGE");
+  return {.process = {.script = named != nullptr && *named != '\0' ? named : beside_program()},
+          .machine = machine.opcua,
+          .state_folder =
+              machine.opcua.certificates.empty() ? state_folder() : machine.opcua.certificates};
+}
+
+std::vector<Finding> opcua_findings(const Machine& machine) {
+  std::vector<Finding> out;
+  if (machine.opcua.security == kernel::machine::OpcUaSecurity::none) {
+    out.push_back({Severity::warning, kCheck,
+                   "security = \"none\": everybody in the network can read and change what is sent",
+                   "use sign_and_encrypt, or a cable of its own between both computers"});
+  }
+  if (machine.opcua.writes.empty()) {
+    out.push_back({Severity::note, kCheck, "the mapping writes nothing: the layer can only observe",
+                   "add [[write]] to the mapping if it shall act"});
+  }
+  const adapter::NodePlan plan(machine.opcua);
+  {
+    BridgeClient client(opcua_client(machine), plan);
+    const auto connected = client.connect(kConnect_s);
+    if (!connected) {
+      out.push_back({Severity::error, kCheck, connected.error().what, connected.error().to_do});
+      return out;
+    }
+    const auto checked = client.check();
+    if (!checked) {
+      out.push_back({Severity::error, kCheck, checked.error().what, checked.error().to_do});
+      return out;
+    }
+    for (const Refusal& fault : adapter::node_faults(*checked, plan, machine.opcua)) {
+      out.push_back({Severity::error, kCheck, fault.what, fault.to_do});
+    }
+  }
+  if (std::ranges::none_of(out, [](const Finding& one) { return one.severity == Severity::error; })) {
+    check_sample(machine, out);
+  }
+  return out;
+}
+
+std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
+                                             const ProgramOptions& program) {
+  LivePort out;
+  Refusals refusals;
+  for (Finding& finding : opcua_findings(machine)) {
+    if (finding.severity == Severity::error) {
+      refusals.push_back(bad_input(machine.file, finding.what, finding.to_do));
+    } else {
+      out.findings.push_back(std::move(finding));
+    }
+  }
+  if (!refusals.empty()) {
+    return std::unexpected(std::move(refusals));
+  }
+  auto device = std::make_unique<BridgeDevice>(opcua_client(machine));
+  auto* const bridge = device.get();
+  auto made = OpcUaPort::make(machine, std::move(device));
+  if (!made) {
+    return refused(made.error());
+  }
+  std::shared_ptr<OpcUaPort> port = std::move(*made);
+  out.period_s = layer_cycle_s(machine);
+  auto followed = std::make_unique<FollowedPort>(*port);
+  ProgramOptions options = program;
+  options.file = program.file.empty() ? machine.opcua.program : program.file;
+  std::shared_ptr<ProgramWatch> watch;
+  if (!options.file.empty()) {
+    auto start = program_config(options, machine);
+    if (!start) {
+      return refused(start.error());
+    }
+    start->on_control = true;
+    watch = std::make_shared<ProgramWatch>(
+        *followed, machine, shown({.file = options.file, .start = std::move(*start)}, *port));
+  }
+  out.shows = [port, bridge, &path = *followed, watch] {
+    const auto alive = port->in_force();
+    Json json = {{"opcua",
+                  {{"in_force", alive ? Json(*alive) : Json(nullptr)},
+                   {"bridge_starts", bridge->starts()}}}};
+    if (watch) {
+      json["program"] = program_json(*watch, path);
+    }
+    return json;
+  };
+  out.beside = port;
+  out.port = std::move(followed);
+  out.watch = std::move(watch);
+  return out;
+}
+
+}  // namespace steadyrest::apps::cli::live

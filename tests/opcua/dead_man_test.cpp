@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// The control's side alone, without any link: the shipped text on the simulated machine.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tests/opcua/control_side.hpp>
+#include <tests/opcua/scene.hpp>
+
+#include <steadyrest/adapters/opcua/control_text.hpp>
+#include <steadyrest/adapters/opcua/node_plan.hpp>
+#include <steadyrest/kernel/override/table.hpp>
+
+namespace steadyrest::opcua {
+namespace {
+
+using adapters::opcua::NodePlan;
+using adapters::opcua::Order;
+
+/// Writes orders as the port does.
+class Layer {
+ public:
+  Layer(ControlSide& control, const kernel::machine::Machine& of)
+      : control_(control), plan_(of.opcua) {}
+  void write(Order order) {
+    order.heartbeat = ++heartbeat_;
+    const auto values = plan_.encode(order);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      control_.write(plan_.writes()[i].id, values[i]);
+    }
+  }
+  void feed(double percent) {
+    Order order;
+    order.masks_feed = true;
+    order.feed_percent = percent;
+    write(order);
+  }
+
+ private:
+  ControlSide& control_;
+  NodePlan plan_;
+  std::uint32_t heartbeat_ = 0;
+};
+
+class DeadMan : public testing::Test {
+ protected:
+  void run(double seconds, double feed_percent = NAN) {
+    const double until_s = control.time_s() + seconds;
+    for (int i = 0; control.time_s() < until_s - 1e-9; ++i) {
+      if (!std::isnan(feed_percent) && i % 5 == 0) {
+        layer.feed(feed_percent);
+      }
+      control.step();
+    }
+  }
+
+  kernel::machine::Machine of = machine();
+  ControlSide control{{.machine = of, .path = circles(of)}};
+  Layer layer{control, of};
+};
+
+TEST_F(DeadMan, TheLowerOfLayerAndPanelIsInForce) {
+  run(0.3, 40.0);
+  EXPECT_NEAR(control.feed_in_force(), 0.4, 1e-9);
+  EXPECT_TRUE(control.obeys());
+}
+
+TEST_F(DeadMan, WithoutOrdersTheFeedIsThePanelsWithinTheStatedTimeAndNeverJumps) {
+  run(0.5, 10.0);
+  double before = control.feed_in_force();
+  ASSERT_NEAR(before, 0.1, 1e-9);
+  const double from_s = control.time_s();
+  double neutral_s = -1.0;
+  const double most = of.opcua.hand_back_1_s * of.control.interpolator_period_s + 1e-9;
+  for (int i = 0; i < 400; ++i) {
+    control.step();
+    ASSERT_LE(control.feed_in_force() - before, most);
+    before = control.feed_in_force();
+    if (neutral_s < 0.0 && before >= 1.0 - 1e-9) {
+      neutral_s = control.time_s() - from_s;
+    }
+  }
+  // Both bounds: neither late nor before a layer could be late.
+  const double stated_s = adapters::opcua::neutral_after_s(of, 0.1);
+  EXPECT_LE(neutral_s, stated_s);
+  EXPECT_GE(neutral_s, stated_s - 0.05);
+  EXPECT_FALSE(control.obeys());
+}
+
+TEST_F(DeadMan, AfterTheHandBackThePanelTurnsFreely) {
+  run(0.3, 10.0);
+  run(2.0);
+  const double before = control.feed_in_force();
+  EXPECT_EQ(before, 1.0);
+  EXPECT_EQ(control.r(static_cast<int>(of.opcua.first_work) + 8), 100.0);
+}
+
+TEST_F(DeadMan, ATornOrAForeignOrderIsNotTaken) {
+  run(0.3, 50.0);
+  const int order = static_cast<int>(of.opcua.first_order);
+  for (const double feed : {-1.0, 121.0, 1e9, -1e300}) {
+    control.r(order + 4) = feed;
+    control.r(order) = control.r(order) + 1;
+    control.r(order + 9) = control.r(order);
+    control.step();
+    EXPECT_NEAR(control.feed_in_force(), 0.5, 1e-9) << feed;
+  }
+  control.r(order + 4) = 80.0;
+  control.r(order) = 77.0;  // the first number without the last: written in parts
+  control.step();
+  EXPECT_NEAR(control.feed_in_force(), 0.5, 1e-9);
+}
+
+TEST_F(DeadMan, OffsetsMoveSlowlyFreezeInTheCutAndGoWhenTheProgramHasEnded) {
+  Order order;
+  order.has_offsets = true;
+  order.offset_mm[1] = 5.0;  // beyond the envelope
+  double before = 0.0;
+  const double step = of.envelope.offset_slew_mm_s * of.control.interpolator_period_s;
+  for (int i = 0; i < 1500; ++i) {
+    if (i % 5 == 0) {
+      layer.write(order);
+    }
+    control.step();
+    ASSERT_LE(std::abs(control.offset_mm(1) - before), 2.0 * step + 1e-12);
+    before = control.offset_mm(1);
+  }
+  EXPECT_NEAR(before, of.envelope.max_offset_mm, 1e-9);
+  run(2.0);
+  EXPECT_FALSE(control.obeys());
+  EXPECT_NEAR(control.offset_mm(1), before, 2.0 * step + 1e-12) << "frozen in the cut";
+  while (!control.finished()) {
+    control.step();
+  }
+  run(2.0 * of.envelope.max_offset_mm / of.envelope.offset_slew_mm_s);
+  EXPECT_EQ(control.offset_mm(1), 0.0);
+}
+
+TEST(DeadManPanel, ThePanelAtZeroStopsWhateverTheLayerWants) {
+  const auto of = machine();
+  const auto table = kernel::override::Table::make(of.feed_override).value();
+  ControlSide control({.machine = of,
+                       .path = circles(of),
+                       .operator_actions = {{.time_s = 0.3,
+                                             .act = sim::OperatorAct::turn_feed,
+                                             .code = table.code(0)}}});
+  Layer layer(control, of);
+  for (int i = 0; i < 250; ++i) {
+    layer.feed(100.0);
+    control.step();
+    if (control.time_s() > 0.32) {
+      ASSERT_EQ(control.feed_in_force(), 0.0);
+    }
+  }
+  EXPECT_EQ(control.frame().path_speed_mm_s, 0.0);
+}
+
+}  // namespace
+}  // namespace steadyrest::opcua
