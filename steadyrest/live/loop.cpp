@@ -17,7 +17,7 @@ using kernel::outcome::Reason;
 using kernel::outcome::Result;
 
 constexpr double kShortestPeriod_s = 1.0 / 4000.0;
-constexpr double kLongestPeriod_s = 1.0 / 100.0;
+constexpr double kLongestPeriod_s = 1.0;
 constexpr double kRounding = 1e-9;
 
 std::size_t place_of(Reason reason) noexcept {
@@ -32,7 +32,7 @@ Result<void> Loop::check(const Config& config) {
   if (!(config.period_s >= kShortestPeriod_s - kRounding &&
         config.period_s <= kLongestPeriod_s + kRounding)) {
     return kernel::outcome::refuse(
-        fmt::format("the cycle of {:g} Hz is out of range; allowed: 100 … 4000 Hz",
+        fmt::format("the cycle of {:g} Hz is out of range; allowed: 1 … 4000 Hz",
                     1.0 / config.period_s),
         "set the period of the control in the machine file");
   }

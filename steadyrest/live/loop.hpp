@@ -67,7 +67,7 @@ struct LoopNote {
 class Loop {
  public:
   struct Config {
-    double period_s = 0.001;        ///< 100 Hz … 4 kHz
+    double period_s = 0.001;        ///< 1 Hz … 4 kHz: a bus or a network may be slow
     double contour_limit_mm = 0.0;  ///< of the machine file
     double handback_s = 5.0;        ///< the longest way to neutral at the end
     kernel::machine::Mode mode = kernel::machine::Mode::observe;

@@ -9,6 +9,7 @@ Prints `ready PORT` (serial: `ready 0`). Then one line in, one line out:
   → OUTPUTS N   levels of the outputs likewise, and how many times they were written
   watchdog S    the outputs drop when they were not written for S seconds of the machine's time
   stick LINE L  output LINE stays at level L whatever is written
+  join A:B …    output A is joined to input B, by a jumper
   hang          answers no Modbus request any more
 """
 import asyncio
@@ -32,6 +33,7 @@ class Terminals:
         self.last = 0.0
         self.watchdog = 0.0
         self.stuck = {}
+        self.jumpers = []
         self.hangs = False
 
     def write(self, first, levels):
@@ -45,10 +47,14 @@ class Terminals:
     def hold(self):
         for line, level in self.stuck.items():
             self.outputs = self.outputs | 1 << line if level else self.outputs & ~(1 << line)
+        for output, line in self.jumpers:
+            level = self.outputs >> output & 1
+            self.inputs = self.inputs | 1 << line if level else self.inputs & ~(1 << line)
 
     def tick(self, inputs, now):
         self.inputs = inputs
         self.now = now
+        self.hold()
         if self.watchdog > 0 and now - self.last > self.watchdog:
             self.outputs = 0
             self.hold()
@@ -106,6 +112,9 @@ def answer(terminals, words):
         terminals.watchdog = float(words[1])
     elif words[0] == "stick":
         terminals.stuck[int(words[1])] = int(words[2])
+        terminals.hold()
+    elif words[0] == "join":
+        terminals.jumpers = [tuple(map(int, word.split(":"))) for word in words[1:]]
         terminals.hold()
     elif words[0] == "hang":
         terminals.hangs = True

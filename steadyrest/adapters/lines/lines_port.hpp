@@ -16,8 +16,9 @@ namespace steadyrest::adapters::lines {
 ///
 /// read() is one reading of all lines, and of the encoders where there is a recorder: their clock
 /// is the frames' then, else the computer's. The control shows no commanded positions: they are the
-/// actual ones here, and what the axes' lag makes of them is found above (live/path/commanded_port).
-/// write() leaves both words; they are on the wires before the next reading.
+/// actual ones here, and what the axes' lag makes of them is found above
+/// (live/path/commanded_port). write() leaves both words; they are on the wires before the next
+/// reading.
 class LinesPort final : public kernel::port::Port {
  public:
   /// Refused: no override is wired, a word whose steps cannot be walked.

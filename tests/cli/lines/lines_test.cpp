@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Override lines as a user tries them, with pymodbus as the module.
+#include <memory>
+#include <string>
+
+#include "expectations.hpp"
+#include "program.hpp"
+#include "scratch.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <tests/lines/module_server.hpp>
+
+namespace steadyrest::test {
+namespace {
+
+using lines::ModuleServer;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// The words of 100 % on both switches of examples/machines/mill-802d.toml, and a running program.
+constexpr std::uint64_t kPanel = 0b11010 | 0b01110 << 5 | 1 << 10;
+
+/// examples/machines/mill-802d.toml on a module.
+class Mill : public ::testing::Test {
+ protected:
+  Mill() : module_(ModuleServer::start()) {
+    std::string text = text_of_file(project_file("examples/machines/mill-802d.toml"));
+    const auto put = [&text](const std::string& was, const std::string& becomes) {
+      text.replace(text.find(was), was.size(), becomes);
+    };
+    put("port = \"sim\"", "port = \"lines\"");
+    put("192.168.0.50", module_->address());
+    put("reply_ms = 50", "reply_ms = 10000");
+    put("[contour]", "[contour]\nenabled = false");
+    machine_ = scratch_.file("mill.toml", text);
+    module_->exchange(kPanel, 0.0);
+  }
+  json tested(const std::string& options, int code) {
+    const Finished finished = run_line("lines test --json --machine " + machine_ + " " + options);
+    EXPECT_EQ(finished.code, code) << finished.err;
+    return json::parse(finished.out);
+  }
+
+  Scratch scratch_;
+  std::unique_ptr<ModuleServer> module_;
+  std::string machine_;
+};
+
+TEST_F(Mill, ListTouchesNothing) {
+  const json answer = tested("--list", 0);
+  const json& full = answer["feed"]["positions"][18];
+  EXPECT_EQ(full["percent"], 100.0);
+  EXPECT_EQ(full["code"], 0b11010);
+  EXPECT_EQ(full["inputs_on"], json({1, 3, 4}));
+  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U);
+}
+
+TEST_F(Mill, AWalkWithEveryMaskOffFindsAllWordsRight) {
+  const json answer = tested("", 0);
+  EXPECT_TRUE(answer["ok"]);
+  EXPECT_EQ(answer["feed"]["outputs"]["words"].size(), 24U);
+  const auto after = module_->exchange(kPanel, 0.0);
+  EXPECT_EQ(after.outputs >> 5U & 1U, 0U);
+  EXPECT_EQ(after.outputs >> 11U & 1U, 0U);
+}
+
+TEST_F(Mill, AStuckOutputIsNamed) {
+  module_->tell("stick 3 1");
+  const json answer = tested("", 1);
+  EXPECT_FALSE(answer["ok"]);
+  EXPECT_THAT(answer["feed"]["outputs"]["faults"],
+              ElementsAre("output 3: bit 3 stays 1: it touches the supply, or the line is dead"));
+  EXPECT_THAT(answer["spindle"]["outputs"]["faults"], IsEmpty());
+}
+
+TEST_F(Mill, SwappedWiresAreNamedByTheJumpersTest) {
+  module_->tell("join 0:0 1:3 2:2 3:1 4:4 6:5 7:6 8:7 9:8 10:9");
+  const json answer = tested("--jumpers", 1);
+  EXPECT_THAT(answer["feed"]["inputs"]["faults"],
+              ElementsAre("input 1: bit 1 carries bit 3: wires are swapped",
+                          "input 3: bit 3 carries bit 1: wires are swapped"));
+  EXPECT_THAT(answer["feed"]["outputs"]["faults"], IsEmpty());
+  EXPECT_THAT(answer["spindle"]["inputs"]["faults"], IsEmpty());
+}
+
+TEST_F(Mill, DoctorNamesAPanelThatTheTableDoesNotKnow) {
+  module_->exchange(0b10101 | 0b01110 << 5, 0.0);
+  const Finished doctor = run_line("doctor --machine " + machine_);
+  EXPECT_EQ(doctor.code, 1);
+  EXPECT_THAT(doctor.out, HasSubstr("the feed panel shows 10101, which is not in [override.feed]"));
+  const Finished start =
+      run_line("run --for-s 0.1 --machine " + machine_ + " --socket " + scratch_.at("s"));
+  EXPECT_EQ(start.code, 2);
+  EXPECT_THAT(start.err, HasSubstr("lines test --panel"));
+}
+
+TEST_F(Mill, TheLayerRunsAndLeavesTheOutputsNeutral) {
+  const Finished observed = run_line("run --json --for-s 0.3 --machine " + machine_ +
+                                     " --mode observe --socket " + scratch_.at("s"));
+  EXPECT_EQ(observed.code, 0) << observed.err;
+  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U) << "observe writes nothing";
+  const Finished acted = run_line("run --json --for-s 0.5 --machine " + machine_ +
+                                  " --mode act --socket " + scratch_.at("s"));
+  EXPECT_EQ(acted.code, 0) << acted.err;
+  const json answer = json::parse(acted.out);
+  EXPECT_EQ(answer["port"], "lines");
+  EXPECT_GT(answer["cycles"], 3);
+  const auto after = module_->exchange(kPanel, 0.0);
+  EXPECT_GT(after.written, 3U);
+  EXPECT_EQ(after.outputs >> 5U & 1U, 0U);
+  EXPECT_EQ(after.outputs >> 11U & 1U, 0U);
+}
+
+TEST_F(Mill, AModuleThatIsNotThereIsRefusedByName) {
+  const std::string address = module_->address();
+  module_.reset();
+  expect_refused("run --for-s 0.1 --machine " + machine_ + " --socket " + scratch_.at("s"),
+                 "the module " + address + " cannot be reached");
+  const Finished test = run_line("lines test --machine " + machine_);
+  EXPECT_EQ(test.code, 1) << test.err;
+  EXPECT_THAT(test.err, HasSubstr("cannot be reached"));
+}
+
+TEST(LinesTest, WithoutWiresThereIsNothingToTest) {
+  expect_refused("lines test --machine examples/machines/vmc-840d.toml",
+                 "there is no [lines] with the wires of an override");
+}
+
+}  // namespace
+}  // namespace steadyrest::test
