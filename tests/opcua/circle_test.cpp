@@ -9,7 +9,7 @@
 #include <tests/opcua/live_rig.hpp>
 #include <tests/opcua/scene.hpp>
 
-#include <steadyrest/live/followed_port.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/supervisor/supervisor.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>

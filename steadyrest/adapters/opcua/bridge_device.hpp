@@ -23,6 +23,10 @@ class BridgeDevice final : public kernel::link::Device<Reading, Order> {
         config_(config.machine),
         client_(std::move(config), plan_) {}
 
+  /// For those who can wait longer than a cycle may, before the thread begins.
+  [[nodiscard]] kernel::outcome::Result<void> connect(double patience_s) {
+    return client_.connect(patience_s);
+  }
   kernel::outcome::Result<void> read(Reading& sample) override;
   kernel::outcome::Result<void> write(const Order& order) override;
 

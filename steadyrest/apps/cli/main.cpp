@@ -26,6 +26,8 @@
 #include <steadyrest/apps/cli/motion/verb_motion_encoder.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_estimate.hpp>
 #include <steadyrest/apps/cli/motion/verb_motion_units.hpp>
+#include <steadyrest/apps/cli/opcua/verb_opcua_texts.hpp>
+#include <steadyrest/apps/cli/opcua/verb_opcua_trust.hpp>
 #include <steadyrest/apps/cli/page/verb_page.hpp>
 #include <steadyrest/apps/cli/program/verb_program_check.hpp>
 #include <steadyrest/apps/cli/program/verb_program_compensate.hpp>
@@ -92,6 +94,15 @@ constexpr Entry kVerbs[] = {
      "Fit servo gain and feed-forward of each axis to a record, and put them into the machine file",
      add_verb_machine_from_log,
      {"examples/logs/servo-test.csv --machine examples/machines/vmc-840d.toml -o fitted.toml"}},
+    {"opcua", "Controls behind an OPC UA server"},
+    {"opcua texts",
+     "Write the files that the machine builder loads into the control",
+     add_verb_opcua_texts,
+     {"--machine examples/machines/vmc-840d-opcua.toml -o control"}},
+    {"opcua trust",
+     "Show the control's certificate, and trust it once it is compared",
+     add_verb_opcua_trust,
+     {"--machine examples/machines/vmc-840d-opcua.toml"}},
     {"lines", "Override lines between panel and control"},
     {"lines test",
      "Test the wiring of the override lines: list the levels, watch the switches, walk the words",

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/machine/start_checks.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
 #include <steadyrest/apps/cli/ports/lines_live.hpp>
+#include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -146,6 +147,9 @@ Outcome run(const std::string& path, Progress& progress) {
   Measured measured = measure(*machine, progress);
   if (machine->port == kernel::machine::PortKind::lines) {
     std::ranges::move(live::lines_findings(*machine), std::back_inserter(measured.findings));
+  }
+  if (machine->port == kernel::machine::PortKind::opcua) {
+    std::ranges::move(live::opcua_findings(*machine), std::back_inserter(measured.findings));
   }
   return report(*machine, measured, examine(*machine, measured.findings));
 }

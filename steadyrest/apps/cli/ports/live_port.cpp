@@ -8,6 +8,7 @@
 #include <steadyrest/apps/cli/ports/lines_live.hpp>
 #include <steadyrest/apps/cli/ports/linuxcnc_live.hpp>
 #include <steadyrest/apps/cli/ports/live_port.hpp>
+#include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/repeating_port.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
@@ -74,9 +75,9 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
 }
 
 #if STEADYREST_HAS_LINUXCNC
-constexpr const char* kPorts = "sim, linuxcnc, lines";
+constexpr const char* kPorts = "sim, linuxcnc, lines, opcua";
 #else
-constexpr const char* kPorts = "sim, lines";
+constexpr const char* kPorts = "sim, lines, opcua";
 #endif
 
 }  // namespace
@@ -92,6 +93,9 @@ std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& mach
   }
   if (machine.port == kernel::machine::PortKind::lines) {
     return open_lines(machine, program);
+  }
+  if (machine.port == kernel::machine::PortKind::opcua) {
+    return open_opcua(machine, program);
   }
 #if STEADYREST_HAS_LINUXCNC
   if (machine.port == kernel::machine::PortKind::linuxcnc) {

@@ -14,8 +14,8 @@
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/program_place.hpp>
-#include <steadyrest/live/followed_port.hpp>
-#include <steadyrest/live/program_watch.hpp>
+#include <steadyrest/live/path/followed_port.hpp>
+#include <steadyrest/live/path/program_watch.hpp>
 
 namespace steadyrest::apps::cli::live {
 namespace {
@@ -52,23 +52,18 @@ std::string state_folder() {
 }
 
 /// The control's side shows another sample each time.
-void check_sample(const Machine& machine, std::vector<Finding>& out) {
-  BridgeDevice device(opcua_client(machine));
+Result<void> check_sample(BridgeDevice& device) {
   adapter::Reading reading;
+  if (auto connected = device.connect(kConnect_s); !connected) {
+    return connected;
+  }
   for (int i = 0; i < 2; ++i) {
-    // The first read may find the bridge still starting.
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kConnect_s);
-    auto read = device.read(reading);
-    while (!read && i == 0 && std::chrono::steady_clock::now() < until && device.starts() > 0 &&
-           read.error().what.starts_with("the OPC UA bridge starts")) {
-      read = device.read(reading);
-    }
-    if (!read) {
-      out.push_back({Severity::error, kCheck, read.error().what, read.error().to_do});
-      return;
+    if (auto read = device.read(reading); !read) {
+      return read;
     }
     std::this_thread::sleep_for(kBetweenSamples);
   }
+  return {};
 }
 
 /// Of the control's program what the operator names; its state is the control's own.
@@ -127,7 +122,10 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
     }
   }
   if (std::ranges::none_of(out, [](const Finding& one) { return one.severity == Severity::error; })) {
-    check_sample(machine, out);
+    BridgeDevice device(opcua_client(machine));
+    if (const auto shown = check_sample(device); !shown) {
+      out.push_back({Severity::error, kCheck, shown.error().what, shown.error().to_do});
+    }
   }
   return out;
 }
@@ -147,6 +145,9 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
     return std::unexpected(std::move(refusals));
   }
   auto device = std::make_unique<BridgeDevice>(opcua_client(machine));
+  if (const auto connected = device->connect(kConnect_s); !connected) {
+    return refused(connected.error());
+  }
   auto* const bridge = device.get();
   auto made = OpcUaPort::make(machine, std::move(device));
   if (!made) {
