@@ -28,8 +28,7 @@ bool has(const OpcUa& config, Quantity quantity) noexcept {
 /// G codes of group 1 by their number there, as the control counts them: G0 is 1. Of the others
 /// only that they are no plain feed matters.
 double code_of_number(double number) noexcept {
-  constexpr std::array<double, 16> kCodes = {0,  0,  1,  2,  3,   1,   1,   1,
-                                             1,  1,  33, 331, 332, 1,  1,  1};
+  constexpr std::array<double, 16> kCodes = {0, 0, 1, 2, 3, 1, 1, 1, 1, 1, 33, 331, 332, 1, 1, 1};
   return number >= 1.0 && number < static_cast<double>(kCodes.size())
              ? kCodes[static_cast<std::size_t>(number)]
              : 1.0;
@@ -102,8 +101,8 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
   Frame frame;
   put_axes(reading, mapped, machine, frame);
   const double panel = reading[Quantity::feed_panel_percent];
-  frame.feed = override_of(
-      panel, mapped.feed_effective ? reading[Quantity::feed_effective_percent] : panel);
+  frame.feed =
+      override_of(panel, mapped.feed_effective ? reading[Quantity::feed_effective_percent] : panel);
   if (feed_table != nullptr && frame.feed.panel_code_known) {
     frame.feed.panel_code =
         feed_table->code(feed_table->nearest_step(frame.feed.panel_ratio).value_or(0));
@@ -130,10 +129,10 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
   frame.program_line = line > 0.0 && line < 4e9 ? static_cast<std::uint32_t>(line) : 0;
   frame.path_speed_mm_s = kPerMinute * reading[Quantity::path_speed_mm_min];
   const double effective = frame.feed.effective_ratio;
-  frame.programmed_feed_mm_s =
-      mapped.programmed_feed ? kPerMinute * reading[Quantity::programmed_feed_mm_min]
-      : effective > 0.0      ? frame.path_speed_mm_s / effective
-                             : 0.0;
+  frame.programmed_feed_mm_s = mapped.programmed_feed
+                                   ? kPerMinute * reading[Quantity::programmed_feed_mm_min]
+                               : effective > 0.0 ? frame.path_speed_mm_s / effective
+                                                 : 0.0;
   if (mapped.spindle_speeds) {
     const double command = kPerMinute * reading[Quantity::spindle_command_rpm];
     const double programmed = kPerMinute * reading[Quantity::spindle_programmed_rpm];

@@ -53,9 +53,8 @@ std::size_t NodePlan::node_of(std::vector<Node>& nodes, const OpcUaPlace& place)
     found->length = std::max(found->length, place.length);
     return static_cast<std::size_t>(found - nodes.begin());
   }
-  nodes.push_back({.id = place.node,
-                   .length = place.length,
-                   .text = place.quantity == Quantity::program_name});
+  nodes.push_back(
+      {.id = place.node, .length = place.length, .text = place.quantity == Quantity::program_name});
   return nodes.size() - 1;
 }
 

@@ -34,10 +34,10 @@ struct Reading {
            static_cast<std::size_t>(kernel::machine::Quantity::command_mm);
   }
 
-  std::array<double, kQuantities> value{};                                  ///< NaN: not known
-  std::array<std::array<double, 4>, kernel::signal::kMaxAxes> axis{};       ///< likewise
-  double source_s = std::numeric_limits<double>::quiet_NaN();               ///< by the server
-  std::array<char, kLongestName + 1> program{};                             ///< ends in 0
+  std::array<double, kQuantities> value{};                             ///< NaN: not known
+  std::array<std::array<double, 4>, kernel::signal::kMaxAxes> axis{};  ///< likewise
+  double source_s = std::numeric_limits<double>::quiet_NaN();          ///< by the server
+  std::array<char, kLongestName + 1> program{};                        ///< ends in 0
 };
 
 /// What the layer wants of the control's side.

@@ -47,7 +47,7 @@ struct Machine {
   Simulation simulation;
   Lines lines;        ///< of the port `lines`
   Recorder recorder;  ///< of the port `lines`
-  OpcUa opcua;  ///< of the port `opcua`
+  OpcUa opcua;        ///< of the port `opcua`
 };
 
 /// Time between two cycles of the layer: the interpolator's period, or how often the port is read.

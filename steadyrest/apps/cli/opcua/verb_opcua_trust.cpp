@@ -17,6 +17,7 @@ namespace {
 struct Options {
   std::string machine;
   std::string fingerprint;
+  bool where = false;
 };
 
 Outcome run(const Options& options) {
@@ -25,9 +26,16 @@ Outcome run(const Options& options) {
     return std::unexpected(machine.error());
   }
   if (machine->opcua.endpoint.empty()) {
-    return refused(bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
+    return refused(
+        bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
   }
   const auto config = live::opcua_client(*machine);
+  if (options.where) {
+    Answer answer;
+    answer.json["certificates"] = config.state_folder;
+    answer.text = "certificates   " + config.state_folder + "\n";
+    return answer;
+  }
   const adapters::opcua::NodePlan plan(machine->opcua);
   adapters::opcua::BridgeClient client(config, plan);
   const auto shown = client.certificate();
@@ -42,22 +50,27 @@ Outcome run(const Options& options) {
     trusted = true;
   }
   Answer answer;
-  answer.json = {{"endpoint", machine->opcua.endpoint}, {"subject", shown->subject},
-                 {"fingerprint", shown->fingerprint},   {"valid_from", shown->from},
-                 {"valid_until", shown->until},         {"trusted", trusted},
+  answer.json = {{"endpoint", machine->opcua.endpoint},
+                 {"subject", shown->subject},
+                 {"fingerprint", shown->fingerprint},
+                 {"valid_from", shown->from},
+                 {"valid_until", shown->until},
+                 {"trusted", trusted},
                  {"changed", shown->why == "certificate_changed"},
                  {"own_certificate", shown->own}};
   answer.text = fmt::format(
-      "control        {}\ncertificate    {}\nvalid          {} to {}\nSHA-256        {}\ntrusted        {}\n"
+      "control        {}\ncertificate    {}\nvalid          {} to {}\nSHA-256        {}\ntrusted   "
+      "     {}\n"
       "our own        {}\n",
       machine->opcua.endpoint, shown->subject, shown->from, shown->until, shown->fingerprint,
-      trusted                                  ? "yes"
-      : shown->why == "certificate_changed"    ? "no: it is another one than the trusted one"
-                                               : "no",
+      trusted                               ? "yes"
+      : shown->why == "certificate_changed" ? "no: it is another one than the trusted one"
+                                            : "no",
       shown->own);
   if (!trusted) {
     answer.text += fmt::format(
-        "Compare the fingerprint with the one on the control, then: steadyrest opcua trust --machine {} "
+        "Compare the fingerprint with the one on the control, then: steadyrest opcua trust "
+        "--machine {} "
         "--fingerprint {}\n",
         options.machine, shown->fingerprint);
   }
@@ -72,6 +85,8 @@ void add_verb_opcua_trust(Session& session, Verb& verb) {
   add_machine_option(verb, options->machine);
   verb.add_option("--fingerprint", options->fingerprint,
                   "SHA-256 of the certificate that you have compared: trust it from now on");
+  verb.add_flag("--where", options->where,
+                "Only tell in which folder certificates are kept; connects to nothing");
   session.on(verb, [options](Progress& /*progress*/) { return opcua_trust::run(*options); });
 }
 

@@ -38,16 +38,17 @@ constexpr const char* kCheck = "opcua";
 std::string beside_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  return (self.parent_path().parent_path() / "libexec" / "steadyrest" / "opcua-bridge.cjs").string();
+  return (self.parent_path().parent_path() / "libexec" / "steadyrest" / "opcua-bridge.cjs")
+      .string();
 }
 
 std::string state_folder() {
   const char* const state = std::getenv("XDG_STATE_HOME");
   const char* const home = std::getenv("HOME");
-  const std::filesystem::path base = state != nullptr && *state != '\0'
-                                         ? std::filesystem::path(state)
-                                         : std::filesystem::path(home != nullptr ? home : "/var/lib") /
-                                               ".local" / "state";
+  const std::filesystem::path base =
+      state != nullptr && *state != '\0'
+          ? std::filesystem::path(state)
+          : std::filesystem::path(home != nullptr ? home : "/var/lib") / ".local" / "state";
   return (base / "steadyrest" / "opcua").string();
 }
 
@@ -68,9 +69,8 @@ Result<void> check_sample(BridgeDevice& device) {
 
 /// Of the control's program what the operator names; its state is the control's own.
 ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
-  return [program = std::move(program), &port,
-          seen = std::optional<bool>()](double wait_s) mutable
-             -> Result<std::optional<LoadedProgram>> {
+  return [program = std::move(program), &port, seen = std::optional<bool>()](
+             double wait_s) mutable -> Result<std::optional<LoadedProgram>> {
     const auto state = port.program().state;
     const bool stopped = state == kernel::signal::ProgramState::stopped;
     if (seen == stopped) {
@@ -121,7 +121,8 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
       out.push_back({Severity::error, kCheck, fault.what, fault.to_do});
     }
   }
-  if (std::ranges::none_of(out, [](const Finding& one) { return one.severity == Severity::error; })) {
+  if (std::ranges::none_of(out,
+                           [](const Finding& one) { return one.severity == Severity::error; })) {
     BridgeDevice device(opcua_client(machine));
     if (const auto shown = check_sample(device); !shown) {
       out.push_back({Severity::error, kCheck, shown.error().what, shown.error().to_do});
