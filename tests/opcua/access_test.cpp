@@ -51,9 +51,9 @@ class Access : public testing::Test {
   /// The same after `steadyrest opcua trust`.
   static Machine trusting() {
     Machine out = fresh();
-    std::filesystem::copy(trusting_->opcua.certificates, out.opcua.certificates,
-                          std::filesystem::copy_options::recursive |
-                              std::filesystem::copy_options::skip_existing);
+    std::filesystem::copy(
+        trusting_->opcua.certificates, out.opcua.certificates,
+        std::filesystem::copy_options::recursive | std::filesystem::copy_options::skip_existing);
     return out;
   }
   static std::string why_not(const Machine& of) {
@@ -150,7 +150,8 @@ TEST_F(Access, ReadOnlyOrdersUnknownNamesAndWrongTypesAreAllNamed) {
   place(kernel::machine::Quantity::time_s).length = 500;
   const auto all = faults(of);
   EXPECT_THAT(all, testing::Contains(Says("s=/Plc/db21.dbb208 is not on this control")));
-  EXPECT_THAT(all, testing::Contains(Says("progName[u1] has the type String; it must be a number")));
+  EXPECT_THAT(all,
+              testing::Contains(Says("progName[u1] has the type String; it must be a number")));
   EXPECT_THAT(all, testing::Contains(Says("has 20 values; the mapping wants 500")));
   EXPECT_THAT(all, testing::Contains(Says("may not be written by this user")));
   EXPECT_EQ(all.size(), 4U);

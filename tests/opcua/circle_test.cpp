@@ -87,8 +87,11 @@ TEST_P(Circle, KeepsItsLimitWithinTenPercentOfTheClairvoyant) {
   const Figures figures = cut(rig, path);
   const double best_s = clairvoyant_s(of, path);
   RecordProperty("time_s", std::to_string(figures.time_s));
-  std::printf("dead time %d ms, cycle %d ms: %.2f s, clairvoyant %.2f s, largest %.2f um, over %zu of %zu\n", dead_ms,
-              cycle_ms, figures.time_s, best_s, 1e3 * figures.largest_mm, figures.over, figures.cut);
+  std::printf(
+      "dead time %d ms, cycle %d ms: %.2f s, clairvoyant %.2f s, largest %.2f um, over %zu of "
+      "%zu\n",
+      dead_ms, cycle_ms, figures.time_s, best_s, 1e3 * figures.largest_mm, figures.over,
+      figures.cut);
   EXPECT_TRUE(rig.control.finished());
   EXPECT_EQ(figures.undelivered, 0U);
   EXPECT_LE(figures.largest_mm, of.contour.limit_mm);

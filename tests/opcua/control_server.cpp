@@ -73,10 +73,11 @@ int run(const std::string& machine_file, const std::string& program, double seco
     server.push(control);
     pause.wait(0.002);
   }
-  std::printf("{\"seconds\": %.3f, \"finished\": %s, \"least_feed_ratio\": %.3f, \"obeyed_cycles\": %zu, "
-              "\"feed_in_force\": %.3f}\n",
-              control.time_s(), control.finished() ? "true" : "false", least, obeyed,
-              control.feed_in_force());
+  std::printf(
+      "{\"seconds\": %.3f, \"finished\": %s, \"least_feed_ratio\": %.3f, \"obeyed_cycles\": %zu, "
+      "\"feed_in_force\": %.3f}\n",
+      control.time_s(), control.finished() ? "true" : "false", least, obeyed,
+      control.feed_in_force());
   return 0;
 }
 

@@ -56,7 +56,8 @@ ControlSide::ControlSide(const Config& config)
       text_(adapters::opcua::control_texts(config.machine).value().front().text),
       planned_(config.path),
       body_(body_of(config)),
-      interpolator_(nc::plan::Interpolator::make(config.machine, nc::plan::whole(*planned_)).value()) {
+      interpolator_(
+          nc::plan::Interpolator::make(config.machine, nc::plan::whole(*planned_)).value()) {
   text_.start(*this);
   frame_ = body_.frame();
   step();
@@ -132,8 +133,7 @@ void ControlSide::step() {
   ovr_ = 1.0;
   spindle_ovr_ = 1.0;
   text_.cycle(*this);
-  const kernel::signal::Command offsets{
-      .offset_mm = offset_, .write = true, .heartbeat = ++beats_};
+  const kernel::signal::Command offsets{.offset_mm = offset_, .write = true, .heartbeat = ++beats_};
   nc::plan::Overrides overrides = body_.begin(offsets);
   panel_ = overrides.feed_ratio;
   spindle_panel_ = body_.frame().spindle.panel_ratio;
@@ -164,14 +164,13 @@ bool ControlSide::range_of(const std::string& node, Range& out) {
 bool ControlSide::has(const std::string& node) const {
   Range range;
   return range_of(node, range) ||
-         std::ranges::any_of(std::vector<std::string>{"s=/Channel/State/cmdFeedRateIpo[u1]",
-                                                      "s=/Channel/Spindle/cmdSpeed[u1,1]",
-                                                      "s=/Channel/Spindle/actSpeed[u1,1]",
-                                                      "s=/Plc/DB21.DBB208",
-                                                      "s=/Channel/State/progStatus[u1]",
-                                                      "s=/Channel/ProgramInfo/actLineNumber[u1]",
-                                                      "s=/Channel/ProgramInfo/progName[u1]"},
-                             [&](const std::string& own) { return own == node; });
+         std::ranges::any_of(
+             std::vector<std::string>{
+                 "s=/Channel/State/cmdFeedRateIpo[u1]", "s=/Channel/Spindle/cmdSpeed[u1,1]",
+                 "s=/Channel/Spindle/actSpeed[u1,1]", "s=/Plc/DB21.DBB208",
+                 "s=/Channel/State/progStatus[u1]", "s=/Channel/ProgramInfo/actLineNumber[u1]",
+                 "s=/Channel/ProgramInfo/progName[u1]"},
+             [&](const std::string& own) { return own == node; });
 }
 
 Answer::Value ControlSide::show(const std::string& node) {

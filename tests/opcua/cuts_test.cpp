@@ -19,8 +19,8 @@ namespace steadyrest::opcua {
 namespace {
 
 constexpr int kMoments = 100;
-constexpr double kHeld = 0.3;       ///< ratio that the layer holds
-constexpr double kDelay_s = 0.04;   ///< an order on its way inside the control
+constexpr double kHeld = 0.3;      ///< ratio that the layer holds
+constexpr double kDelay_s = 0.04;  ///< an order on its way inside the control
 constexpr double kInForce = 1e-6;
 
 kernel::machine::Machine scene() {
@@ -35,7 +35,8 @@ class Cuts : public testing::Test {
   Cuts()
       : of_(scene()),
         rig_({.machine = of_,
-              .path = path_of("G17 G90 G94 G71\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 F2000\nM30\n", of_),
+              .path = path_of("G17 G90 G94 G71\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 F2000\nM30\n",
+                              of_),
               .order_delay_s = kDelay_s}) {
     const auto table = kernel::override::Table::make(of_.feed_override).value();
     command_.feed_ratio = kHeld;

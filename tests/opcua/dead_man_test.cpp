@@ -139,11 +139,11 @@ TEST_F(DeadMan, OffsetsMoveSlowlyFreezeInTheCutAndGoWhenTheProgramHasEnded) {
 TEST(DeadManPanel, ThePanelAtZeroStopsWhateverTheLayerWants) {
   const auto of = machine();
   const auto table = kernel::override::Table::make(of.feed_override).value();
-  ControlSide control({.machine = of,
-                       .path = circles(of),
-                       .operator_actions = {{.time_s = 0.3,
-                                             .act = sim::OperatorAct::turn_feed,
-                                             .code = table.code(0)}}});
+  ControlSide control(
+      {.machine = of,
+       .path = circles(of),
+       .operator_actions = {
+           {.time_s = 0.3, .act = sim::OperatorAct::turn_feed, .code = table.code(0)}}});
   Layer layer(control, of);
   for (int i = 0; i < 250; ++i) {
     layer.feed(100.0);

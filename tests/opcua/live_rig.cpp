@@ -31,7 +31,9 @@ std::string bare(const std::string& node) {
 }
 
 Json value_of(const NodePlan::Node& node, const Answer::Value& shown) {
-  return node.text ? Json(shown.text) : node.length > 0 ? Json(shown.numbers) : Json(shown.numbers.at(0));
+  return node.text         ? Json(shown.text)
+         : node.length > 0 ? Json(shown.numbers)
+                           : Json(shown.numbers.at(0));
 }
 
 Machine with_endpoint(Machine machine, const std::string& endpoint) {
@@ -49,8 +51,8 @@ void give_state_folder(Machine& machine) {
   std::filesystem::create_directories(folder / "server");
   const auto password = folder / "password";
   std::ofstream(password) << kPassword << "\n";
-  std::filesystem::permissions(password, std::filesystem::perms::owner_read |
-                                             std::filesystem::perms::owner_write);
+  std::filesystem::permissions(
+      password, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   machine.opcua.certificates = folder.string();
   machine.opcua.password_file = password.string();
   machine.opcua.user = kUser;
@@ -138,7 +140,8 @@ std::vector<double> Server::order() {
 
 Rig::Rig(const Config& config)
     : machine(config.machine),
-      control({.machine = config.machine, .path = config.path, .order_delay_s = config.order_delay_s}),
+      control(
+          {.machine = config.machine, .path = config.path, .order_delay_s = config.order_delay_s}),
       server(config.machine, control) {
   machine = with_endpoint(machine, server.endpoint());
   trust(machine);
@@ -161,8 +164,8 @@ void Rig::connect() {
 }
 
 void Rig::advance(const std::function<void()>& each) {
-  const auto periods = static_cast<int>(
-      std::lround(machine.opcua.cycle_s / machine.control.interpolator_period_s));
+  const auto periods =
+      static_cast<int>(std::lround(machine.opcua.cycle_s / machine.control.interpolator_period_s));
   for (int i = 0; i < periods; ++i) {
     control.step();
     if (each) {

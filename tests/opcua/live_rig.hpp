@@ -20,7 +20,8 @@ namespace steadyrest::opcua {
 class Server {
  public:
   /// `nodes`: as the mapping names them; their values now come from `control`. Throws.
-  Server(const kernel::machine::Machine& machine, ControlSide& control, nlohmann::json more = nlohmann::json::object());
+  Server(const kernel::machine::Machine& machine, ControlSide& control,
+         nlohmann::json more = nlohmann::json::object());
 
   nlohmann::json ask(nlohmann::json message, double timeout_s = 20.0);
   [[nodiscard]] std::string endpoint() const;
@@ -49,8 +50,8 @@ class Rig {
   };
   explicit Rig(const Config& config);
 
-  /// The control goes on for one cycle of the layer, and the server shows where it is. `each`: after
-  /// every interpolator period.
+  /// The control goes on for one cycle of the layer, and the server shows where it is. `each`:
+  /// after every interpolator period.
   void advance(const std::function<void()>& each = {});
   /// The newest order on the server goes to the control; false: it has it already.
   bool deliver();

@@ -19,7 +19,7 @@ using kernel::outcome::unavailable;
 constexpr std::uint32_t kProtocol = 1;
 constexpr double kFirstPause_s = 0.1;
 constexpr double kLongestPause_s = 5.0;
-constexpr double kSlack_s = 0.2;     ///< the bridge times the control out by itself
+constexpr double kSlack_s = 0.2;  ///< the bridge times the control out by itself
 constexpr double kCertificate_s = 8.0;
 
 std::vector<std::string> ids_of(const std::vector<NodePlan::Node>& nodes) {
@@ -184,8 +184,7 @@ Result<Answer> BridgeClient::ask(std::string_view act) {
 
 Result<Answer> BridgeClient::write(const std::vector<std::vector<double>>& values) {
   ++id_;
-  return exchange(write_line(id_, values, writes_arrays_), id_,
-                  config_.machine.reply_s + kSlack_s);
+  return exchange(write_line(id_, values, writes_arrays_), id_, config_.machine.reply_s + kSlack_s);
 }
 
 Result<Answer> BridgeClient::certificate() {

@@ -8,7 +8,7 @@
 #include <steadyrest/adapters/opcua/bridge_process.hpp>
 #include <steadyrest/adapters/opcua/node_plan.hpp>
 #include <steadyrest/adapters/opcua/wire.hpp>
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/reach/opcua.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::opcua {
@@ -30,7 +30,8 @@ class BridgeClient {
   /// Waits until the bridge has a session with the control. Refused: why it has none now.
   [[nodiscard]] kernel::outcome::Result<void> connect(double patience_s);
   [[nodiscard]] kernel::outcome::Result<Answer> read() { return ask("read"); }
-  [[nodiscard]] kernel::outcome::Result<Answer> write(const std::vector<std::vector<double>>& values);
+  [[nodiscard]] kernel::outcome::Result<Answer> write(
+      const std::vector<std::vector<double>>& values);
   [[nodiscard]] kernel::outcome::Result<Answer> check() { return ask("check"); }
   /// The control's certificate, trusted or not; needs no session.
   [[nodiscard]] kernel::outcome::Result<Answer> certificate();

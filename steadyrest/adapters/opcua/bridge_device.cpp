@@ -71,10 +71,10 @@ Result<void> BridgeDevice::write(const Order& order) {
   }
   for (std::size_t i = 0; i < answer->status.size(); ++i) {
     if (answer->status[i] != 0) {
-      return unavailable(fmt::format("the control does not take {} (status {:#010x})",
-                                     i < plan_.writes().size() ? plan_.writes()[i].id : "?",
-                                     answer->status[i]),
-                         "give this user the right to write R parameters (docs/opcua.md, Users)");
+      return unavailable(
+          fmt::format("the control does not take {} (status {:#010x})",
+                      i < plan_.writes().size() ? plan_.writes()[i].id : "?", answer->status[i]),
+          "give this user the right to write R parameters (docs/opcua.md, Users)");
     }
   }
   return {};

@@ -57,8 +57,9 @@ int spawn(const BridgeProcess::Config& config, int socket, pid_t& process) {
 
 Result<std::unique_ptr<BridgeProcess>> BridgeProcess::start(const Config& config) {
   if (::access(config.script.c_str(), R_OK) != 0) {
-    return unavailable("the OPC UA bridge is not at " + config.script,
-                       "build it by scripts/opcua-bridge.sh, or name it in STEADYREST_OPCUA_BRIDGE");
+    return unavailable(
+        "the OPC UA bridge is not at " + config.script,
+        "build it by scripts/opcua-bridge.sh, or name it in STEADYREST_OPCUA_BRIDGE");
   }
   std::array<int, 2> pair{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) {

@@ -53,10 +53,9 @@ std::vector<Axis> axes_of(const Machine& machine) {
 }
 
 bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= 16 &&
-         std::ranges::all_of(text, [](unsigned char letter) {
-           return std::isalnum(letter) != 0 || letter == '_';
-         });
+  return !text.empty() && text.size() <= 16 && std::ranges::all_of(text, [](unsigned char letter) {
+    return std::isalnum(letter) != 0 || letter == '_';
+  });
 }
 
 std::string scl_cases(const kernel::machine::OverrideTable& table, bool to_position,
@@ -96,8 +95,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"OFFSET_STEP", number(envelope.offset_slew_mm_s * ipo_s)},
       {"R_NEEDED",
        std::to_string(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
-                        config.first_order + kernel::machine::order_count(axes.size()),
-                        config.first_work + kernel::machine::work_count(axes.size())}))},
+                                config.first_order + kernel::machine::order_count(axes.size()),
+                                config.first_work + kernel::machine::work_count(axes.size())}))},
       {"HAS_SPINDLE", unless(spindle)},
       {"HAS_OFFSETS", unless(envelope.max_offset_mm > 0.0)},
       {"FEED_EXCEEDS", unless(machine.feed_override.layer_may_exceed_panel)},
@@ -110,8 +109,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"FEED_TO_POSITION", scl_cases(machine.feed_override, true, "")},
       {"POSITION_TO_FEED", scl_cases(machine.feed_override, false, "DB21.DB4")},
       {"SPINDLE_TO_POSITION", scl_cases(machine.spindle_override, true, "")},
-      {"POSITION_TO_SPINDLE", scl_cases(machine.spindle_override, false,
-                                        fmt::format("DB{}.DB19", kSpindleDb))},
+      {"POSITION_TO_SPINDLE",
+       scl_cases(machine.spindle_override, false, fmt::format("DB{}.DB19", kSpindleDb))},
   };
 }
 
@@ -212,7 +211,8 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
     }
   }
   if (!is_name(machine.opcua.spindle)) {
-    return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"", "write S1, for example");
+    return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"",
+                  "write S1, for example");
   }
   // The number of actions stands at the top, so the text is filled in twice.
   Filler counting(machine, axes);

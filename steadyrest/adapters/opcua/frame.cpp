@@ -28,8 +28,7 @@ bool has(const OpcUa& config, Quantity quantity) noexcept {
 /// G codes of group 1 by their number there, as the control counts them: G0 is 1. Of the others
 /// only that they are no plain feed matters.
 double code_of_number(double number) noexcept {
-  constexpr std::array<double, 16> kCodes = {0,  0,  1,  2,  3,   1,   1,   1,
-                                             1,  1,  33, 331, 332, 1,  1,  1};
+  constexpr std::array<double, 16> kCodes = {0, 0, 1, 2, 3, 1, 1, 1, 1, 1, 33, 331, 332, 1, 1, 1};
   return number >= 1.0 && number < static_cast<double>(kCodes.size())
              ? kCodes[static_cast<std::size_t>(number)]
              : 1.0;
@@ -62,6 +61,13 @@ OverrideState override_of(double panel_percent, double effective_percent) noexce
   out.effective_ratio = kPercent * effective_percent;
   out.panel_code_known = std::isfinite(out.panel_ratio) && out.panel_ratio >= 0.0;
   return out;
+}
+
+/// Of a switch, 1 is the first; 0: the code is not in its table.
+std::uint32_t position_of(std::uint32_t code,
+                          const kernel::machine::OverrideTable& table) noexcept {
+  const auto found = std::ranges::find(table.code, code);
+  return found == table.code.end() ? 0 : static_cast<std::uint32_t>(found - table.code.begin()) + 1;
 }
 
 void put_axes(const Reading& reading, const Mapped& mapped, const Machine& machine,
@@ -102,8 +108,8 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
   Frame frame;
   put_axes(reading, mapped, machine, frame);
   const double panel = reading[Quantity::feed_panel_percent];
-  frame.feed = override_of(
-      panel, mapped.feed_effective ? reading[Quantity::feed_effective_percent] : panel);
+  frame.feed =
+      override_of(panel, mapped.feed_effective ? reading[Quantity::feed_effective_percent] : panel);
   if (feed_table != nullptr && frame.feed.panel_code_known) {
     frame.feed.panel_code =
         feed_table->code(feed_table->nearest_step(frame.feed.panel_ratio).value_or(0));
@@ -130,10 +136,10 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
   frame.program_line = line > 0.0 && line < 4e9 ? static_cast<std::uint32_t>(line) : 0;
   frame.path_speed_mm_s = kPerMinute * reading[Quantity::path_speed_mm_min];
   const double effective = frame.feed.effective_ratio;
-  frame.programmed_feed_mm_s =
-      mapped.programmed_feed ? kPerMinute * reading[Quantity::programmed_feed_mm_min]
-      : effective > 0.0      ? frame.path_speed_mm_s / effective
-                             : 0.0;
+  frame.programmed_feed_mm_s = mapped.programmed_feed
+                                   ? kPerMinute * reading[Quantity::programmed_feed_mm_min]
+                               : effective > 0.0 ? frame.path_speed_mm_s / effective
+                                                 : 0.0;
   if (mapped.spindle_speeds) {
     const double command = kPerMinute * reading[Quantity::spindle_command_rpm];
     const double programmed = kPerMinute * reading[Quantity::spindle_programmed_rpm];
@@ -157,6 +163,10 @@ Order order_of(const kernel::signal::Command& command, const Machine& machine) n
   order.masks_spindle = command.spindle_masks_panel && std::isfinite(command.spindle_ratio);
   order.feed_percent = order.masks_feed ? command.feed_ratio / kPercent : 100.0;
   order.spindle_percent = order.masks_spindle ? command.spindle_ratio / kPercent : 100.0;
+  order.feed_position =
+      order.masks_feed ? position_of(command.feed_code, machine.feed_override) : 0;
+  order.spindle_position =
+      order.masks_spindle ? position_of(command.spindle_code, machine.spindle_override) : 0;
   order.has_offsets = machine.envelope.max_offset_mm > 0.0;
   for (std::size_t i = 0; i < machine.axes.size() && i < order.offset_mm.size(); ++i) {
     const double unit = machine.axes[i].rotary ? kernel::units::rad_from_deg(1.0) : 1.0;

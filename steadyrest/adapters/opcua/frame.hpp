@@ -11,14 +11,14 @@ namespace steadyrest::adapters::opcua {
 
 /// Which optional quantities the mapping has; a missing one gets what is stated.
 struct Mapped {
-  bool feed_effective = false;     ///< else the panel's
-  bool rapid = false;              ///< else 100 %
-  bool spindle = false;            ///< else 100 %
-  bool following_error = false;    ///< else command − actual
-  bool motion = false;             ///< else feed while a program runs
-  bool program_state = false;      ///< else unknown
-  bool programmed_feed = false;    ///< else path speed / effective override
-  bool spindle_speeds = false;     ///< else 0
+  bool feed_effective = false;   ///< else the panel's
+  bool rapid = false;            ///< else 100 %
+  bool spindle = false;          ///< else 100 %
+  bool following_error = false;  ///< else command − actual
+  bool motion = false;           ///< else feed while a program runs
+  bool program_state = false;    ///< else unknown
+  bool programmed_feed = false;  ///< else path speed / effective override
+  bool spindle_speeds = false;   ///< else 0
 };
 [[nodiscard]] Mapped mapped(const kernel::machine::OpcUa& config) noexcept;
 

@@ -15,9 +15,9 @@ namespace {
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
-constexpr std::array<std::string_view, 11> kNumeric = {"Boolean", "SByte",  "Byte",   "Int16",
-                                                       "UInt16",  "Int32",  "UInt32", "Int64",
-                                                       "UInt64",  "Float",  "Double"};
+constexpr std::array<std::string_view, 11> kNumeric = {"Boolean", "SByte", "Byte",   "Int16",
+                                                       "UInt16",  "Int32", "UInt32", "Int64",
+                                                       "UInt64",  "Float", "Double"};
 
 bool numeric(const std::string& type) {
   return std::ranges::find(kNumeric, type) != kNumeric.end();
@@ -41,7 +41,8 @@ std::optional<Refusal> unreadable(const Answer::Checked& shown, const NodePlan::
                  "correct the mapping, or raise MD28050 if it is an R parameter");
   }
   if (name == "BadUserAccessDenied" || name == "BadNotReadable") {
-    return words("may not be read by this user", "give the user SinuReadAll, or the right it needs");
+    return words("may not be read by this user",
+                 "give the user SinuReadAll, or the right it needs");
   }
   return words("cannot be read", "see the control's manual for this status");
 }
@@ -60,10 +61,11 @@ std::optional<Refusal> unfit(const Answer::Checked& shown, const NodePlan::Node&
                    "map the quantity to another node");
   }
   if (node.length > 0 && shown.length < static_cast<std::int64_t>(node.length)) {
-    return refusal(shown.length < 0
-                       ? fmt::format("is a single value; the mapping wants {} in an array", node.length)
-                       : fmt::format("has {} values; the mapping wants {}", shown.length, node.length),
-                   "correct the mapping, or raise MD28050 if it is a range of R parameters");
+    return refusal(
+        shown.length < 0
+            ? fmt::format("is a single value; the mapping wants {} in an array", node.length)
+            : fmt::format("has {} values; the mapping wants {}", shown.length, node.length),
+        "correct the mapping, or raise MD28050 if it is a range of R parameters");
   }
   if (node.length == 0 && shown.length >= 0) {
     return refusal(fmt::format("is an array of {}; the mapping wants a single value", shown.length),

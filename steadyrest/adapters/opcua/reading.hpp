@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/reach/opcua.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::adapters::opcua {
@@ -34,10 +34,10 @@ struct Reading {
            static_cast<std::size_t>(kernel::machine::Quantity::command_mm);
   }
 
-  std::array<double, kQuantities> value{};                                  ///< NaN: not known
-  std::array<std::array<double, 4>, kernel::signal::kMaxAxes> axis{};       ///< likewise
-  double source_s = std::numeric_limits<double>::quiet_NaN();               ///< by the server
-  std::array<char, kLongestName + 1> program{};                             ///< ends in 0
+  std::array<double, kQuantities> value{};                             ///< NaN: not known
+  std::array<std::array<double, 4>, kernel::signal::kMaxAxes> axis{};  ///< likewise
+  double source_s = std::numeric_limits<double>::quiet_NaN();          ///< by the server
+  std::array<char, kLongestName + 1> program{};                        ///< ends in 0
 };
 
 /// What the layer wants of the control's side.
@@ -48,6 +48,8 @@ struct Order {
   bool has_offsets = false;
   double feed_percent = 100.0;
   double spindle_percent = 100.0;
+  std::uint32_t feed_position = 0;  ///< of the switch, 1 is the first; 0: none
+  std::uint32_t spindle_position = 0;
   kernel::signal::AxisValues offset_mm{};  ///< deg of a rotary axis
 };
 

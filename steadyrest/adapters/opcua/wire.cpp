@@ -105,7 +105,8 @@ bool read_nodes(const Json& from, Answer& out) {
     if (!one.is_object()) {
       return false;
     }
-    const auto code = whole_of(one.value("status", Json()), std::numeric_limits<std::uint32_t>::max());
+    const auto code =
+        whole_of(one.value("status", Json()), std::numeric_limits<std::uint32_t>::max());
     const Json length = one.value("length", Json());
     if (!code || !length.is_number_integer()) {
       return false;
@@ -184,7 +185,8 @@ std::optional<Answer> decode_line(std::string_view line) {
   // Deep nesting would cost stack: an answer has four levels at most.
   int depth = 0;
   const auto too_deep = [&depth](int /*level*/, Json::parse_event_t event, Json& /*parsed*/) {
-    depth += event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    depth +=
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
     depth -= event == Json::parse_event_t::object_end || event == Json::parse_event_t::array_end;
     return depth <= 8;
   };

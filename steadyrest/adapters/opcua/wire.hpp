@@ -39,10 +39,10 @@ struct Answer {
   std::string state;  ///< connecting, connected, lost
   std::string why;    ///< one stable word
   std::string detail;
-  std::vector<Value> values;         ///< of read
+  std::vector<Value> values;          ///< of read
   std::vector<std::uint32_t> status;  ///< of write
-  std::vector<Checked> nodes;        ///< of check
-  std::uint32_t protocol = 0;        ///< of hello
+  std::vector<Checked> nodes;         ///< of check
+  std::uint32_t protocol = 0;         ///< of hello
   // Of certificate.
   std::string fingerprint, subject, from, until, own;
 };
@@ -64,7 +64,8 @@ struct Configure {
 };
 
 [[nodiscard]] std::string configure_line(std::uint64_t id, const Configure& configure);
-[[nodiscard]] std::string write_line(std::uint64_t id, const std::vector<std::vector<double>>& values,
+[[nodiscard]] std::string write_line(std::uint64_t id,
+                                     const std::vector<std::vector<double>>& values,
                                      const std::vector<bool>& is_array);
 [[nodiscard]] std::string trust_line(std::uint64_t id, const std::string& fingerprint);
 /// A request without anything more: read, check, certificate, stop.

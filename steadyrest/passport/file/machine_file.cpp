@@ -55,8 +55,7 @@ class FileReader {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
     top.read(root, machine_,
              {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
-              "thermal", "envelope", "simulation", "lines", "recorder",
-              "opcua"});
+              "thermal", "envelope", "simulation", "lines", "recorder", "opcua"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
     axes(root);
     overrides(root);

@@ -197,7 +197,8 @@ class MappingReader {
     for (const auto& [name, value] : *table) {
       const auto* const found = std::ranges::find(kNames, name.str());
       if (found == kNames.end()) {
-        faults_.add(line_of(name.source()), fmt::format("[program_state] has no {}", cut(name.str())),
+        faults_.add(line_of(name.source()),
+                    fmt::format("[program_state] has no {}", cut(name.str())),
                     "use stopped, paused, running");
         continue;
       }
@@ -215,13 +216,14 @@ class MappingReader {
     for (const Quantity needed :
          {Quantity::command_mm, Quantity::actual_mm, Quantity::feed_panel_percent}) {
       if (!has(out_.reads, needed)) {
-        faults_.add(0,
-                    fmt::format("the mapping has no {}",
-                                kQuantityWords[static_cast<std::size_t>(needed)]),
-                    "add a [[read]] for it: without it there is nothing to correct");
+        faults_.add(
+            0,
+            fmt::format("the mapping has no {}", kQuantityWords[static_cast<std::size_t>(needed)]),
+            "add a [[read]] for it: without it there is nothing to correct");
       }
     }
-    if (!out_.writes.empty() && !has(out_.writes, Quantity::heartbeat)) {
+    if (!out_.writes.empty() && !has(out_.writes, Quantity::heartbeat) &&
+        !has(out_.writes, Quantity::heartbeat_byte)) {
       faults_.add(0, "the mapping writes, but has no heartbeat",
                   "add a [[write]] for it: the control's dead man needs it");
     }

@@ -32,12 +32,12 @@ void check_access(const OpcUa& config, const Given& given, Faults& faults) {
                "add password_file = a file of mode 600, or password_variable");
   }
   if (config.user.empty() && password) {
-    faults.add(given.at({"password_file", "password_variable"}), "[opcua] has a password without a user",
-               "add user");
+    faults.add(given.at({"password_file", "password_variable"}),
+               "[opcua] has a password without a user", "add user");
   }
   if (!config.password_file.empty() && !config.password_variable.empty()) {
-    faults.add(given.at({"password_variable"}), "[opcua] has both password_file and password_variable",
-               "keep one of them");
+    faults.add(given.at({"password_variable"}),
+               "[opcua] has both password_file and password_variable", "keep one of them");
   }
 }
 
@@ -65,9 +65,9 @@ void check_blocks(const OpcUa& config, std::size_t axes, const Given& given, Fau
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
     if (ranges[i].first + ranges[i].count > ranges[i + 1].first) {
       faults.add(given.at({ranges[i].key, ranges[i + 1].key}),
-                 fmt::format("{} takes R{} to R{}, {} begins at R{}", ranges[i].key, ranges[i].first,
-                             ranges[i].first + ranges[i].count - 1, ranges[i + 1].key,
-                             ranges[i + 1].first),
+                 fmt::format("{} takes R{} to R{}, {} begins at R{}", ranges[i].key,
+                             ranges[i].first, ranges[i].first + ranges[i].count - 1,
+                             ranges[i + 1].key, ranges[i + 1].first),
                  "leave room between them");
     }
   }
@@ -77,14 +77,15 @@ std::string beside(const std::string& machine_file, const std::string& name) {
   const std::filesystem::path path(name);
   return path.is_absolute() || name.empty()
              ? name
-             : (std::filesystem::path(machine_file).parent_path() / path).lexically_normal().string();
+             : (std::filesystem::path(machine_file).parent_path() / path)
+                   .lexically_normal()
+                   .string();
 }
 
 void read_mapping_file(const Machine& machine, const Given& given, OpcUa& out, Faults& faults) {
   const auto text = read_text(out.mapping);
   if (!text) {
-    faults.add(given.at({"mapping"}),
-               fmt::format("mapping {} {}", out.mapping, text.error().what),
+    faults.add(given.at({"mapping"}), fmt::format("mapping {} {}", out.mapping, text.error().what),
                "give the path of a mapping, e.g. examples/opcua/sinumerik-840d-sl.toml");
     return;
   }
@@ -121,12 +122,12 @@ void read_opcua(const toml::table& root, Machine& out, Faults& faults) {
   if (faults.list.size() != before) {
     return;
   }
-  for (std::string* const path :
-       {&out.opcua.mapping, &out.opcua.program, &out.opcua.password_file, &out.opcua.certificates}) {
+  for (std::string* const path : {&out.opcua.mapping, &out.opcua.program, &out.opcua.password_file,
+                                  &out.opcua.certificates}) {
     *path = beside(faults.file, *path);
   }
-  const auto axes = static_cast<std::size_t>(
-      std::ranges::count_if(out.axes, &kernel::machine::Axis::present));
+  const auto axes =
+      static_cast<std::size_t>(std::ranges::count_if(out.axes, &kernel::machine::Axis::present));
   check_access(out.opcua, given, faults);
   check_times(out.opcua, given, faults);
   check_blocks(out.opcua, axes, given, faults);

@@ -32,9 +32,9 @@ TEST(Wire, AReadingIsTakenWithWhatIsNotKnown) {
 
 TEST(Wire, WhatIsNoAnswerIsNone) {
   for (const std::string line :
-       {"", "{", "[]", "null", "7", R"({"id":1})", R"({"id":-1,"ok":true})", R"({"id":1.5,"ok":true})",
-        R"({"event":"hello"})", R"({"event":"state","state":"half"})", R"({"id":1,"ok":1})",
-        R"({"id":1,"ok":true,"values":[1],"status":[0,0],"time_ms":[1]})",
+       {"", "{", "[]", "null", "7", R"({"id":1})", R"({"id":-1,"ok":true})",
+        R"({"id":1.5,"ok":true})", R"({"event":"hello"})", R"({"event":"state","state":"half"})",
+        R"({"id":1,"ok":1})", R"({"id":1,"ok":true,"values":[1],"status":[0,0],"time_ms":[1]})",
         R"({"id":1,"ok":true,"values":[1],"status":[-1],"time_ms":[1]})",
         R"({"id":1,"ok":true,"values":7,"status":[],"time_ms":[]})",
         R"({"id":1,"ok":true,"nodes":[7]})", R"({"id":1,"ok":true,"status":["Good"]})"}) {
@@ -59,13 +59,20 @@ TEST(Wire, RequestsAreSingleLines) {
 
 OpcUa small_mapping() {
   OpcUa out;
-  out.reads = {{.quantity = Quantity::time_s, .node = "s=A", .index = 1, .length = 3, .scale = 2.0, .offset = 1.0},
-               {.quantity = Quantity::command_mm, .axis = 1, .node = "s=A", .index = 2, .length = 3},
-               {.quantity = Quantity::program_name, .node = "s=N"},
-               {.quantity = Quantity::coolant, .node = "s=C"}};
-  out.writes = {{.quantity = Quantity::heartbeat, .node = "s=O", .index = 0, .length = 3},
-                {.quantity = Quantity::feed_percent, .node = "s=O", .index = 1, .length = 3, .scale = 0.5},
-                {.quantity = Quantity::heartbeat_copy, .node = "s=O", .index = 2, .length = 3}};
+  out.reads = {
+      {.quantity = Quantity::time_s,
+       .node = "s=A",
+       .index = 1,
+       .length = 3,
+       .scale = 2.0,
+       .offset = 1.0},
+      {.quantity = Quantity::command_mm, .axis = 1, .node = "s=A", .index = 2, .length = 3},
+      {.quantity = Quantity::program_name, .node = "s=N"},
+      {.quantity = Quantity::coolant, .node = "s=C"}};
+  out.writes = {
+      {.quantity = Quantity::heartbeat, .node = "s=O", .index = 0, .length = 3},
+      {.quantity = Quantity::feed_percent, .node = "s=O", .index = 1, .length = 3, .scale = 0.5},
+      {.quantity = Quantity::heartbeat_copy, .node = "s=O", .index = 2, .length = 3}};
   return out;
 }
 
@@ -92,8 +99,21 @@ constexpr int kHostile = 1000000;
 TEST(Wire, AMillionHostileLinesHarmNothing) {
   const NodePlan plan(small_mapping());
   std::mt19937_64 random(1);
-  const std::string pieces[] = {"null", "1e999", "-1", "[", "]", "{", "}", ",", "\"", "\\u0000", "NaN",
-                                "true", "18446744073709551616", "\xff\xfe", "[[[[[[[[[["};
+  const std::string pieces[] = {"null",
+                                "1e999",
+                                "-1",
+                                "[",
+                                "]",
+                                "{",
+                                "}",
+                                ",",
+                                "\"",
+                                "\\u0000",
+                                "NaN",
+                                "true",
+                                "18446744073709551616",
+                                "\xff\xfe",
+                                "[[[[[[[[[["};
   std::size_t taken = 0;
   for (int i = 0; i < kHostile; ++i) {
     std::string line = kRead;

@@ -25,7 +25,8 @@ Outcome run(const Options& options) {
     return std::unexpected(machine.error());
   }
   if (machine->opcua.endpoint.empty()) {
-    return refused(bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
+    return refused(
+        bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
   }
   const auto config = live::opcua_client(*machine);
   const adapters::opcua::NodePlan plan(machine->opcua);
@@ -42,22 +43,27 @@ Outcome run(const Options& options) {
     trusted = true;
   }
   Answer answer;
-  answer.json = {{"endpoint", machine->opcua.endpoint}, {"subject", shown->subject},
-                 {"fingerprint", shown->fingerprint},   {"valid_from", shown->from},
-                 {"valid_until", shown->until},         {"trusted", trusted},
+  answer.json = {{"endpoint", machine->opcua.endpoint},
+                 {"subject", shown->subject},
+                 {"fingerprint", shown->fingerprint},
+                 {"valid_from", shown->from},
+                 {"valid_until", shown->until},
+                 {"trusted", trusted},
                  {"changed", shown->why == "certificate_changed"},
                  {"own_certificate", shown->own}};
   answer.text = fmt::format(
-      "control        {}\ncertificate    {}\nvalid          {} to {}\nSHA-256        {}\ntrusted        {}\n"
+      "control        {}\ncertificate    {}\nvalid          {} to {}\nSHA-256        {}\ntrusted   "
+      "     {}\n"
       "our own        {}\n",
       machine->opcua.endpoint, shown->subject, shown->from, shown->until, shown->fingerprint,
-      trusted                                  ? "yes"
-      : shown->why == "certificate_changed"    ? "no: it is another one than the trusted one"
-                                               : "no",
+      trusted                               ? "yes"
+      : shown->why == "certificate_changed" ? "no: it is another one than the trusted one"
+                                            : "no",
       shown->own);
   if (!trusted) {
     answer.text += fmt::format(
-        "Compare the fingerprint with the one on the control, then: steadyrest opcua trust --machine {} "
+        "Compare the fingerprint with the one on the control, then: steadyrest opcua trust "
+        "--machine {} "
         "--fingerprint {}\n",
         options.machine, shown->fingerprint);
   }
