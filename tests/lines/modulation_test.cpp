@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <tests/lines/line_chain.hpp>
 
-#include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/machine/chatter.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 

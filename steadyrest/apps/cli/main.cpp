@@ -102,7 +102,7 @@ constexpr Entry kVerbs[] = {
     {"opcua trust",
      "Show the control's certificate, and trust it once it is compared",
      add_verb_opcua_trust,
-     {"--machine examples/machines/vmc-840d-opcua.toml"}},
+     {"--machine examples/machines/vmc-840d-opcua.toml --where"}},
     {"lines", "Override lines between panel and control"},
     {"lines test",
      "Test the wiring of the override lines: list the levels, watch the switches, walk the words",

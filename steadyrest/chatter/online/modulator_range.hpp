@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include <steadyrest/chatter/online/modulator.hpp>
-#include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/machine/chatter.hpp>
 
 namespace steadyrest::chatter::online {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/chatter/online/speed_law.hpp>
-#include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/machine/chatter.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // Shapes S(u) over one period with mean 0, so that a law keeps the mean speed and the cutting time.

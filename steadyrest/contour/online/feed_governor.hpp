@@ -172,7 +172,7 @@ class FeedGovernor {
     std::size_t history_at = 0;
   };
 
-  static kernel::outcome::Result<FeedGovernor> make(const Config& config);
+  static kernel::outcome::Result<FeedGovernor> make(const Config& given);
   static kernel::outcome::Result<FeedGovernor> make(const kernel::machine::Machine& machine);
 
   /// One cycle. The request remains in force until the next call. `unfit`: why the frame must not

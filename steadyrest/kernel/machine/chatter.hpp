@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace steadyrest::kernel::machine {
 
 /// Shapes of the spindle's speed; chatter/online/speed_law.hpp has the formulas.
 enum class SpeedLaw : std::uint8_t { constant, square, pulse, triangle, sine, random, stop };
+
+/// As machine files and the command line write them, in the order of `SpeedLaw`.
+inline constexpr std::array<std::string_view, 7> kSpeedLawNames = {
+    "constant", "square", "pulse", "triangle", "sine", "random", "stop"};
+static_assert(kSpeedLawNames.size() == static_cast<std::size_t>(SpeedLaw::stop) + 1,
+              "each law has its name; `stop` is the last");
 
 /// What the chatter room may do on this machine.
 struct Chatter {

@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/machine/chatter.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/units/convert.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include <steadyrest/kernel/machine/speed_law.hpp>
+#include <steadyrest/kernel/machine/chatter.hpp>
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 

@@ -17,6 +17,7 @@ namespace {
 struct Options {
   std::string machine;
   std::string fingerprint;
+  bool where = false;
 };
 
 Outcome run(const Options& options) {
@@ -29,6 +30,12 @@ Outcome run(const Options& options) {
         bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
   }
   const auto config = live::opcua_client(*machine);
+  if (options.where) {
+    Answer answer;
+    answer.json["certificates"] = config.state_folder;
+    answer.text = "certificates   " + config.state_folder + "\n";
+    return answer;
+  }
   const adapters::opcua::NodePlan plan(machine->opcua);
   adapters::opcua::BridgeClient client(config, plan);
   const auto shown = client.certificate();
@@ -78,6 +85,8 @@ void add_verb_opcua_trust(Session& session, Verb& verb) {
   add_machine_option(verb, options->machine);
   verb.add_option("--fingerprint", options->fingerprint,
                   "SHA-256 of the certificate that you have compared: trust it from now on");
+  verb.add_flag("--where", options->where,
+                "Only tell in which folder certificates are kept; connects to nothing");
   session.on(verb, [options](Progress& /*progress*/) { return opcua_trust::run(*options); });
 }
 
