@@ -49,3 +49,5 @@ if [ -n "$missing" ]; then
 fi
 
 sh scripts/web-packages.sh
+# Only the port `opcua` and its tests need them.
+[ "${1:-}" != --test ] || sh scripts/opcua-bridge.sh

@@ -63,6 +63,13 @@ OverrideState override_of(double panel_percent, double effective_percent) noexce
   return out;
 }
 
+/// Of a switch, 1 is the first; 0: the code is not in its table.
+std::uint32_t position_of(std::uint32_t code,
+                          const kernel::machine::OverrideTable& table) noexcept {
+  const auto found = std::ranges::find(table.code, code);
+  return found == table.code.end() ? 0 : static_cast<std::uint32_t>(found - table.code.begin()) + 1;
+}
+
 void put_axes(const Reading& reading, const Mapped& mapped, const Machine& machine,
               Frame& frame) noexcept {
   const std::size_t axes = std::min(machine.axes.size(), frame.axis.size());
@@ -156,6 +163,10 @@ Order order_of(const kernel::signal::Command& command, const Machine& machine) n
   order.masks_spindle = command.spindle_masks_panel && std::isfinite(command.spindle_ratio);
   order.feed_percent = order.masks_feed ? command.feed_ratio / kPercent : 100.0;
   order.spindle_percent = order.masks_spindle ? command.spindle_ratio / kPercent : 100.0;
+  order.feed_position =
+      order.masks_feed ? position_of(command.feed_code, machine.feed_override) : 0;
+  order.spindle_position =
+      order.masks_spindle ? position_of(command.spindle_code, machine.spindle_override) : 0;
   order.has_offsets = machine.envelope.max_offset_mm > 0.0;
   for (std::size_t i = 0; i < machine.axes.size() && i < order.offset_mm.size(); ++i) {
     const double unit = machine.axes[i].rotary ? kernel::units::rad_from_deg(1.0) : 1.0;

@@ -12,6 +12,7 @@ namespace {
 using kernel::machine::OpcUaPlace;
 using kernel::machine::Quantity;
 
+constexpr std::uint32_t kHeartbeatBytes = 250;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 double shown_at(const Answer::Value& value, const OpcUaPlace& place) noexcept {
@@ -40,6 +41,14 @@ double wanted(const Order& order, const OpcUaPlace& place) noexcept {
       return order.masks_spindle ? order.spindle_percent : 100.0;
     case Quantity::axis_offset_mm:
       return order.has_offsets ? order.offset_mm[place.axis] : 0.0;
+    case Quantity::heartbeat_byte:
+      return 1.0 + order.heartbeat % kHeartbeatBytes;
+    case Quantity::mask_byte:
+      return (order.masks_feed ? 1.0 : 0.0) + (order.masks_spindle ? 2.0 : 0.0);
+    case Quantity::feed_position:
+      return order.feed_position;
+    case Quantity::spindle_position:
+      return order.spindle_position;
     default:
       return 0.0;
   }

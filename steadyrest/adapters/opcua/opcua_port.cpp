@@ -49,8 +49,10 @@ OpcUaPort::OpcUaPort(const Machine& machine, std::optional<kernel::override::Tab
       feed_table_(std::move(feed_table)),
       exchange_("the control's OPC UA server", std::move(device), machine.opcua.reply_s) {
   const OpcUa& config = machine_.opcua;
-  capability_ = {.feed_override = writes(config, Quantity::feed_percent),
-                 .spindle_override = writes(config, Quantity::spindle_percent) &&
+  capability_ = {.feed_override = writes(config, Quantity::feed_percent) ||
+                                  writes(config, Quantity::feed_position),
+                 .spindle_override = (writes(config, Quantity::spindle_percent) ||
+                                      writes(config, Quantity::spindle_position)) &&
                                      machine_.spindle_override.ratio.size() > 1,
                  .axis_offset = writes(config, Quantity::axis_offset_mm) &&
                                 machine_.envelope.max_offset_mm > 0.0,

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/reach/opcua.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::adapters::opcua {
@@ -48,6 +48,8 @@ struct Order {
   bool has_offsets = false;
   double feed_percent = 100.0;
   double spindle_percent = 100.0;
+  std::uint32_t feed_position = 0;  ///< of the switch, 1 is the first; 0: none
+  std::uint32_t spindle_position = 0;
   kernel::signal::AxisValues offset_mm{};  ///< deg of a rotary axis
 };
 

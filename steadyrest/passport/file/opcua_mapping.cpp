@@ -222,7 +222,8 @@ class MappingReader {
             "add a [[read]] for it: without it there is nothing to correct");
       }
     }
-    if (!out_.writes.empty() && !has(out_.writes, Quantity::heartbeat)) {
+    if (!out_.writes.empty() && !has(out_.writes, Quantity::heartbeat) &&
+        !has(out_.writes, Quantity::heartbeat_byte)) {
       faults_.add(0, "the mapping writes, but has no heartbeat",
                   "add a [[write]] for it: the control's dead man needs it");
     }

@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <steadyrest/adapters/opcua/bridge_device.hpp>
 #include <steadyrest/adapters/opcua/node_check.hpp>
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
@@ -32,7 +34,8 @@ using steadyrest::live::LoadedProgram;
 using steadyrest::live::ProgramWatch;
 
 constexpr double kConnect_s = 20.0;
-constexpr std::chrono::milliseconds kBetweenSamples(50);
+constexpr std::chrono::milliseconds kBetweenSamples(20);
+constexpr int kSamples = 10;
 constexpr const char* kCheck = "opcua";
 
 std::string beside_program() {
@@ -52,19 +55,23 @@ std::string state_folder() {
   return (base / "steadyrest" / "opcua").string();
 }
 
-/// The control's side shows another sample each time.
-Result<void> check_sample(BridgeDevice& device) {
+/// The control's side shows another sample each time. The longest that a reading takes, s.
+Result<double> check_sample(BridgeDevice& device) {
+  using Clock = std::chrono::steady_clock;
   adapter::Reading reading;
   if (auto connected = device.connect(kConnect_s); !connected) {
-    return connected;
+    return std::unexpected(std::move(connected.error()));
   }
-  for (int i = 0; i < 2; ++i) {
+  std::chrono::duration<double> longest{};
+  for (int i = 0; i < kSamples; ++i) {
+    const auto before = Clock::now();
     if (auto read = device.read(reading); !read) {
-      return read;
+      return std::unexpected(std::move(read.error()));
     }
+    longest = std::max<std::chrono::duration<double>>(longest, Clock::now() - before);
     std::this_thread::sleep_for(kBetweenSamples);
   }
-  return {};
+  return longest.count();
 }
 
 /// Of the control's program what the operator names; its state is the control's own.
@@ -126,6 +133,12 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
     BridgeDevice device(opcua_client(machine));
     if (const auto shown = check_sample(device); !shown) {
       out.push_back({Severity::error, kCheck, shown.error().what, shown.error().to_do});
+    } else if (*shown > machine.opcua.cycle_s) {
+      out.push_back({Severity::warning, kCheck,
+                     fmt::format("the control takes up to {:.0f} ms for a reading, more than "
+                                 "cycle_ms = {:g}",
+                                 1e3 * *shown, 1e3 * machine.opcua.cycle_s),
+                     "set cycle_ms above that, and dead_man_ms to three times as much"});
     }
   }
   return out;

@@ -56,10 +56,15 @@ enum class Quantity : std::uint8_t {
   feed_percent,
   spindle_percent,
   axis_offset_mm,  ///< of each axis
+  // Written to a PLC in bytes.
+  heartbeat_byte,    ///< 1 … 250, another one with each order
+  mask_byte,         ///< 1 feed, 2 spindle, both: 3
+  feed_position,     ///< of the feed switch, 1 is the first
+  spindle_position,  ///< likewise
 };
 
 /// In the order of their values.
-inline constexpr std::array<std::string_view, 35> kQuantityWords = {"sample_begin",
+inline constexpr std::array<std::string_view, 39> kQuantityWords = {"sample_begin",
                                                                     "sample_end",
                                                                     "time_s",
                                                                     "layer_alive",
@@ -93,7 +98,11 @@ inline constexpr std::array<std::string_view, 35> kQuantityWords = {"sample_begi
                                                                     "has_offsets",
                                                                     "feed_percent",
                                                                     "spindle_percent",
-                                                                    "axis_offset_mm"};
+                                                                    "axis_offset_mm",
+                                                                    "heartbeat_byte",
+                                                                    "mask_byte",
+                                                                    "feed_position",
+                                                                    "spindle_position"};
 
 [[nodiscard]] constexpr bool is_of_axis(Quantity quantity) noexcept {
   return (quantity >= Quantity::command_mm && quantity <= Quantity::offset_mm) ||
