@@ -77,8 +77,8 @@ TEST(Cli, APortThatIsNotBuiltIsRefused) {
     for (const std::string& line : {"doctor --machine " + machine,
                                     "cut examples/programs/circle-r10.ngc --machine " + machine}) {
       expect_refused(
-          line,
-          fmt::format("port = \"{}\" is unknown; allowed: one of sim, linuxcnc, lines, opcua", port));
+          line, fmt::format("port = \"{}\" is unknown; allowed: one of sim, linuxcnc, lines, opcua",
+                            port));
     }
   }
 }

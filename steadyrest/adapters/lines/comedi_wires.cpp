@@ -42,7 +42,8 @@ struct ComediWires::Card {
     }
   }
 
-  [[nodiscard]] Result<void> turn(unsigned subdevice, const Range& lines, unsigned direction) {
+  [[nodiscard]] Result<void> turn(unsigned subdevice, const Range& lines,
+                                  unsigned direction) const {
     const int has = comedi_get_n_channels(device, subdevice);
     if (has < static_cast<int>(lines.first + lines.count)) {
       return unavailable(fmt::format("subdevice {} has {} lines, line {} is wanted", subdevice,
@@ -58,7 +59,7 @@ struct ComediWires::Card {
     return {};
   }
   [[nodiscard]] Result<void> exchange(unsigned subdevice, const Range& lines, bool writes,
-                                      Levels& levels) {
+                                      Levels& levels) const {
     for (std::uint32_t done = 0; done < lines.count; done += kAtOnce) {
       const std::uint32_t count = std::min(kAtOnce, lines.count - done);
       unsigned bits = 0;

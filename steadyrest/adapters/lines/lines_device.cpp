@@ -50,7 +50,7 @@ LinesDevice::~LinesDevice() {
   if (acting_) {
     Levels outputs = on_wires_;
     release(outputs);
-    static_cast<void>(parts_.wires->write(outputs));
+    [[maybe_unused]] const auto sent = parts_.wires->write(outputs);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <steadyrest/adapters/lines/wires.hpp>
 #include <steadyrest/kernel/machine/lines.hpp>
@@ -61,8 +62,8 @@ class OverrideLine {
   [[nodiscard]] const Config& config() const noexcept { return config_; }
 
  private:
-  OverrideLine(const Config& config, kernel::override::Table table)
-      : config_(config), table_(std::move(table)) {}
+  OverrideLine(Config config, kernel::override::Table table)
+      : config_(std::move(config)), table_(std::move(table)) {}
   [[nodiscard]] std::size_t walk(std::size_t step, bool step_time) noexcept;
   [[nodiscard]] bool operator_has_it(std::size_t step) const noexcept;
   bool put_mask(bool on, Levels& outputs) const noexcept;

@@ -30,7 +30,7 @@ Event::~Event() {
   ::close(descriptor_);
 }
 
-void Event::post() noexcept {
+void Event::post() const noexcept {
   const std::uint64_t one = 1;
   while (::write(descriptor_, &one, sizeof one) < 0 && errno == EINTR) {
   }

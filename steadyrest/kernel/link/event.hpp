@@ -13,7 +13,7 @@ class Event {
   ~Event();
 
   /// From any thread.
-  void post() noexcept;
+  void post() const noexcept;
   /// Takes all that was posted; false: nothing was within the time. One thread. < 0: for ever.
   bool wait(double timeout_s) noexcept;
 
