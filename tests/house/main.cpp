@@ -40,12 +40,7 @@ std::vector<house::SourceFile> read_tree(const fs::path& root) {
     if (!fs::is_directory(root / folder)) {
       continue;
     }
-    for (auto at = fs::recursive_directory_iterator(root / folder);
-         at != fs::recursive_directory_iterator(); ++at) {
-      const fs::directory_entry& entry = *at;
-      if (entry.path().filename() == "node_modules") {
-        at.disable_recursion_pending();  // packages of others
-      }
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       const std::string relative = fs::relative(entry.path(), root).generic_string();
       // The fixtures of this very check are meant to break it.
       if (entry.is_regular_file() && is_checked(entry.path()) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layer, bridge, link and server are cut at random moments, 100 each. Whatever was on its way, the
+// Bridge, link and server are cut at random moments, 100 each. Whatever was on its way, the
 // control's side is neutral within its stated time, by its own clock, and never jumps.
 #include <cmath>
 #include <csignal>
@@ -111,14 +111,6 @@ class Cuts : public testing::Test {
   std::mt19937 random_{20};
   double longest_s_ = 0.0;
 };
-
-TEST_F(Cuts, OfTheLayer) {
-  for (int i = 0; i < kMoments && !HasFatalFailure(); ++i) {
-    hold();
-    expect_neutral(true);
-  }
-  tell("layer");
-}
 
 TEST_F(Cuts, OfTheLink) {
   for (int i = 0; i < kMoments && !HasFatalFailure(); ++i) {

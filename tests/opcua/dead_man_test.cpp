@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The control's side alone, without any link: the shipped text on the simulated machine.
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -55,7 +57,9 @@ class DeadMan : public testing::Test {
   }
 
   kernel::machine::Machine of = machine();
-  ControlSide control{{.machine = of, .path = circles(of)}};
+  ControlSide control{
+      {.machine = of,
+       .path = path_of("G17 G90 G94 G71\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=90 F2000\nM30\n", of)}};
   Layer layer{control, of};
 };
 
@@ -85,6 +89,23 @@ TEST_F(DeadMan, WithoutOrdersTheFeedIsThePanelsWithinTheStatedTimeAndNeverJumps)
   EXPECT_LE(neutral_s, stated_s);
   EXPECT_GE(neutral_s, stated_s - 0.05);
   EXPECT_FALSE(control.obeys());
+}
+
+TEST_F(DeadMan, ALayerThatDiesAtARandomMomentLeavesNothingBehind) {
+  std::mt19937 random(7);
+  double longest_s = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double held = std::uniform_real_distribution<double>(0.0, 1.0)(random);
+    run(std::uniform_real_distribution<double>(0.1, 0.4)(random), 100.0 * held);
+    ASSERT_NEAR(control.feed_in_force(), held, 1e-6);
+    const double from_s = control.time_s();
+    while (control.feed_in_force() < 1.0 - 1e-9 || control.obeys()) {
+      control.step();
+      ASSERT_LE(control.time_s() - from_s, adapters::opcua::neutral_after_s(of, held) + 1e-6);
+    }
+    longest_s = std::max(longest_s, control.time_s() - from_s);
+  }
+  EXPECT_GT(longest_s, 0.5) << "some were held low";
 }
 
 TEST_F(DeadMan, AfterTheHandBackThePanelTurnsFreely) {

@@ -12,8 +12,8 @@
 #include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/machine/envelope.hpp>
 #include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
-#include <steadyrest/kernel/machine/reach/opcua.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>
 #include <steadyrest/kernel/machine/spindle.hpp>
 #include <steadyrest/kernel/machine/thermal.hpp>
