@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <tests/lines/line_chain.hpp>
 
-#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::test::lines {
@@ -35,14 +34,9 @@ class Scene {
     machine_.lines.wiring = wiring;
     Machine real = machine_;
     real.port = kernel::machine::PortKind::sim;
-    nc::interpret::Config config;
-    config.dialect = machine_.control.dialect;
-    config.axes = "XYZ";
-    const auto path = std::make_shared<const nc::plan::PlannedPath>(
-        nc::plan::plan_text("G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 "
-                            "F2000\nM30\n",
-                            config, real, "circles.mpf")
-            .value());
+    const auto path = path_of(real,
+                              "G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 "
+                              "F2000\nM30\n");
     sim_ = sim::SimulatedMachine::make(
                {.machine = real, .path = path, .operator_actions = {}, .cutting = {}})
                .value();

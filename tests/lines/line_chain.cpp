@@ -6,6 +6,7 @@
 #include <tests/lines/line_chain.hpp>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
 // The exchange's thread and the test's take turns: whatever the layer's thread touches here is
@@ -62,6 +63,15 @@ Result<void> BareLink::write(const Levels& outputs) {
   outputs_ = outputs;
   written_s_ = now_s_;
   return {};
+}
+
+std::shared_ptr<const nc::plan::PlannedPath> path_of(const Machine& machine,
+                                                     const std::string& program) {
+  nc::interpret::Config config;
+  config.dialect = machine.control.dialect;
+  config.axes = "XYZ";
+  return std::make_shared<const nc::plan::PlannedPath>(
+      nc::plan::plan_text(program, config, machine, "program.mpf").value());
 }
 
 Machine wired_840d(double dead_time_s) {

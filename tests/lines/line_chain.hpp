@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <steadyrest/adapters/lines/lines_port.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -48,6 +49,10 @@ class BareLink final : public Link {
   double now_s_ = 0.0;
   double written_s_ = 0.0;
 };
+
+/// A program on the simulated machine.
+[[nodiscard]] std::shared_ptr<const nc::plan::PlannedPath> path_of(
+    const kernel::machine::Machine& machine, const std::string& program);
 
 /// 840D with five bits a word, wiring `plc`, feed and spindle, on a link that `open` names.
 [[nodiscard]] kernel::machine::Machine wired_840d(double dead_time_s);

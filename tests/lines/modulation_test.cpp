@@ -10,7 +10,6 @@
 #include <tests/lines/line_chain.hpp>
 
 #include <steadyrest/kernel/machine/chatter.hpp>
-#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::test::lines {
@@ -51,14 +50,9 @@ Seen modulated(SpeedLaw law, bool by_wires) {
   const Machine machine = machine_with(law);
   Machine real = machine;
   real.port = kernel::machine::PortKind::sim;
-  nc::interpret::Config config;
-  config.dialect = machine.control.dialect;
-  config.axes = "XYZ";
-  const auto path = std::make_shared<const nc::plan::PlannedPath>(
-      nc::plan::plan_text("G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=20 "
-                          "F2000\nM30\n",
-                          config, real, "circles.mpf")
-          .value());
+  const auto path = path_of(real,
+                            "G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=20 "
+                            "F2000\nM30\n");
   const auto sim = sim::SimulatedMachine::make(
                        {.machine = real, .path = path, .operator_actions = {}, .cutting = {}})
                        .value();

@@ -15,33 +15,11 @@
 namespace steadyrest::adapters::lines {
 namespace {
 
-using kernel::machine::kNoLine;
 using kernel::machine::Lines;
 using kernel::outcome::Result;
 using kernel::outcome::unavailable;
 
 constexpr const char* kConsumer = "steadyrest";
-
-std::vector<unsigned> sorted(std::vector<std::uint32_t> lines) {
-  std::erase(lines, kNoLine);
-  std::ranges::sort(lines);
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  return {lines.begin(), lines.end()};
-}
-
-std::vector<unsigned> input_lines(const Lines& of) {
-  std::vector<std::uint32_t> all = {of.running, of.cutting, of.locked, of.modulate};
-  all.insert(all.end(), of.feed.panel.begin(), of.feed.panel.end());
-  all.insert(all.end(), of.spindle.panel.begin(), of.spindle.panel.end());
-  return sorted(std::move(all));
-}
-
-std::vector<unsigned> output_lines(const Lines& of) {
-  std::vector<std::uint32_t> all = {of.heartbeat, of.feed.mask, of.spindle.mask};
-  all.insert(all.end(), of.feed.out.begin(), of.feed.out.end());
-  all.insert(all.end(), of.spindle.out.begin(), of.spindle.out.end());
-  return sorted(std::move(all));
-}
 
 std::unexpected<kernel::outcome::Refusal> gpio_fault(const std::string& what) {
   return unavailable(fmt::format("{}: {}", what, std::strerror(errno)),

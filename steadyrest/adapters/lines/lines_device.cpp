@@ -12,7 +12,6 @@ namespace {
 
 using kernel::machine::kNoLine;
 using kernel::machine::Lines;
-using kernel::machine::OverrideWires;
 using kernel::machine::Wiring;
 using kernel::outcome::Result;
 using kernel::outcome::unavailable;
@@ -21,19 +20,11 @@ constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
 constexpr double kTimeTolerance = 1e-9;
 
-void mark(std::uint32_t line, Levels& levels) {
-  if (line < kMostLines) {
-    levels.set(line);
-  }
-}
-
 Levels outputs_set(const Lines& lines) {
   Levels all;
-  for (const OverrideWires* wires : {&lines.feed, &lines.spindle}) {
-    std::ranges::for_each(wires->out, [&all](std::uint32_t line) { mark(line, all); });
-    mark(wires->mask, all);
+  for (const std::uint32_t line : output_lines(lines)) {
+    all.set(line);
   }
-  mark(lines.heartbeat, all);
   return all;
 }
 
@@ -89,7 +80,7 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 }
 
 /// What must be written without an order: masks that nobody asks for, and the panel's word where
-/// the layer stands between panel and control.
+/// the layer is between panel and control.
 Result<void> LinesDevice::pass_on() {
   ++silent_;
   const bool ends = acting_ && silent_ > kSilentReadings;
@@ -104,7 +95,8 @@ Result<void> LinesDevice::pass_on() {
 }
 
 Result<void> LinesDevice::read(LineSample& sample) {
-  if (auto got = parts_.wires->read(sample.inputs, sample.outputs); !got) {
+  Levels outputs;
+  if (auto got = parts_.wires->read(sample.inputs, outputs); !got) {
     sent_ = false;
     return got;
   }
@@ -113,11 +105,11 @@ Result<void> LinesDevice::read(LineSample& sample) {
     connection_ = parts_.wires->connections();
     sent_ = false;
   }
-  if (auto as_written = check_outputs(sample.outputs); !as_written) {
+  if (auto as_written = check_outputs(outputs); !as_written) {
     return as_written;
   }
   if (!sent_) {
-    on_wires_ = sample.outputs;
+    on_wires_ = outputs;
     for (auto* line : {&parts_.feed, &parts_.spindle}) {
       if (*line) {
         (*line)->forget();
@@ -125,10 +117,10 @@ Result<void> LinesDevice::read(LineSample& sample) {
     }
   }
   if (parts_.feed) {
-    static_cast<void>(parts_.feed->see(sample.inputs, sample.outputs));
+    sample.feed = parts_.feed->see(sample.inputs, outputs);
   }
   if (parts_.spindle) {
-    static_cast<void>(parts_.spindle->see(sample.inputs, sample.outputs));
+    sample.spindle = parts_.spindle->see(sample.inputs, outputs);
   }
   if (auto passed = pass_on(); !passed) {
     return passed;

@@ -16,7 +16,8 @@ namespace steadyrest::adapters::lines {
 /// One reading of everything.
 struct LineSample {
   Levels inputs;
-  Levels outputs;  ///< as the module has them
+  OverrideLine::Seen feed;  ///< of what is wired
+  OverrideLine::Seen spindle;
   EncoderReading encoders;
   double read_s = 0.0;  ///< monotonic clock
 };

@@ -66,13 +66,10 @@ Result<std::unique_ptr<LinesPort>> LinesPort::make(const Machine& machine,
   if (!*feed && !*spindle) {
     return refuse("[lines] wires no override", "add [lines.feed] or [lines.spindle]");
   }
-  const bool shows = encoders != nullptr;
-  LinesDevice::Parts parts{.wires = std::move(wires),
-                           .encoders = std::move(encoders),
-                           .feed = *feed,
-                           .spindle = *spindle};
-  return std::unique_ptr<LinesPort>(
-      new LinesPort(machine, std::move(*feed), std::move(*spindle), std::move(parts), shows));
+  return std::unique_ptr<LinesPort>(new LinesPort(machine, {.wires = std::move(wires),
+                                                            .encoders = std::move(encoders),
+                                                            .feed = std::move(*feed),
+                                                            .spindle = std::move(*spindle)}));
 }
 
 Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
@@ -91,14 +88,11 @@ Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
   return make(machine, std::move(*wires), std::move(encoders));
 }
 
-LinesPort::LinesPort(const Machine& machine, std::optional<OverrideLine> feed,
-                     std::optional<OverrideLine> spindle, LinesDevice::Parts parts, bool encoders)
+LinesPort::LinesPort(const Machine& machine, LinesDevice::Parts parts)
     : lines_(machine.lines),
       axes_(machine.axes),
       start_count_(machine.axes.size()),
-      encoders_(encoders),
-      feed_(std::move(feed)),
-      spindle_(std::move(spindle)),
+      encoders_(parts.encoders != nullptr),
       exchange_("the override lines",
                 std::make_unique<LinesDevice>(machine.lines, std::move(parts)),
                 kPatience * machine.lines.reply_s) {
@@ -106,15 +100,15 @@ LinesPort::LinesPort(const Machine& machine, std::optional<OverrideLine> feed,
     const double count_mm = axes_[i].encoder.count_au;
     start_count_[i] = count_mm > 0.0 ? std::llround(machine.recorder.start_mm[i] / count_mm) : 0;
   }
-  if (encoders && machine.recorder.spindle_counts_rev > 0.0) {
+  if (encoders_ && machine.recorder.spindle_counts_rev > 0.0) {
     spindle_watch_.emplace(machine.recorder.spindle_counts_rev);
   }
 }
 
 kernel::port::Capability LinesPort::capability() const noexcept {
   // Words walk where their table says so; the module sets all outputs at once.
-  return {.feed_override = feed_.has_value(),
-          .spindle_override = spindle_.has_value(),
+  return {.feed_override = !lines_.feed.out.empty(),
+          .spindle_override = !lines_.spindle.out.empty(),
           .latched_word = true};
 }
 
@@ -190,11 +184,11 @@ Result<Frame> LinesPort::read() noexcept {
   frame.age_s = taken->age_s;
   frame.axis_count = static_cast<std::uint8_t>(axes_.size());
   frame.time_s = encoders_ ? sample.encoders.time_s : sample.read_s;
-  if (feed_) {
-    frame.feed = state_of(feed_->see(sample.inputs, sample.outputs));
+  if (!lines_.feed.out.empty()) {
+    frame.feed = state_of(sample.feed);
   }
-  if (spindle_) {
-    frame.spindle = state_of(spindle_->see(sample.inputs, sample.outputs));
+  if (!lines_.spindle.out.empty()) {
+    frame.spindle = state_of(sample.spindle);
   }
   show_program(sample.inputs, frame);
   if (encoders_) {

@@ -34,8 +34,7 @@ class LinesPort final : public kernel::port::Port {
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
  private:
-  LinesPort(const kernel::machine::Machine& machine, std::optional<OverrideLine> feed,
-            std::optional<OverrideLine> spindle, LinesDevice::Parts parts, bool encoders);
+  LinesPort(const kernel::machine::Machine& machine, LinesDevice::Parts parts);
   void show_axes(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
   void show_spindle(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
   void show_program(const Levels& inputs, kernel::signal::Frame& frame) const noexcept;
@@ -45,8 +44,6 @@ class LinesPort final : public kernel::port::Port {
   std::vector<kernel::machine::Axis> axes_;
   std::vector<std::int64_t> start_count_;  ///< of each axis
   bool encoders_;
-  std::optional<OverrideLine> feed_;  ///< only looks; the device's write
-  std::optional<OverrideLine> spindle_;
   std::optional<SpindleWatch> spindle_watch_;
   std::uint64_t cycle_ = 0;
   kernel::signal::AxisValues before_mm_{};

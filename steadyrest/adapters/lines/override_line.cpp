@@ -83,14 +83,20 @@ bool OverrideLine::put(const Word& word, bool step_time, Levels& outputs) noexce
   }
   // Whatever is not masked follows the panel, so that a mask that comes changes nothing.
   const auto wanted = masks ? layer : panel;
-  if (!wanted) {
-    return put_mask(false, outputs);
+  // Before the relay is in, it is the panel's word that settles, whatever the layer wants.
+  const bool comes_in = config_.wiring == Wiring::relay && !relay_in_;
+  const auto goal = comes_in ? panel : wanted;
+  const bool settled = goal && step_ == goal && step_time;
+  if (!goal) {
+    relay_in_ = put_mask(false, outputs);
+    return false;
   }
-  const std::size_t step = walk(*wanted, step_time);
+  const std::size_t step = walk(*goal, step_time);
   put_code(table_.code(step), outputs);
   switch (config_.wiring) {
     case Wiring::relay:
-      return put_mask(!operator_has_it(step), outputs);
+      relay_in_ = (relay_in_ || settled) && !operator_has_it(step);
+      return put_mask(relay_in_, outputs);
     case Wiring::plc:
       return put_mask(masks, outputs);
     case Wiring::through:
@@ -104,7 +110,7 @@ bool OverrideLine::put(const Word& word, bool step_time, Levels& outputs) noexce
 }
 
 void OverrideLine::release(Levels& outputs) noexcept {
-  put_mask(false, outputs);
+  relay_in_ = put_mask(false, outputs);
   if (config_.wiring == Wiring::through) {
     step_ = table_.step_of_code(seen_.panel_code);
     put_code(seen_.panel_code, outputs);

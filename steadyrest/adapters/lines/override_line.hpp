@@ -23,8 +23,9 @@ struct Word {
 ///
 /// Law, by wiring:
 ///   relay    the relay stays in while the layer acts, so that its contacts do not move in the cut:
-///            without a mask the panel's own word passes through it. It falls for the operator:
-///            panel at 0, at an unknown code, or below the word.
+///            without a mask the panel's own word passes through it. It comes in once that word has
+///            been on the outputs for a scan, and falls for the operator: panel at 0, at an unknown
+///            code, or below the word.
 ///   plc      word and mask as the layer has them; the PLC takes the lower one.
 ///   through  the layer's word where it masks, else the panel's, known or not.
 /// A word that is not in the table is never written: the panel's takes its place. A word whose bits
@@ -56,7 +57,10 @@ class OverrideLine {
   /// Its outputs while the layer does not act.
   void release(Levels& outputs) noexcept;
   /// The outputs may be others than those that were put.
-  void forget() noexcept { step_.reset(); }
+  void forget() noexcept {
+    step_.reset();
+    relay_in_ = false;
+  }
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return table_; }
   [[nodiscard]] const Config& config() const noexcept { return config_; }
@@ -73,6 +77,7 @@ class OverrideLine {
   kernel::override::Table table_;
   Seen seen_;
   std::optional<std::size_t> step_;  ///< that the outputs have
+  bool relay_in_ = false;
 };
 
 }  // namespace steadyrest::adapters::lines

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <steadyrest/adapters/lines/comedi_wires.hpp>
@@ -15,13 +16,17 @@ using kernel::machine::Lines;
 using kernel::machine::LinesKind;
 using kernel::outcome::Result;
 
-Range range_of(std::vector<std::uint32_t> lines) {
+std::vector<std::uint32_t> sorted(std::vector<std::uint32_t> lines) {
   std::erase(lines, kNoLine);
-  if (lines.empty()) {
-    return {};
-  }
-  const auto [low, high] = std::ranges::minmax(lines);
-  return {.first = low, .count = high - low + 1};
+  std::ranges::sort(lines);
+  const auto twice = std::ranges::unique(lines);
+  lines.erase(twice.begin(), twice.end());
+  return lines;
+}
+
+Range range_of(const std::vector<std::uint32_t>& lines) {
+  return lines.empty() ? Range()
+                       : Range{.first = lines.front(), .count = lines.back() - lines.front() + 1};
 }
 
 template <class Kind>
@@ -34,18 +39,26 @@ Result<std::unique_ptr<Wires>> opened(Result<std::unique_ptr<Kind>> made) {
 
 }  // namespace
 
-Range inputs_of(const Lines& lines) {
+std::vector<std::uint32_t> input_lines(const Lines& lines) {
   std::vector<std::uint32_t> all = {lines.running, lines.cutting, lines.locked, lines.modulate};
   all.insert(all.end(), lines.feed.panel.begin(), lines.feed.panel.end());
   all.insert(all.end(), lines.spindle.panel.begin(), lines.spindle.panel.end());
-  return range_of(std::move(all));
+  return sorted(std::move(all));
 }
 
-Range outputs_of(const Lines& lines) {
+std::vector<std::uint32_t> output_lines(const Lines& lines) {
   std::vector<std::uint32_t> all = {lines.heartbeat, lines.feed.mask, lines.spindle.mask};
   all.insert(all.end(), lines.feed.out.begin(), lines.feed.out.end());
   all.insert(all.end(), lines.spindle.out.begin(), lines.spindle.out.end());
-  return range_of(std::move(all));
+  return sorted(std::move(all));
+}
+
+Range inputs_of(const Lines& lines) {
+  return range_of(input_lines(lines));
+}
+
+Range outputs_of(const Lines& lines) {
+  return range_of(output_lines(lines));
 }
 
 std::uint32_t word_of(const Levels& levels, std::span<const std::uint32_t> lines,

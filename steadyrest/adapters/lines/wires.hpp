@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <steadyrest/kernel/machine/lines.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -39,7 +40,10 @@ struct Range {
   std::uint32_t count = 0;  ///< 0: none
 };
 
-/// From the lowest to the highest line that the machine file names.
+/// The lines that the machine file names, lowest first, each once.
+[[nodiscard]] std::vector<std::uint32_t> input_lines(const kernel::machine::Lines& lines);
+[[nodiscard]] std::vector<std::uint32_t> output_lines(const kernel::machine::Lines& lines);
+/// From the lowest to the highest of them.
 [[nodiscard]] Range inputs_of(const kernel::machine::Lines& lines);
 [[nodiscard]] Range outputs_of(const kernel::machine::Lines& lines);
 

@@ -12,7 +12,7 @@
 #include <steadyrest/adapters/opcua/control_texts.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// A template's line that begins with @ stands once for each axis. {s:N}, {o:N}, {w:N} are R
+// A template's line that begins with @ is repeated for each axis. {s:N}, {o:N}, {w:N} are R
 // parameters of the three blocks, {w:12+2i} one for each axis, {id} the next action's number.
 // {HAS_SPINDLE} and its like make the line a comment where the machine has none.
 namespace steadyrest::adapters::opcua {
@@ -214,7 +214,7 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
     return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"",
                   "write S1, for example");
   }
-  // The number of actions stands at the top, so the text is filled in twice.
+  // The number of actions is written at the top, so the text is filled in twice.
   Filler counting(machine, axes);
   static_cast<void>(counting.fill(kActionsTemplate));
   const std::uint32_t actions = counting.next_action() - machine.opcua.first_action;

@@ -50,7 +50,7 @@ std::span<const Key<Lines>> lines_keys() noexcept {
       Key<Lines>{"output_device", &Lines::output_device, 0, 255,
                  "comedi: the subdevice of the outputs."},
       Key<Lines>{"wiring", choice<Lines, &Lines::wiring>(kWirings), 0, 0,
-                 "What stands between outputs and control: change-over relays, the machine's PLC, "
+                 "What is between outputs and control: change-over relays, the machine's PLC, "
                  "or nothing (docs/wiring.md)."},
       Key<Lines>{"cycle_ms", &Lines::cycle_s, 1, 1000,
                  "The layer reads and writes the lines this often."},

@@ -95,6 +95,9 @@ TEST(OverrideLine, ThePlcGetsWordAndMaskAsTheLayerHasThem) {
 TEST(OverrideLine, TheRelayStaysInAndPassesThePanelOn) {
   Scene scene(Wiring::relay);
   scene.panel(sinumerik_code(k100));
+  EXPECT_FALSE(scene.put(k50, true)) << "the panel's word settles first";
+  EXPECT_EQ(scene.out(), sinumerik_code(k100));
+  EXPECT_FALSE(scene.put(k50, true, false)) << "for a scan";
   EXPECT_TRUE(scene.put(k50, false)) << "no mask: the panel's own word through the relay";
   EXPECT_EQ(scene.out(), sinumerik_code(k100));
   scene.panel(sinumerik_code(k100 + 1));
@@ -105,12 +108,14 @@ TEST(OverrideLine, TheRelayStaysInAndPassesThePanelOn) {
 TEST(OverrideLine, TheRelayFallsForTheOperator) {
   Scene scene(Wiring::relay);
   scene.panel(sinumerik_code(k60));
+  scene.put(k60, true);
   ASSERT_TRUE(scene.put(k60, true));
   for (const std::uint32_t code : {sinumerik_code(0), 0U, sinumerik_code(k50)}) {
     scene.panel(code);
     EXPECT_FALSE(scene.put(k60, true)) << code;
     EXPECT_FALSE(scene.outputs[kMask]);
     scene.panel(sinumerik_code(k60));
+    scene.put(k60, true);
     EXPECT_TRUE(scene.put(k60, true));
   }
 }

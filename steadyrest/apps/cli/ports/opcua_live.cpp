@@ -105,7 +105,7 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
   if (machine.opcua.security == kernel::machine::OpcUaSecurity::none) {
     out.push_back({Severity::warning, kCheck,
                    "security = \"none\": everybody in the network can read and change what is sent",
-                   "use sign_and_encrypt, or a cable of its own between both computers"});
+                   "use sign_and_encrypt, or a dedicated cable between the two computers"});
   }
   if (machine.opcua.writes.empty()) {
     out.push_back({Severity::note, kCheck, "the mapping writes nothing: the layer can only observe",
