@@ -46,8 +46,7 @@ std::uint32_t length_in(const std::string& node) {
 
 class MappingReader {
  public:
-  MappingReader(const Machine& machine, OpcUa& out, Faults& faults)
-      : machine_(machine), out_(out), faults_(faults) {
+  MappingReader(const Machine& machine, OpcUa& out, Faults& faults) : out_(out), faults_(faults) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
       if (machine.axes[i].present) {
         present_.push_back(static_cast<std::uint8_t>(i));
@@ -140,14 +139,14 @@ class MappingReader {
     const bool of_axis = kernel::machine::is_of_axis(quantity);
     const std::size_t axes = present_.size();
     std::string node = read.node;
-    const std::array<std::pair<std::string_view, std::size_t>, 6> kFilled = {
+    const std::array<std::pair<std::string_view, std::size_t>, 6> filled = {
         {{"{channel}", out_.channel},
          {"{axis}", rank + 1},
          {"{sample}", out_.first_sample},
          {"{sample_count}", kernel::machine::sample_count(axes)},
          {"{order}", out_.first_order},
          {"{order_count}", kernel::machine::order_count(axes)}}};
-    for (const auto& [name, value] : kFilled) {
+    for (const auto& [name, value] : filled) {
       replace_all(node, name, std::to_string(value));
     }
     const std::uint32_t length = read.length > 0 ? read.length : length_in(node);
@@ -233,7 +232,6 @@ class MappingReader {
     }
   }
 
-  const Machine& machine_;
   OpcUa& out_;
   Faults& faults_;
   std::vector<std::uint8_t> present_;

@@ -42,8 +42,8 @@ void check_kind(const Lines& lines, const Given& given, Faults& faults) {
   const bool network = lines.kind == LinesKind::modbus_tcp;
   const bool modbus = network || lines.kind == LinesKind::modbus_rtu;
   if (network && lines.address.empty()) {
-    faults.add(given.at({"kind"}), "[lines] has no address for kind = \"modbus_tcp\"",
-               "add address = \"HOST\" or \"HOST:PORT\"");
+    faults.add(given.at({"kind"}), R"([lines] has no address for kind = "modbus_tcp")",
+               R"(add address = "HOST" or "HOST:PORT")");
   }
   if (!network && lines.device.empty()) {
     faults.add(given.at({"kind"}), "[lines] has no device for this kind",

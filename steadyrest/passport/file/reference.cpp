@@ -113,6 +113,25 @@ the value seen, what is allowed and what to do. Nothing is repaired silently. `i
 limit, leave the key out. UTF-8, at most {} MB.
 )";
 
+std::string port_sections() {
+  std::string out;
+  out += section("`[lines]`",
+                 "\nDigital lines between panel and control, for `port = \"lines\"`; "
+                 "[how they are wired](wiring.md).\n",
+                 lines_keys());
+  out +=
+      section("`[lines.feed]`, `[lines.spindle]`", "\nThe wires of one override.\n", wires_keys());
+  out += section("`[recorder]`",
+                 "\nEncoders read by a recorder, for `port = \"lines\"`; "
+                 "[its protocol](../steadyrest/adapters/lines/README.md).\n",
+                 recorder_keys());
+  out += section("`[opcua]`",
+                 "\nA control behind its OPC UA server, for `port = \"opcua\"`; "
+                 "[how it is connected](opcua.md).\n",
+                 opcua_keys());
+  return out;
+}
+
 }  // namespace
 
 std::string reference_page() {
@@ -168,20 +187,7 @@ std::string reference_page() {
   out += section("`[envelope]`", "\nThe last step before any write. It is always on.\n",
                  envelope_keys());
   out += section("`[simulation]`", "\nUsed only by the simulated machine.\n", simulation_keys());
-  out += section("`[lines]`",
-                 "\nDigital lines between panel and control, for `port = \"lines\"`; "
-                 "[how they are wired](wiring.md).\n",
-                 lines_keys());
-  out +=
-      section("`[lines.feed]`, `[lines.spindle]`", "\nThe wires of one override.\n", wires_keys());
-  out += section("`[recorder]`",
-                 "\nEncoders read by a recorder, for `port = \"lines\"`; "
-                 "[its protocol](../steadyrest/adapters/lines/README.md).\n",
-                 recorder_keys());
-  out += section("`[opcua]`",
-                 "\nA control behind its OPC UA server, for `port = \"opcua\"`; "
-                 "[how it is connected](opcua.md).\n",
-                 opcua_keys());
+  out += port_sections();
   return out;
 }
 
