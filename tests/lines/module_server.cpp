@@ -72,7 +72,6 @@ std::string ModuleServer::answer() {
 ModuleServer::Terminals ModuleServer::tell(const std::string& line) {
   std::fputs((line + "\n").c_str(), to_);
   std::fflush(to_);
-  Terminals seen;
   unsigned long long outputs = 0;
   unsigned long long written = 0;
   const std::string got = answer();
