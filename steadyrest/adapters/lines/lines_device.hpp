@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include <steadyrest/adapters/lines/encoder_source.hpp>
+#include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
 #include <steadyrest/adapters/lines/override_line.hpp>
 #include <steadyrest/adapters/lines/wires.hpp>
 #include <steadyrest/kernel/link/exchange.hpp>

@@ -3,8 +3,12 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include <steadyrest/adapters/lines/encoders/counter_encoders.hpp>
+#include <steadyrest/adapters/lines/encoders/gpio_encoders.hpp>
+#include <steadyrest/adapters/lines/encoders/serial_recorder.hpp>
 #include <steadyrest/adapters/lines/lines_port.hpp>
-#include <steadyrest/adapters/lines/serial_recorder.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::lines {
@@ -14,9 +18,12 @@ using kernel::machine::kNoLine;
 using kernel::machine::Machine;
 using kernel::machine::OverrideTable;
 using kernel::machine::OverrideWires;
+using kernel::machine::Recorder;
+using kernel::machine::RecorderKind;
 using kernel::machine::Wiring;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
+using kernel::outcome::unavailable;
 using kernel::signal::Frame;
 using kernel::signal::Motion;
 using kernel::signal::OverrideState;
@@ -46,6 +53,17 @@ OverrideState state_of(const OverrideLine::Seen& seen) noexcept {
 
 Word word_of_command(double ratio, std::uint32_t code, bool masks) noexcept {
   return {.code = code, .masks = masks && std::isfinite(ratio)};
+}
+
+Result<std::unique_ptr<EncoderSource>> open_encoders(const Recorder& recorder, double reply_s) {
+  switch (recorder.kind) {
+    case RecorderKind::gpio:
+      return GpioEncoders::open(recorder);
+    case RecorderKind::counter:
+      return CounterEncoders::open(recorder);
+    default:
+      return SerialRecorder::open(recorder, reply_s);
+  }
 }
 
 bool is_on(const Levels& inputs, std::uint32_t line) noexcept {
@@ -78,12 +96,12 @@ Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
     return std::unexpected(std::move(wires.error()));
   }
   std::unique_ptr<EncoderSource> encoders;
-  if (!machine.recorder.device.empty()) {
-    auto recorder = SerialRecorder::open(machine.recorder, machine.lines.reply_s);
-    if (!recorder) {
-      return std::unexpected(std::move(recorder.error()));
+  if (machine.recorder.kind != RecorderKind::none) {
+    auto opened = open_encoders(machine.recorder, machine.lines.reply_s);
+    if (!opened) {
+      return std::unexpected(std::move(opened.error()));
     }
-    encoders = std::move(*recorder);
+    encoders = std::move(*opened);
   }
   return make(machine, std::move(*wires), std::move(encoders));
 }
@@ -92,7 +110,7 @@ LinesPort::LinesPort(const Machine& machine, LinesDevice::Parts parts)
     : lines_(machine.lines),
       axes_(machine.axes),
       start_count_(machine.axes.size()),
-      encoders_(parts.encoders != nullptr),
+      encoders_(parts.encoders != nullptr ? encoder_count(machine) : 0),
       exchange_("the override lines",
                 std::make_unique<LinesDevice>(machine.lines, std::move(parts)),
                 kPatience * machine.lines.reply_s) {
@@ -100,7 +118,7 @@ LinesPort::LinesPort(const Machine& machine, LinesDevice::Parts parts)
     const double count_mm = axes_[i].encoder.count_au;
     start_count_[i] = count_mm > 0.0 ? std::llround(machine.recorder.start_mm[i] / count_mm) : 0;
   }
-  if (encoders_ && machine.recorder.spindle_counts_rev > 0.0) {
+  if (encoders_ > 0 && machine.recorder.spindle_counts_rev > 0.0) {
     spindle_watch_.emplace(machine.recorder.spindle_counts_rev);
   }
 }
@@ -179,11 +197,17 @@ Result<Frame> LinesPort::read() noexcept {
     return std::unexpected(std::move(taken.error()));
   }
   const LineSample& sample = taken->sample;
+  if (sample.encoders.counters != encoders_) {
+    return unavailable(fmt::format("the recorder shows {} encoders; the machine file has {}",
+                                   sample.encoders.counters, encoders_),
+                       "the axes in the machine file's order, then the spindle if [recorder] has "
+                       "spindle_counts_rev");
+  }
   Frame frame;
   frame.cycle = ++cycle_;
   frame.age_s = taken->age_s;
   frame.axis_count = static_cast<std::uint8_t>(axes_.size());
-  frame.time_s = encoders_ ? sample.encoders.time_s : sample.read_s;
+  frame.time_s = encoders_ > 0 ? sample.encoders.time_s : sample.read_s;
   if (!lines_.feed.out.empty()) {
     frame.feed = state_of(sample.feed);
   }
@@ -191,7 +215,7 @@ Result<Frame> LinesPort::read() noexcept {
     frame.spindle = state_of(sample.spindle);
   }
   show_program(sample.inputs, frame);
-  if (encoders_) {
+  if (encoders_ > 0) {
     show_axes(sample.encoders, frame);
   }
   show_spindle(sample.encoders, frame);

@@ -43,7 +43,7 @@ class LinesPort final : public kernel::port::Port {
   kernel::machine::Lines lines_;
   std::vector<kernel::machine::Axis> axes_;
   std::vector<std::int64_t> start_count_;  ///< of each axis
-  bool encoders_;
+  std::size_t encoders_;                   ///< that the recorder must have; 0: no recorder
   std::optional<SpindleWatch> spindle_watch_;
   std::uint64_t cycle_ = 0;
   kernel::signal::AxisValues before_mm_{};

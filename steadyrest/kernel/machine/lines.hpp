@@ -65,9 +65,17 @@ struct Lines {
   friend bool operator==(const Lines&, const Lines&) = default;
 };
 
+/// How the encoders are read: a microcontroller on a serial line, GPIO lines, the kernel's
+/// counters.
+enum class RecorderKind : std::uint8_t { serial, gpio, counter, none };
+
 /// Encoders by a recorder of their own, where the control shows no positions.
 struct Recorder {
-  std::string device;             ///< serial device; empty: none
+  RecorderKind kind = RecorderKind::none;
+  std::string device;  ///< serial: its line; gpio: the chip
+  /// Two for each encoder. gpio: lines of channels A and B; counter: numbers of the counter and of
+  /// its count.
+  std::vector<std::uint32_t> inputs;
   std::uint32_t baud = 2000000;   ///< of a real serial line; USB ignores it
   std::vector<double> start_mm;   ///< positions of the axes when the layer starts; none: 0
   double spindle_counts_rev = 0;  ///< counts of the spindle's encoder in a turn; 0: it has none

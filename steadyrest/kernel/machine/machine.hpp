@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -55,6 +56,15 @@ struct Machine {
   return machine.port == PortKind::lines   ? machine.lines.cycle_s
          : machine.port == PortKind::opcua ? machine.opcua.cycle_s
                                            : machine.control.interpolator_period_s;
+}
+
+/// Encoders that a recorder of this machine reads: of the axes, then of the spindle.
+[[nodiscard]] inline std::size_t encoder_count(const Machine& machine) noexcept {
+  std::size_t count = machine.recorder.spindle_counts_rev > 0.0 ? 1 : 0;
+  for (const Axis& axis : machine.axes) {
+    count += axis.present ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace steadyrest::kernel::machine

@@ -22,6 +22,7 @@ using kernel::machine::OverrideTable;
 using kernel::machine::OverrideWires;
 using kernel::machine::PortKind;
 using kernel::machine::Recorder;
+using kernel::machine::RecorderKind;
 using kernel::machine::Wiring;
 
 /// The section `name`; null when absent, a fault when it is something else.
@@ -158,10 +159,39 @@ void read_lines(const toml::table& section, Machine& out, Faults& faults) {
   }
 }
 
+void check_recorder(const Machine& machine, const Given& given, Faults& faults) {
+  const Recorder& recorder = machine.recorder;
+  const bool counter = recorder.kind == RecorderKind::counter;
+  if (recorder.device.empty() && !counter) {
+    faults.add(given.line, "[recorder] has no device",
+               "add device = \"/dev/…\": the serial device or the GPIO chip");
+  }
+  if (recorder.kind == RecorderKind::serial) {
+    if (!recorder.inputs.empty()) {
+      faults.add(given.at({"inputs"}), "inputs are not for kind = \"serial\"", "leave them out");
+    }
+    return;
+  }
+  const std::size_t encoders = encoder_count(machine);
+  if (recorder.inputs.size() != 2 * encoders) {
+    faults.add(given.at({"inputs"}),
+               fmt::format("inputs has {} entries; {} encoders need {}", recorder.inputs.size(),
+                           encoders, 2 * encoders),
+               counter ? "give the numbers of counter and count for each axis, then the spindle"
+                       : "give the lines of channels A and B for each axis, then the spindle");
+  } else if (!counter) {
+    check_twice(recorder.inputs, "line", given, faults);
+  }
+}
+
 void read_recorder(const toml::table& section, Machine& out, Faults& faults) {
   const std::size_t before = faults.list.size();
+  out.recorder.kind = RecorderKind::serial;
   SectionReader<Recorder> reader(faults, recorder_keys(), "[recorder]");
   const Given given = reader.read(section, out.recorder);
+  if (faults.list.size() == before) {
+    check_recorder(out, given, faults);
+  }
   if (faults.list.size() == before && out.recorder.start_mm.size() > out.axes.size()) {
     faults.add(given.at({"start_mm"}),
                fmt::format("start_mm has {} entries; the machine has {} axes",

@@ -16,6 +16,7 @@ using std::string_view;
 constexpr std::array<string_view, 4> kKinds = {"modbus_tcp", "modbus_rtu", "gpio", "comedi"};
 constexpr std::array<string_view, 3> kParities = {"none", "even", "odd"};
 constexpr std::array<string_view, 3> kWirings = {"relay", "plc", "through"};
+constexpr std::array<string_view, 3> kRecorders = {"serial", "gpio", "counter"};
 constexpr double kMostLines = 1023;
 constexpr double kLastAddress = 65535;
 
@@ -99,9 +100,18 @@ std::span<const Key<OverrideWires>> wires_keys() noexcept {
 
 std::span<const Key<Recorder>> recorder_keys() noexcept {
   static const std::array kKeys = {
-      Key<Recorder>{"device", &Recorder::device, 1, 255, "Serial device of the recorder.",
-                    Need::mandatory},
-      Key<Recorder>{"baud", &Recorder::baud, 9600, 4000000, "Bits per second; USB ignores it."},
+      Key<Recorder>{"kind", choice<Recorder, &Recorder::kind>(kRecorders), 0, 0,
+                    "How the encoders are read: a microcontroller on a serial line, lines of a "
+                    "Linux GPIO chip, or the kernel's counters."},
+      Key<Recorder>{"device", &Recorder::device, 1, 255,
+                    "serial: the serial device; gpio: the chip, `/dev/gpiochip0`."},
+      Key<Recorder>{"baud", &Recorder::baud, 9600, 4000000,
+                    "serial: bits per second; USB ignores it."},
+      Key<Recorder>{"inputs", &Recorder::inputs, 0, kMostLines,
+                    "Two for each encoder, the axes in their order, then the spindle. gpio: the "
+                    "lines of its channels A and B; counter: the numbers of its counter and count, "
+                    "`0, 1` for counter0/count1.",
+                    Need::optional, For::any, 18},
       Key<Recorder>{"start_mm", &Recorder::start_mm, -1e5, 1e5,
                     "Positions of the axes, X first, when the layer starts; by default 0: start it "
                     "with the machine at its reference point.",

@@ -109,6 +109,7 @@ TEST(PortSections, EveryKeyReachesItsField) {
   expected.reply_s = read->lines.reply_s;
   expected.watchdog_s = read->lines.watchdog_s;
   EXPECT_EQ(read->lines, expected);
+  EXPECT_EQ(read->recorder.kind, kernel::machine::RecorderKind::serial);
   EXPECT_EQ(read->recorder.device, "/dev/ttyACM1");
   EXPECT_EQ(read->recorder.baud, 115200U);
   EXPECT_EQ(read->recorder.start_mm, (std::vector<double>{1.5, -2.0}));
@@ -117,6 +118,26 @@ TEST(PortSections, EveryKeyReachesItsField) {
   // A key without a line above would not be tried.
   for (const auto& key : lines_keys()) {
     EXPECT_NE(kLines.find("\n" + std::string(key.name) + " ="), std::string::npos) << key.name;
+  }
+}
+
+TEST(PortSections, EncodersOnLinuxHaveTwoNumbersEach) {
+  const std::string serial = R"([recorder]
+device = "/dev/ttyACM1"
+baud = 115200)";
+  for (const std::string kind : {"gpio\"\ndevice = \"/dev/gpiochip1", "counter"}) {
+    std::string text = kMachine + kLines;
+    text.replace(text.find(serial), serial.size(),
+                 "[recorder]\nkind = \"" + kind + "\"\ninputs = [17, 27, 5, 6, 13, 19]");
+    const auto read = parse(text, "lines.toml");
+    ASSERT_TRUE(read) << kernel::outcome::text(read.error());
+    EXPECT_EQ(read->recorder.inputs, (std::vector<std::uint32_t>{17, 27, 5, 6, 13, 19}));
+    // Without its encoder, the spindle needs no lines.
+    text.erase(text.find("spindle_counts_rev"));
+    const auto beyond = parse(text, "lines.toml");
+    ASSERT_FALSE(beyond);
+    EXPECT_NE(kernel::outcome::text(beyond.error()).find("inputs has 6 entries; 2 encoders need 4"),
+              std::string::npos);
   }
 }
 

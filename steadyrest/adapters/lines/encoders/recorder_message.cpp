@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <steadyrest/adapters/lines/recorder_message.hpp>
+#include <steadyrest/adapters/lines/encoders/recorder_message.hpp>
 
 // A message is stuffed so that a zero byte only ever ends one (consistent overhead byte stuffing,
 // Cheshire and Baker 1999): whatever was lost, the next message is found.

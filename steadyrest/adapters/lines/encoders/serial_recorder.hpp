@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <steadyrest/adapters/lines/encoder_source.hpp>
+#include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
 #include <steadyrest/kernel/machine/lines.hpp>
 
 namespace steadyrest::adapters::lines {

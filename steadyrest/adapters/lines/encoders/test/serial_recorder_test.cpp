@@ -7,7 +7,7 @@
 #include <pty.h>
 #include <unistd.h>
 
-#include <steadyrest/adapters/lines/serial_recorder.hpp>
+#include <steadyrest/adapters/lines/encoders/serial_recorder.hpp>
 
 namespace steadyrest::adapters::lines {
 namespace {

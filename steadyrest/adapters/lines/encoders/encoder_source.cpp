@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <steadyrest/adapters/lines/encoder_source.hpp>
+#include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::lines {
@@ -12,8 +12,6 @@ using kernel::outcome::unavailable;
 namespace {
 
 constexpr double kLongestGap_s = 2.0;  ///< between two samples that belong together
-constexpr const char* kReference =
-    "bring the machine to its reference point and start the layer again";
 
 double seconds(std::uint32_t ticks, std::uint32_t clock_hz) noexcept {
   return static_cast<double>(ticks) / static_cast<double>(clock_hz);

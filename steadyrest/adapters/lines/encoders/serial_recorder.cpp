@@ -11,7 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <steadyrest/adapters/lines/serial_recorder.hpp>
+#include <steadyrest/adapters/lines/encoders/serial_recorder.hpp>
 #include <steadyrest/kernel/link/event.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/adapters/lines/encoder_source.hpp>
-#include <steadyrest/adapters/lines/recorder_message.hpp>
+#include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
+#include <steadyrest/adapters/lines/encoders/recorder_message.hpp>
 
 namespace steadyrest::adapters::lines {
 namespace {

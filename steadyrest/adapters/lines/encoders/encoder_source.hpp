@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <limits>
 
-#include <steadyrest/adapters/lines/recorder_message.hpp>
+#include <steadyrest/adapters/lines/encoders/recorder_message.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::lines {
+
+/// What to do when counts are no positions any more.
+inline constexpr const char* kReference =
+    "bring the machine to its reference point and start the layer again";
 
 /// All encoders at one instant.
 struct EncoderReading {
