@@ -74,9 +74,10 @@ ModuleServer::Terminals ModuleServer::tell(const std::string& line) {
   std::fflush(to_);
   unsigned long long outputs = 0;
   unsigned long long written = 0;
+  unsigned long long reads = 0;
   const std::string got = answer();
-  EXPECT_EQ(std::sscanf(got.c_str(), "%llx %llu", &outputs, &written), 2) << got;
-  return {.outputs = outputs, .written = written};
+  EXPECT_EQ(std::sscanf(got.c_str(), "%llx %llu %llu", &outputs, &written, &reads), 3) << got;
+  return {.outputs = outputs, .written = written, .reads = reads};
 }
 
 ModuleServer::Terminals ModuleServer::exchange(std::uint64_t inputs, double now_s) {

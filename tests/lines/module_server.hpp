@@ -14,6 +14,7 @@ class ModuleServer {
   struct Terminals {
     std::uint64_t outputs = 0;
     std::uint64_t written = 0;  ///< how many times
+    std::uint64_t reads = 0;    ///< of the inputs
   };
 
   /// By TCP, or RTU on a serial device. Null: it did not start; a test failure says why.

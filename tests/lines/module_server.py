@@ -6,7 +6,7 @@
 
 Prints `ready PORT` (serial: `ready 0`). Then one line in, one line out:
   INPUTS NOW    levels of the inputs as a hexadecimal number, the machine's time in seconds
-  → OUTPUTS N   levels of the outputs likewise, and how many times they were written
+  → OUTPUTS N R  levels of the outputs likewise, how many times they were written, and inputs read
   watchdog S    the outputs drop when they were not written for S seconds of the machine's time
   stick LINE L  output LINE stays at level L whatever is written
   join A:B …    output A is joined to input B, by a jumper
@@ -29,6 +29,7 @@ class Terminals:
         self.inputs = 0
         self.outputs = 0
         self.written = 0
+        self.reads = 0
         self.now = 0.0
         self.last = 0.0
         self.watchdog = 0.0
@@ -73,6 +74,7 @@ class Block(ModbusSequentialDataBlock):
         return 0 <= address and (address + count) * self.width <= LINES
 
     def getValues(self, address, count=1):
+        self.terminals.reads += 0 if self.out else 1
         word = self.terminals.outputs if self.out else self.terminals.inputs
         return [word >> (self.width * (address + i)) & ((1 << self.width) - 1) for i in range(count)]
 
@@ -120,7 +122,7 @@ def answer(terminals, words):
         terminals.hangs = True
     else:
         terminals.tick(int(words[0], 16), float(words[1]))
-    return f"{terminals.outputs:x} {terminals.written}"
+    return f"{terminals.outputs:x} {terminals.written} {terminals.reads}"
 
 
 def hanging(terminals):

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Override lines as a user tries them, with pymodbus as the module.
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "expectations.hpp"
 #include "program.hpp"
@@ -10,6 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <tests/lines/module_server.hpp>
+
+#include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::test {
 namespace {
@@ -42,6 +47,27 @@ class Mill : public ::testing::Test {
     const Finished finished = run_line("lines test --json --machine " + machine_ + " " + options);
     EXPECT_EQ(finished.code, code) << finished.err;
     return json::parse(finished.out);
+  }
+
+  /// Both switches from their first position to their last, while the program watches: each stays
+  /// until the inputs were read twice more. `wired`: the word as the inputs carry it.
+  json turned(int code, std::uint64_t (*wired)(std::uint64_t)) {
+    const auto read = passport::read(machine_).value();
+    const auto& feed = read.feed_override.code;
+    const auto& spindle = read.spindle_override.code;
+    const std::jthread operator_of([&](const std::stop_token& stop) {
+      const auto stands = [&](std::size_t i) {
+        return wired(feed[std::min(i, feed.size() - 1)] | spindle[std::min(i, spindle.size() - 1)]
+                                                              << 5U);
+      };
+      for (std::size_t i = 0; i < std::max(feed.size(), spindle.size()); ++i) {
+        const std::uint64_t before = module_->exchange(stands(i), 0.0).reads;
+        while (!stop.stop_requested() && module_->exchange(stands(i), 0.0).reads < before + 2) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+      }
+    });
+    return tested("--panel --for-s 300", code);
   }
 
   Scratch scratch_;
@@ -83,6 +109,23 @@ TEST_F(Mill, SwappedWiresAreNamedByTheJumpersTest) {
               ElementsAre("input 1: bit 1 carries bit 3: wires are swapped",
                           "input 3: bit 3 carries bit 1: wires are swapped"));
   EXPECT_THAT(answer["feed"]["outputs"]["faults"], IsEmpty());
+  EXPECT_THAT(answer["spindle"]["inputs"]["faults"], IsEmpty());
+}
+
+TEST_F(Mill, AnOperatorWhoTurnsTheSwitchesFindsTheWiresRight) {
+  const json answer = turned(0, [](std::uint64_t word) { return word; });
+  EXPECT_EQ(answer["feed"]["inputs"]["words"].size(), 23U);
+  EXPECT_EQ(answer["spindle"]["inputs"]["words"].size(), 15U);
+  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U);
+}
+
+TEST_F(Mill, SwappedPanelWiresAreNamedWhileTheSwitchTurns) {
+  const json answer = turned(1, [](std::uint64_t word) {
+    return (word & ~std::uint64_t{0b1010}) | (word >> 2U & 0b10U) | (word & 0b10U) << 2U;
+  });
+  EXPECT_THAT(answer["feed"]["inputs"]["faults"],
+              ElementsAre("input 1: bit 1 carries bit 3: wires are swapped",
+                          "input 3: bit 3 carries bit 1: wires are swapped"));
   EXPECT_THAT(answer["spindle"]["inputs"]["faults"], IsEmpty());
 }
 
