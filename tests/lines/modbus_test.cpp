@@ -165,6 +165,27 @@ TEST(Modbus, TheWatchdogsRegistersAreWrittenAtEachConnection) {
   EXPECT_EQ(module->exchange(0, 0.11).outputs, 0U) << "100 ms of the machine's time";
 }
 
+TEST(Modbus, AnExpiredWatchdogIsClearedAtTheNextConnection) {
+  const auto module = ModuleServer::start();
+  ASSERT_NE(module, nullptr);
+  module->tell("latch");
+  Lines lines = lines_of(module->address());
+  lines.watchdog_registers = {4384, 100};
+  // 70 is no register of that module: what it refuses is not missed.
+  lines.watchdog_reset = {4385, 0xBECF, 4385, 0xAFFE, 70, 1};
+  const auto wires = ModbusWires::make(lines).value();
+  const Levels wanted(1U << 2U);
+  ASSERT_TRUE(wires->write(wanted));
+  EXPECT_EQ(module->exchange(0, 0.2).outputs, 0U) << "the watchdog";
+  ASSERT_TRUE(wires->write(wanted));
+  EXPECT_EQ(module->exchange(0, 0.21).outputs, 0U) << "locked";
+  wires->disconnect();
+  const auto again = wires->write(wanted);
+  ASSERT_TRUE(again) << kernel::outcome::text(again.error());
+  EXPECT_EQ(module->exchange(0, 0.22).outputs, wanted.to_ullong());
+  EXPECT_EQ(wires->connections(), 2U);
+}
+
 TEST(Modbus, AWatchdogThatDoesNotTakeItsSettingIsRefused) {
   const auto module = ModuleServer::start();
   ASSERT_NE(module, nullptr);

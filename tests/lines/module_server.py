@@ -8,6 +8,8 @@ Prints `ready PORT` (serial: `ready 0`). Then one line in, one line out:
   INPUTS NOW    levels of the inputs as a hexadecimal number, the machine's time in seconds
   → OUTPUTS N R  levels of the outputs likewise, how many times they were written, and inputs read
   watchdog S    the outputs drop when they were not written for S seconds of the machine's time
+  latch         a watchdog that has expired keeps the outputs off until 0xBECF, then 0xAFFE is
+                written to register 4385
   stick LINE L  output LINE stays at level L whatever is written
   join A:B …    output A is joined to input B, by a jumper
   hang          answers no Modbus request any more
@@ -33,6 +35,8 @@ class Terminals:
         self.now = 0.0
         self.last = 0.0
         self.watchdog = 0.0
+        self.latches = False
+        self.latched = False
         self.stuck = {}
         self.jumpers = []
         self.hangs = False
@@ -41,6 +45,8 @@ class Terminals:
         for i, level in enumerate(levels):
             bit = 1 << (first + i)
             self.outputs = self.outputs | bit if level else self.outputs & ~bit
+        if self.latched:
+            self.outputs = 0
         self.written += 1
         self.last = self.now
         self.hold()
@@ -58,6 +64,7 @@ class Terminals:
         self.hold()
         if self.watchdog > 0 and now - self.last > self.watchdog:
             self.outputs = 0
+            self.latched = self.latches
             self.hold()
 
 
@@ -103,6 +110,8 @@ class Registers(Block):
             super().setValues(address, values)
             return
         for i, value in enumerate(values):
+            if address + i == 4385 and value == 0xAFFE and self.own.get(4385) == 0xBECF:
+                self.terminals.latched = False
             # 4386 can be read only, as registers are while a watchdog runs.
             if address + i != 4386:
                 self.own[address + i] = value
@@ -112,6 +121,8 @@ class Registers(Block):
 def answer(terminals, words):
     if words[0] == "watchdog":
         terminals.watchdog = float(words[1])
+    elif words[0] == "latch":
+        terminals.latches = True
     elif words[0] == "stick":
         terminals.stuck[int(words[1])] = int(words[2])
         terminals.hold()

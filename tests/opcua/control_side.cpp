@@ -39,6 +39,14 @@ sim::MachineBody body_of(const ControlSide::Config& config) {
   return body;
 }
 
+/// What PROG_EVENT.SPF does at power-up, before it calls the actions.
+std::string power_up_of(const Machine& machine) {
+  const std::string text = adapters::opcua::control_texts(machine).value()[1].text;
+  const std::string begin = "IF $P_PROG_EVENT==4\n";
+  const std::size_t from = text.find(begin) + begin.size();
+  return text.substr(from, text.find("ENDIF", from) - from);
+}
+
 double g_number(Motion motion) {
   return motion == Motion::rapid    ? 1.0
          : motion == Motion::thread ? 10.0
@@ -54,10 +62,12 @@ ControlSide::ControlSide(const Config& config)
       delay_s_(config.order_delay_s),
       program_(config.program),
       text_(adapters::opcua::control_texts(config.machine).value().front().text),
+      power_up_(power_up_of(config.machine)),
       planned_(config.path),
       body_(body_of(config)),
       interpolator_(
           nc::plan::Interpolator::make(config.machine, nc::plan::whole(*planned_)).value()) {
+  power_up_.start(*this);
   text_.start(*this);
   frame_ = body_.frame();
   step();

@@ -15,7 +15,7 @@ TEST(ControlText, EveryLineOfTheActionsIsUnderstoodAndNothingIsLeftOpen) {
   of.feed_override.layer_may_exceed_panel = true;
   of.spindle_override.layer_may_exceed_panel = true;
   const auto texts = adapters::opcua::control_texts(of).value();
-  ASSERT_EQ(texts.size(), 3U);
+  ASSERT_EQ(texts.size(), 2U) << "without a PLC route there is no PLC block";
   for (const auto& text : texts) {
     EXPECT_EQ(text.text.find('{'), std::string::npos) << text.name;
     EXPECT_EQ(text.text.find('@'), std::string::npos) << text.name;
@@ -23,9 +23,31 @@ TEST(ControlText, EveryLineOfTheActionsIsUnderstoodAndNothingIsLeftOpen) {
   EXPECT_GT(SyncActions(texts.front().text).count(), 40U);
 }
 
+/// The example machine by examples/opcua/sinumerik-plc.toml.
+kernel::machine::Machine by_plc() {
+  auto of = machine();
+  of.opcua.writes.push_back(
+      {.quantity = kernel::machine::Quantity::feed_position, .node = "s=/Plc/DB180.DBB2"});
+  of.opcua.plc_block = 180;
+  of.opcua.spindle_axis = 6;
+  return of;
+}
+
+TEST(ControlText, WithThePlcBlockNoActionWritesAnOverride) {
+  const auto texts = adapters::opcua::control_texts(by_plc()).value();
+  ASSERT_EQ(texts.size(), 3U);
+  const std::string& actions = texts.front().text;
+  EXPECT_NE(actions.find("\n; not on this machine: IDS=n DO $AC_OVR="), std::string::npos);
+  EXPECT_EQ(actions.find(" DO $AC_OVR=", actions.find("IDS=101")),
+            actions.find(" DO $AC_OVR=", actions.find("not on this machine: IDS=n DO $AC_OVR=")));
+  EXPECT_NE(actions.find("]=$AA_TOTAL_OVR[S1]"), std::string::npos) << "the sample still shows it";
+  const std::string& plc = texts[2].text;
+  EXPECT_NE(plc.find("CALL FB 180, DB 181"), std::string::npos);
+  EXPECT_NE(plc.find("    10: DB36.DB19 := "), std::string::npos);
+}
+
 TEST(ControlText, PlcBlockHasThisMachinesCodes) {
-  const auto of = machine();
-  const std::string text = adapters::opcua::control_texts(of).value()[2].text;
+  const std::string text = adapters::opcua::control_texts(by_plc()).value()[2].text;
   // MD12030: 100 % is position 19, Gray 11010.
   EXPECT_NE(text.find("  26: panel := 19;   // 100 %"), std::string::npos) << text;
   EXPECT_NE(text.find("    19: DB21.DB4 := B#16#1A;   // 100 %"), std::string::npos);

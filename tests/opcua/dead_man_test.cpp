@@ -91,6 +91,22 @@ TEST_F(DeadMan, WithoutOrdersTheFeedIsThePanelsWithinTheStatedTimeAndNeverJumps)
   EXPECT_FALSE(control.obeys());
 }
 
+TEST_F(DeadMan, ResetInTheCutHandsBackByTheRampToo) {
+  run(0.5, 10.0);
+  double before = control.feed_in_force();
+  ASSERT_NEAR(before, 0.1, 1e-9);
+  control.reset();
+  const double most = of.opcua.hand_back_1_s * of.control.interpolator_period_s + 1e-9;
+  const double from_s = control.time_s();
+  while (before < 1.0 - 1e-9) {
+    control.step();
+    ASSERT_FALSE(control.obeys()) << "no order has come since";
+    ASSERT_LE(control.feed_in_force() - before, most);
+    before = control.feed_in_force();
+    ASSERT_LE(control.time_s() - from_s, adapters::opcua::neutral_after_s(of, 0.1));
+  }
+}
+
 TEST_F(DeadMan, ALayerThatDiesAtARandomMomentLeavesNothingBehind) {
   std::mt19937 random(7);
   double longest_s = 0.0;

@@ -226,7 +226,7 @@ SyncActions::SyncActions(const std::string& text) {
     while (!line.empty() && line.back() == ' ') {
       line.pop_back();
     }
-    if (line.empty() || line == "STOPRE" || line == "RET") {
+    if (line.empty() || line == "STOPRE" || line == "RET" || line.starts_with("PROC ")) {
       continue;
     }
     Parser parser(line);

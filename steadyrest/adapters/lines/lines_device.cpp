@@ -71,6 +71,7 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
   }
   differing_ = 0;
   sent_ = false;
+  parts_.wires->disconnect();  // a watchdog that has expired is cleared at a connection
   const std::size_t line = differ._Find_first();
   return unavailable(
       fmt::format("output {} of the module is {}, but {} was written", line,

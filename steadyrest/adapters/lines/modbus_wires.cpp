@@ -60,6 +60,11 @@ Range registers_of(const Range& lines) {
   return {.first = first, .count = last - first + 1};
 }
 
+/// The module answered, with a refusal.
+bool is_answer(int fault) noexcept {
+  return fault >= EMBXILFUN && fault <= EMBXGTAR;
+}
+
 }  // namespace
 
 void ModbusWires::Free::operator()(_modbus* link) const noexcept {
@@ -112,8 +117,7 @@ Result<void> ModbusWires::done(int got, const Request& request) {
     return {};
   }
   const int fault = errno;
-  modbus_close(link_.get());
-  connected_ = false;
+  disconnect();
   const bool refused = fault == EMBXILADD || fault == EMBXILFUN || fault == EMBXILVAL;
   return unavailable(
       fmt::format("the module {} does not take {} {} … {}: {}", name(), request.what,
@@ -122,6 +126,11 @@ Result<void> ModbusWires::done(int got, const Request& request) {
           ? "see the module's manual for its addresses: first_input, first_output, output_copy, "
             "registers in [lines]"
           : "see its power and its link, and reply_ms in [lines]");
+}
+
+void ModbusWires::disconnect() noexcept {
+  modbus_close(link_.get());
+  connected_ = false;
 }
 
 Result<void> ModbusWires::connect() {
@@ -135,25 +144,42 @@ Result<void> ModbusWires::connect() {
   }
   connected_ = true;
   ++connections_;
+  if (auto cleared = clear_watchdog(); !cleared) {
+    return cleared;
+  }
   return set_watchdog();
 }
 
+/// A module that has nothing to clear may refuse it: only a broken link counts.
+Result<void> ModbusWires::clear_watchdog() {
+  const auto& all = lines_.watchdog_reset;
+  for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
+    const auto value = static_cast<std::uint16_t>(all[i + 1]);
+    const int got = modbus_write_registers(link_.get(), static_cast<int>(all[i]), 1, &value);
+    if (got != 1 && !is_answer(errno)) {
+      return done(got, {.what = "the watchdog's reset", .address = all[i], .count = 1});
+    }
+  }
+  return {};
+}
+
+/// A register that cannot be written while the watchdog runs may refuse, if it is right already.
 Result<void> ModbusWires::set_watchdog() {
   const auto& all = lines_.watchdog_registers;
   for (std::size_t i = 0; i + 1 < all.size(); i += 2) {
     const Request request{.what = "the watchdog's register", .address = all[i], .count = 1};
     const int at = static_cast<int>(all[i]);
     const auto value = static_cast<std::uint16_t>(all[i + 1]);
-    if (auto set = done(modbus_write_registers(link_.get(), at, 1, &value), request); !set) {
-      return set;
+    const int set = modbus_write_registers(link_.get(), at, 1, &value);
+    if (set != 1 && !is_answer(errno)) {
+      return done(set, request);
     }
     std::uint16_t copy = 0;
     if (auto seen = done(modbus_read_registers(link_.get(), at, 1, &copy), request); !seen) {
       return seen;
     }
     if (copy != value) {
-      modbus_close(link_.get());
-      connected_ = false;
+      disconnect();
       return unavailable(fmt::format("the module {} keeps {} in the watchdog's register {}, not {}",
                                      name(), copy, at, value),
                          "see the module's manual: some can be set only while stopped");

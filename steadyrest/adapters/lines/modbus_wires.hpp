@@ -27,6 +27,7 @@ class ModbusWires final : public Wires {
 
   kernel::outcome::Result<void> read(Levels& inputs, Levels& outputs) override;
   kernel::outcome::Result<void> write(const Levels& outputs) override;
+  void disconnect() noexcept override;
   [[nodiscard]] std::uint64_t connections() const noexcept override { return connections_; }
 
  private:
@@ -43,6 +44,7 @@ class ModbusWires final : public Wires {
 
   ModbusWires(const kernel::machine::Lines& lines, Link link);
   kernel::outcome::Result<void> connect();
+  kernel::outcome::Result<void> clear_watchdog();
   kernel::outcome::Result<void> set_watchdog();
   kernel::outcome::Result<void> get(bool input, Levels& levels);
   kernel::outcome::Result<void> done(int got, const Request& request);

@@ -30,6 +30,8 @@ class Wires {
   virtual kernel::outcome::Result<void> read(Levels& inputs, Levels& outputs) = 0;
   /// All outputs of the layer at once, the other levels are ignored. Refused: as read().
   virtual kernel::outcome::Result<void> write(const Levels& outputs) = 0;
+  /// Ends the connection, where the wires have one: the next call begins with another.
+  virtual void disconnect() noexcept {}
   /// How many connections there were: the outputs of a new one are not those that were written.
   [[nodiscard]] virtual std::uint64_t connections() const noexcept = 0;
 };

@@ -24,9 +24,6 @@ using kernel::outcome::Result;
 
 constexpr std::uint32_t kLastAction = 255;
 constexpr std::string_view kWithout = "; not on this machine: ";
-constexpr int kPlcBlock = 170;
-constexpr int kPlcInstance = 171;
-constexpr int kSpindleDb = 34;  ///< DB31 + machine axis − 1, fourth axis
 
 using Fields = std::map<std::string, std::string, std::less<>>;
 
@@ -58,6 +55,14 @@ bool is_name(const std::string& text) {
   });
 }
 
+/// The PLC masks the switches; no action writes an override.
+bool has_plc_block(const Machine& machine) {
+  return std::ranges::any_of(machine.opcua.writes, [](const auto& place) {
+    return place.quantity == kernel::machine::Quantity::feed_position ||
+           place.quantity == kernel::machine::Quantity::spindle_position;
+  });
+}
+
 std::string scl_cases(const kernel::machine::OverrideTable& table, bool to_position,
                       std::string_view place) {
   std::string out;
@@ -74,6 +79,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
   const auto& config = machine.opcua;
   const double ipo_s = machine.control.interpolator_period_s;
   const auto& envelope = machine.envelope;
+  const std::uint32_t spindle_db = 30 + config.spindle_axis;
+  const bool plc = has_plc_block(machine);
   const bool spindle = machine.spindle_override.ratio.size() > 1;
   const auto unless = [](bool has) { return has ? std::string() : std::string(kWithout); };
   const auto dead_cycles = static_cast<int>(std::floor(config.dead_man_s / ipo_s + 1e-9));
@@ -98,19 +105,22 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
                                 config.first_order + kernel::machine::order_count(axes.size()),
                                 config.first_work + kernel::machine::work_count(axes.size())}))},
       {"HAS_SPINDLE", unless(spindle)},
+      {"BY_ACTIONS", unless(!plc)},
+      {"SPINDLE_BY_ACTIONS", unless(spindle && !plc)},
       {"HAS_OFFSETS", unless(envelope.max_offset_mm > 0.0)},
-      {"FEED_EXCEEDS", unless(machine.feed_override.layer_may_exceed_panel)},
-      {"SPINDLE_EXCEEDS", unless(spindle && machine.spindle_override.layer_may_exceed_panel)},
-      {"DB", number(kPlcBlock)},
-      {"IDB", number(kPlcInstance)},
-      {"AXIS_DB", number(kSpindleDb)},
+      {"FEED_EXCEEDS", unless(!plc && machine.feed_override.layer_may_exceed_panel)},
+      {"SPINDLE_EXCEEDS",
+       unless(spindle && !plc && machine.spindle_override.layer_may_exceed_panel)},
+      {"DB", std::to_string(config.plc_block)},
+      {"IDB", std::to_string(config.plc_block + 1)},
+      {"AXIS_DB", std::to_string(spindle_db)},
       {"GRAY", machine.feed_override.coding == kernel::machine::Coding::gray ? "1" : "0"},
       {"STEP_MS", number(std::max(20.0, std::round(1e3 * 0.05 / config.hand_back_1_s)))},
       {"FEED_TO_POSITION", scl_cases(machine.feed_override, true, "")},
       {"POSITION_TO_FEED", scl_cases(machine.feed_override, false, "DB21.DB4")},
       {"SPINDLE_TO_POSITION", scl_cases(machine.spindle_override, true, "")},
       {"POSITION_TO_SPINDLE",
-       scl_cases(machine.spindle_override, false, fmt::format("DB{}.DB19", kSpindleDb))},
+       scl_cases(machine.spindle_override, false, fmt::format("DB{}.DB19", spindle_db))},
   };
 }
 
@@ -230,7 +240,9 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
   std::vector<ControlText> out;
   out.push_back({"STEADYREST.SPF", filler.fill(kActionsTemplate)});
   out.push_back({"PROG_EVENT.SPF", filler.fill(kEventTemplate)});
-  out.push_back({"STEADYREST.SCL", filler.fill(kPlcTemplate)});
+  if (has_plc_block(machine)) {
+    out.push_back({"STEADYREST.SCL", filler.fill(kPlcTemplate)});
+  }
   return out;
 }
 

@@ -61,6 +61,8 @@ struct Lines {
   double watchdog_s = 0.0;  ///< the module drops its outputs after this time; 0: it has no watchdog
   /// Registers that set it: address and value in turn, written at each connection and read back.
   std::vector<std::uint32_t> watchdog_registers;
+  /// Written before them, not read back and not missed: what clears a watchdog that has expired.
+  std::vector<std::uint32_t> watchdog_reset;
 
   friend bool operator==(const Lines&, const Lines&) = default;
 };

@@ -157,6 +157,8 @@ struct OpcUa {
   double hand_back_1_s = 2.0;        ///< the feed rises by no more, in the control itself
   std::string spindle = "S1";        ///< as the control calls it
   std::string machine_axes;          ///< names of the machine axes, X1 Y1 …; empty: those
+  std::uint32_t plc_block = 170;     ///< DB and FB of STEADYREST.SCL; the next one is the FB's data
+  std::uint32_t spindle_axis = 4;    ///< the spindle's machine axis: its DB is 30 + this
   std::string program;  ///< NC program file on this computer; empty: given at the start, or none
 
   // From the mapping.

@@ -50,13 +50,16 @@ void check_kind(const Lines& lines, const Given& given, Faults& faults) {
     faults.add(given.at({"kind"}), "[lines] has no device for this kind",
                "add device = \"/dev/…\": the serial device, the GPIO chip or the comedi device");
   }
-  if (!lines.watchdog_registers.empty() && (!modbus || lines.watchdog_registers.size() % 2 != 0)) {
-    faults.add(
-        given.at({"watchdog_registers"}),
-        modbus ? fmt::format("watchdog_registers has {} entries", lines.watchdog_registers.size())
-               : std::string("watchdog_registers are for Modbus modules"),
-        modbus ? "write an address and its value in turn" : "leave them out");
-  }
+  const auto check_registers = [&](std::string_view key, const std::vector<std::uint32_t>& all) {
+    if (!all.empty() && (!modbus || all.size() % 2 != 0)) {
+      faults.add(given.at({key}),
+                 modbus ? fmt::format("{} has {} entries", key, all.size())
+                        : fmt::format("{} is for Modbus modules", key),
+                 modbus ? "write an address and its value in turn" : "leave it out");
+    }
+  };
+  check_registers("watchdog_registers", lines.watchdog_registers);
+  check_registers("watchdog_reset", lines.watchdog_reset);
   if (lines.wiring == Wiring::through && lines.watchdog_s <= 0.0) {
     faults.add(given.at({"wiring"}),
                "wiring = \"through\" without an output watchdog: a dead layer would leave its last "

@@ -54,6 +54,12 @@ std::span<const Key<OpcUa>> opcua_keys() noexcept {
       Key<OpcUa>{"machine_axes", &OpcUa::machine_axes, 1, 128,
                  "Names of the machine axes on the control, in order, with blanks between; by "
                  "default `X1 Y1 Z1` and so on."},
+      Key<OpcUa>{"plc_block", &OpcUa::plc_block, 1, 4000,
+                 "STEADYREST.SCL: number of its data block and function block; the next number is "
+                 "the instance's. The mapping names the same data block."},
+      Key<OpcUa>{"spindle_axis", &OpcUa::spindle_axis, 1, 31,
+                 "STEADYREST.SCL: number of the spindle's machine axis; its data block is 30 + "
+                 "this."},
       Key<OpcUa>{"program", &OpcUa::program, 1, 1024,
                  "The NC program that the control runs, as a file of this computer, from this "
                  "file's folder on; `--program` takes its place."},

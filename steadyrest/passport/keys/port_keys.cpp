@@ -75,6 +75,11 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "Modbus: registers that set that watchdog, address and value in turn. They are "
                  "written at each connection and read back.",
                  Need::optional, For::any, 32},
+      Key<Lines>{"watchdog_reset", &Lines::watchdog_reset, 0, kLastAddress,
+                 "Modbus: what clears an expired watchdog, address and value in turn, the same "
+                 "address more than once if need be. Written before `watchdog_registers` at each "
+                 "connection; a module that refuses it is not at fault.",
+                 Need::optional, For::any, 32},
   };
   return kKeys;
 }

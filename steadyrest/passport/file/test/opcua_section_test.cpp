@@ -54,6 +54,8 @@ dead_man_ms = 50
 hand_back_percent_s = 150
 spindle = "S2"
 machine_axes = "MX MZ"
+plc_block = 200
+spindle_axis = 5
 program = "part.mpf"
 )";
 
@@ -140,6 +142,8 @@ TEST_F(OpcUaSection, EveryKeyIsReadAndPathsBeginAtTheMachineFile) {
   EXPECT_EQ(of.first_action, 20U);
   EXPECT_EQ(of.spindle, "S2");
   EXPECT_EQ(of.machine_axes, "MX MZ");
+  EXPECT_EQ(of.plc_block, 200U);
+  EXPECT_EQ(of.spindle_axis, 5U);
   EXPECT_EQ(layer_cycle_s(*read_file), of.cycle_s);
   const std::string text = kOpcUaSection + "password_variable";
   for (const auto& key : opcua_keys()) {

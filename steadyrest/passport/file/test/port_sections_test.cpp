@@ -60,6 +60,7 @@ modulate = 14
 programmed_rpm = 1200
 watchdog_ms = 15
 watchdog_registers = [4384, 16]
+watchdog_reset = [4385, 48847, 4385, 45054]
 [lines.feed]
 panel = [0, 1]
 out = [2, 3]
@@ -101,7 +102,8 @@ TEST(PortSections, EveryKeyReachesItsField) {
                  .locked = 13,
                  .modulate = 14,
                  .programmed_rev_s = 20,
-                 .watchdog_registers = {4384, 16}};
+                 .watchdog_registers = {4384, 16},
+                 .watchdog_reset = {4385, 48847, 4385, 45054}};
   EXPECT_DOUBLE_EQ(read->lines.cycle_s, 0.008);
   EXPECT_DOUBLE_EQ(read->lines.reply_s, 0.009);
   EXPECT_DOUBLE_EQ(read->lines.watchdog_s, 0.015);
