@@ -62,6 +62,7 @@ class Scene {
     }
   }
   void cut(Cut what) {
+    chain_->settle();
     link_->cut = what != Cut::process;
     link_->dead = what == Cut::module;
     if (what == Cut::process) {

@@ -158,6 +158,11 @@ void LineChain::begin() {
   layer_.emplace(supervisor::Supervisor::make(machine_, followed_->capability()).value());
 }
 
+void LineChain::settle() {
+  // A reading comes after the order.
+  EXPECT_TRUE(port_->read());
+}
+
 void LineChain::restart() {
   killed_ = false;
   begin();
