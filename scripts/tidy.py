@@ -5,8 +5,9 @@
     scripts/tidy.py [--tests] [--changed] [PATTERN]
 
 --tests takes the tests too; PATTERN (a regular expression) only files whose path matches. --changed takes
-the sources whose code differs from that of the commit in scripts/tidy-base, at which the full run was clean,
-and for each such header one source that includes it; the full run where history does not reach back that far.
+the sources whose code differs from that of the commit in scripts/tidy-base, at which all was clean (by the full
+run, or by --changed from an earlier such commit), and for each such header one source that includes it; the full
+run where history does not reach back that far.
 A file whose preprocessed text, flags and checks are those of an earlier clean run is not examined again.
 """
 
