@@ -77,8 +77,8 @@ class LineChain {
   [[nodiscard]] const Terminals& terminals() const;
   /// What is asked for beside the rooms' own requests.
   supervisor::Supervisor::Requests requests;
-  /// Waits until what the layer has ordered is on the wires. Without it a slow computer could put the
-  /// last order of a layer on them long after its end, in the machine's time.
+  /// Waits until what the layer has ordered is on the wires. Without it a slow computer could put
+  /// the last order of a layer on them long after its end, in the machine's time.
   void settle();
   /// The layer's process does not run from here on; the wires stay as they are.
   void kill() { killed_ = true; }

@@ -34,141 +34,126 @@ kernel::machine::Lines lines_of(Wiring wiring) {
   return lines;
 }
 
-std::unique_ptr<LinesDevice> device_of(Held& held, Wiring wiring) {
-  const auto lines = lines_of(wiring);
-  LinesDevice::Parts parts;
-  parts.wires = std::make_unique<HeldWires>(held);
-  parts.feed =
-      OverrideLine::make({.wires = lines.feed, .table = small_table(), .wiring = wiring}).value();
-  return std::make_unique<LinesDevice>(lines, std::move(parts));
-}
-
 constexpr LineOrder kHalf{.feed = {.code = 3, .masks = true}, .spindle = {}};
 
-TEST(LinesDevice, WritesNothingUntilTheLayerActs) {
-  for (const Wiring wiring : {Wiring::relay, Wiring::plc}) {
-    Held held;
+/// A device on wires that the test holds, the panel at 100 %.
+class Scene {
+ public:
+  explicit Scene(Wiring wiring) {
+    const auto lines = lines_of(wiring);
     held.inputs = Levels(2);
-    {
-      const auto device = device_of(held, wiring);
-      LineSample sample;
-      for (int i = 0; i < 20; ++i) {
-        ASSERT_TRUE(device->read(sample));
-      }
-    }
-    EXPECT_TRUE(held.written.empty());
+    LinesDevice::Parts parts;
+    parts.wires = std::make_unique<HeldWires>(held);
+    parts.feed =
+        OverrideLine::make({.wires = lines.feed, .table = small_table(), .wiring = wiring}).value();
+    device = std::make_unique<LinesDevice>(lines, std::move(parts));
   }
+  kernel::outcome::Result<void> read() { return device->read(sample); }
+  void reads(int times) {
+    for (int i = 0; i < times; ++i) {
+      ASSERT_TRUE(read());
+    }
+  }
+  void acts(int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      ASSERT_TRUE(read());
+      ASSERT_TRUE(device->write(kHalf));
+    }
+  }
+  [[nodiscard]] bool masks() const { return held.outputs[3]; }
+
+  Held held;
+  LineSample sample;
+  std::unique_ptr<LinesDevice> device;
+};
+
+class WithAWayBack : public ::testing::TestWithParam<Wiring> {};
+
+TEST_P(WithAWayBack, WritesNothingUntilTheLayerActs) {
+  Scene scene(GetParam());
+  scene.reads(20);
+  scene.device.reset();
+  EXPECT_TRUE(scene.held.written.empty());
 }
+
+TEST_P(WithAWayBack, TheMaskComesOffWhenNobodyOrdersAnyMore) {
+  Scene scene(GetParam());
+  scene.acts(3);
+  ASSERT_TRUE(scene.masks());
+  scene.reads(3);
+  ASSERT_TRUE(scene.masks());
+  scene.reads(1);
+  EXPECT_FALSE(scene.masks());
+  const std::size_t written = scene.held.written.size();
+  scene.reads(1);
+  EXPECT_EQ(scene.held.written.size(), written) << "then it is silent";
+}
+
+TEST_P(WithAWayBack, ADeviceThatEndsTakesItsMaskOff) {
+  Scene scene(GetParam());
+  scene.acts(3);
+  ASSERT_TRUE(scene.masks());
+  scene.device.reset();
+  EXPECT_FALSE(scene.masks());
+}
+
+INSTANTIATE_TEST_SUITE_P(Wirings, WithAWayBack, ::testing::Values(Wiring::relay, Wiring::plc),
+                         [](const auto& wiring) {
+                           return wiring.param == Wiring::relay ? "relay" : "plc";
+                         });
 
 TEST(LinesDevice, TheHeartbeatChangesWithEachOrder) {
-  Held held;
-  held.inputs = Levels(2);
-  const auto device = device_of(held, Wiring::plc);
-  LineSample sample;
-  ASSERT_TRUE(device->read(sample));
+  Scene scene(Wiring::plc);
   bool beat = false;
   for (int i = 0; i < 10; ++i) {
-    ASSERT_TRUE(device->write(kHalf));
+    scene.acts(1);
     beat = !beat;
-    EXPECT_EQ(held.outputs[4], beat);
-    ASSERT_TRUE(device->read(sample));
+    EXPECT_EQ(scene.held.outputs[4], beat);
   }
-}
-
-TEST(LinesDevice, TheMaskComesOffWhenNobodyOrdersAnyMore) {
-  for (const Wiring wiring : {Wiring::relay, Wiring::plc}) {
-    Held held;
-    held.inputs = Levels(2);
-    const auto device = device_of(held, wiring);
-    LineSample sample;
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_TRUE(device->read(sample));
-      ASSERT_TRUE(device->write(kHalf));
-    }
-    ASSERT_TRUE(held.outputs[3]);
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_TRUE(device->read(sample));
-      ASSERT_TRUE(held.outputs[3]);
-    }
-    ASSERT_TRUE(device->read(sample));
-    EXPECT_FALSE(held.outputs[3]);
-    const std::size_t written = held.written.size();
-    ASSERT_TRUE(device->read(sample));
-    EXPECT_EQ(held.written.size(), written) << "then it is silent";
-  }
-}
-
-TEST(LinesDevice, ADeviceThatEndsTakesItsMaskOff) {
-  Held held;
-  held.inputs = Levels(2);
-  {
-    const auto device = device_of(held, Wiring::relay);
-    LineSample sample;
-    for (int i = 0; i < 3; ++i) {
-      ASSERT_TRUE(device->read(sample));
-      ASSERT_TRUE(device->write(kHalf));
-    }
-    ASSERT_TRUE(held.outputs[3]);
-  }
-  EXPECT_FALSE(held.outputs[3]);
 }
 
 TEST(LinesDevice, ThroughPassesThePanelOnWhileTheLayerIsOff) {
-  Held held;
-  const auto device = device_of(held, Wiring::through);
-  LineSample sample;
+  Scene scene(Wiring::through);
   for (const unsigned code : {2U, 3U, 7U, 0U, 6U}) {
-    held.inputs = Levels(code);
-    ASSERT_TRUE(device->read(sample));
-    EXPECT_EQ(held.outputs & Levels(7), Levels(code));
+    scene.held.inputs = Levels(code);
+    scene.reads(1);
+    EXPECT_EQ(scene.held.outputs & Levels(7), Levels(code));
   }
 }
 
 TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
-  Held held;
-  held.inputs = Levels(2);
-  const auto device = device_of(held, Wiring::plc);
-  LineSample sample;
-  ASSERT_TRUE(device->read(sample));
-  ASSERT_TRUE(device->write(kHalf));
-  held.outputs = {};  // a watchdog
-  ASSERT_TRUE(device->read(sample)) << "a reading may fall between";
-  const auto refused = device->read(sample);
+  Scene scene(Wiring::plc);
+  scene.acts(1);
+  scene.held.outputs = {};  // a watchdog
+  ASSERT_TRUE(scene.read()) << "a reading may fall between";
+  const auto refused = scene.read();
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, kernel::outcome::Kind::unavailable);
   EXPECT_EQ(refused.error().what, "output 0 of the module is off, but on was written");
-  EXPECT_TRUE(device->read(sample)) << "and the layer begins again with what there is";
+  EXPECT_EQ(scene.held.disconnected, 1) << "the next connection clears the watchdog";
+  EXPECT_TRUE(scene.read()) << "and the layer begins again with what there is";
 }
 
 TEST(LinesDevice, AStuckOutputIsFoundAgainAndAgain) {
-  Held held;
-  held.inputs = Levels(2);
-  held.stuck_on = Levels(4);
-  const auto device = device_of(held, Wiring::plc);
-  LineSample sample;
+  Scene scene(Wiring::plc);
+  scene.held.stuck_on = Levels(4);
   int refused = 0;
   for (int i = 0; i < 12; ++i) {
-    refused += device->read(sample) ? 0 : 1;
-    ASSERT_TRUE(device->write(kHalf));
+    refused += scene.read() ? 0 : 1;
+    ASSERT_TRUE(scene.device->write(kHalf));
   }
   EXPECT_EQ(refused, 5) << "every second reading";
 }
 
 TEST(LinesDevice, AfterALostLinkItBeginsWithTheModulesOutputs) {
-  Held held;
-  held.inputs = Levels(2);
-  const auto device = device_of(held, Wiring::plc);
-  LineSample sample;
-  ASSERT_TRUE(device->read(sample));
-  ASSERT_TRUE(device->write(kHalf));
-  held.cut = true;
-  EXPECT_FALSE(device->read(sample));
-  held.outputs = {};
-  held.cut = false;
-  ++held.connections;
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_TRUE(device->read(sample));
-  }
+  Scene scene(Wiring::plc);
+  scene.acts(1);
+  scene.held.cut = true;
+  EXPECT_FALSE(scene.read());
+  scene.held.outputs = {};
+  scene.held.cut = false;
+  ++scene.held.connections;
+  scene.reads(3);
 }
 
 // Settled at 10 rev/s and 100 %, then modulated by ±20 %: the programmed speed stays.

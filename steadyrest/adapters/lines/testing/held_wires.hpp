@@ -16,6 +16,7 @@ struct Held {
   Levels stuck_on;  ///< outputs that stay on
   bool cut = false;
   std::uint64_t connections = 1;
+  int disconnected = 0;  ///< times
 };
 
 class HeldWires final : public Wires {
@@ -38,6 +39,7 @@ class HeldWires final : public Wires {
     held_.written.push_back(outputs);
     return {};
   }
+  void disconnect() noexcept override { ++held_.disconnected; }
   [[nodiscard]] std::uint64_t connections() const noexcept override { return held_.connections; }
 
  private:
