@@ -96,7 +96,7 @@ Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
     return std::unexpected(std::move(wires.error()));
   }
   std::unique_ptr<EncoderSource> encoders;
-  if (machine.recorder.kind != RecorderKind::none) {
+  if (machine.recorder.fitted) {
     auto opened = open_encoders(machine.recorder, machine.lines.reply_s);
     if (!opened) {
       return std::unexpected(std::move(opened.error()));

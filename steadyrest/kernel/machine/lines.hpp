@@ -69,11 +69,12 @@ struct Lines {
 
 /// How the encoders are read: a microcontroller on a serial line, GPIO lines, the kernel's
 /// counters.
-enum class RecorderKind : std::uint8_t { serial, gpio, counter, none };
+enum class RecorderKind : std::uint8_t { serial, gpio, counter };
 
 /// Encoders by a recorder of their own, where the control shows no positions.
 struct Recorder {
-  RecorderKind kind = RecorderKind::none;
+  bool fitted = false;  ///< there is one
+  RecorderKind kind = RecorderKind::serial;
   std::string device;  ///< serial: its line; gpio: the chip
   /// Two for each encoder. gpio: lines of channels A and B; counter: numbers of the counter and of
   /// its count.

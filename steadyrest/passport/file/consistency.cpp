@@ -158,7 +158,7 @@ void lines(const Machine& machine, List& out) {
                    "edges",
                    "set cycle_ms to twice the longest scan, or more"});
   }
-  if (machine.contour.enabled && machine.recorder.kind == kernel::machine::RecorderKind::none) {
+  if (machine.contour.enabled && !machine.recorder.fitted) {
     out.push_back({Severity::error, "lines",
                    "[contour] is enabled, but without [recorder] the lines show no positions",
                    "add [recorder], or set enabled = false in [contour]"});

@@ -189,7 +189,7 @@ void check_recorder(const Machine& machine, const Given& given, Faults& faults) 
 
 void read_recorder(const toml::table& section, Machine& out, Faults& faults) {
   const std::size_t before = faults.list.size();
-  out.recorder.kind = RecorderKind::serial;
+  out.recorder.fitted = true;
   SectionReader<Recorder> reader(faults, recorder_keys(), "[recorder]");
   const Given given = reader.read(section, out.recorder);
   if (faults.list.size() == before) {

@@ -37,9 +37,9 @@ kernel::machine::Lines lines_of(Wiring wiring) {
 constexpr LineOrder kHalf{.feed = {.code = 3, .masks = true}, .spindle = {}};
 
 /// A device on wires that the test holds, the panel at 100 %.
-class Scene {
+class DeviceScene {
  public:
-  explicit Scene(Wiring wiring) {
+  explicit DeviceScene(Wiring wiring) {
     const auto lines = lines_of(wiring);
     held.inputs = Levels(2);
     LinesDevice::Parts parts;
@@ -70,14 +70,14 @@ class Scene {
 class WithAWayBack : public ::testing::TestWithParam<Wiring> {};
 
 TEST_P(WithAWayBack, WritesNothingUntilTheLayerActs) {
-  Scene scene(GetParam());
+  DeviceScene scene(GetParam());
   scene.reads(20);
   scene.device.reset();
   EXPECT_TRUE(scene.held.written.empty());
 }
 
 TEST_P(WithAWayBack, TheMaskComesOffWhenNobodyOrdersAnyMore) {
-  Scene scene(GetParam());
+  DeviceScene scene(GetParam());
   scene.acts(3);
   ASSERT_TRUE(scene.masks());
   scene.reads(3);
@@ -90,7 +90,7 @@ TEST_P(WithAWayBack, TheMaskComesOffWhenNobodyOrdersAnyMore) {
 }
 
 TEST_P(WithAWayBack, ADeviceThatEndsTakesItsMaskOff) {
-  Scene scene(GetParam());
+  DeviceScene scene(GetParam());
   scene.acts(3);
   ASSERT_TRUE(scene.masks());
   scene.device.reset();
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(Wirings, WithAWayBack, ::testing::Values(Wiring::relay,
                          });
 
 TEST(LinesDevice, TheHeartbeatChangesWithEachOrder) {
-  Scene scene(Wiring::plc);
+  DeviceScene scene(Wiring::plc);
   bool beat = false;
   for (int i = 0; i < 10; ++i) {
     scene.acts(1);
@@ -113,7 +113,7 @@ TEST(LinesDevice, TheHeartbeatChangesWithEachOrder) {
 }
 
 TEST(LinesDevice, ThroughPassesThePanelOnWhileTheLayerIsOff) {
-  Scene scene(Wiring::through);
+  DeviceScene scene(Wiring::through);
   for (const unsigned code : {2U, 3U, 7U, 0U, 6U}) {
     scene.held.inputs = Levels(code);
     scene.reads(1);
@@ -122,7 +122,7 @@ TEST(LinesDevice, ThroughPassesThePanelOnWhileTheLayerIsOff) {
 }
 
 TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
-  Scene scene(Wiring::plc);
+  DeviceScene scene(Wiring::plc);
   scene.acts(1);
   scene.held.outputs = {};  // a watchdog
   ASSERT_TRUE(scene.read()) << "a reading may fall between";
@@ -135,7 +135,7 @@ TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
 }
 
 TEST(LinesDevice, AStuckOutputIsFoundAgainAndAgain) {
-  Scene scene(Wiring::plc);
+  DeviceScene scene(Wiring::plc);
   scene.held.stuck_on = Levels(4);
   int refused = 0;
   for (int i = 0; i < 12; ++i) {
@@ -146,7 +146,7 @@ TEST(LinesDevice, AStuckOutputIsFoundAgainAndAgain) {
 }
 
 TEST(LinesDevice, AfterALostLinkItBeginsWithTheModulesOutputs) {
-  Scene scene(Wiring::plc);
+  DeviceScene scene(Wiring::plc);
   scene.acts(1);
   scene.held.cut = true;
   EXPECT_FALSE(scene.read());

@@ -111,6 +111,7 @@ TEST(PortSections, EveryKeyReachesItsField) {
   expected.reply_s = read->lines.reply_s;
   expected.watchdog_s = read->lines.watchdog_s;
   EXPECT_EQ(read->lines, expected);
+  EXPECT_TRUE(read->recorder.fitted);
   EXPECT_EQ(read->recorder.kind, kernel::machine::RecorderKind::serial);
   EXPECT_EQ(read->recorder.device, "/dev/ttyACM1");
   EXPECT_EQ(read->recorder.baud, 115200U);
