@@ -13,7 +13,7 @@ using kernel::signal::Motion;
 
 Motion motion_by_number(double number) {
   kernel::machine::Machine machine;
-  machine.opcua.reads = {{.quantity = Quantity::motion_number, .node = "s=G"}};
+  machine.opcua.reads.push_back({.quantity = Quantity::motion_number, .node = "s=G"});
   Reading reading;
   reading.value[static_cast<std::size_t>(Quantity::motion_number)] = number;
   return frame_of(reading, mapped(machine.opcua), machine, nullptr).motion;
