@@ -6,10 +6,13 @@
 #include <string>
 #include <thread>
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/socket.h>
 #include <termios.h>
 #include <tests/lines/module_server.hpp>
 #include <unistd.h>
@@ -71,6 +74,88 @@ TEST(Modbus, CarriesWordsAsRegisters) {
   lines.registers = true;
   const auto wires = ModbusWires::make(lines).value();
   expect_carries_words(*module, *wires, lines);
+}
+
+// Another device's output in the same register.
+TEST(Modbus, OtherOutputsOfARegisterKeepTheirLevels) {
+  const auto module = ModuleServer::start();
+  ASSERT_NE(module, nullptr);
+  Lines lines = lines_of(module->address());
+  const auto other = ModbusWires::make(lines).value();
+  lines.registers = true;
+  lines.feed.out = {5, 6};
+  lines.feed.mask = 7;
+  lines.feed.panel = {0, 1};
+  lines.running = kernel::machine::kNoLine;
+  const auto wires = ModbusWires::make(lines).value();
+  ASSERT_TRUE(other->write(Levels(1U << 2U)));
+  Levels inputs;
+  Levels outputs;
+  ASSERT_TRUE(wires->read(inputs, outputs));
+  outputs.set(5);
+  ASSERT_TRUE(wires->write(outputs));
+  EXPECT_EQ(module->exchange(0, 0.0).outputs, 1U << 2U | 1U << 5U);
+}
+
+/// A module that answers right, but one byte after another.
+class SlowModule {
+ public:
+  SlowModule() : listens_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof at;
+    auto* const any = reinterpret_cast<sockaddr*>(&at);  // NOLINT: as the sockets want it
+    EXPECT_EQ(::bind(listens_, any, size), 0);
+    EXPECT_EQ(::listen(listens_, 1), 0);
+    EXPECT_EQ(::getsockname(listens_, any, &size), 0);
+    port_ = ntohs(at.sin_port);
+    thread_ = std::thread([this] { run(); });
+  }
+  SlowModule(const SlowModule&) = delete;
+  SlowModule& operator=(const SlowModule&) = delete;
+  ~SlowModule() {
+    thread_.join();
+    ::close(listens_);
+  }
+  [[nodiscard]] std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+
+ private:
+  /// One request for eight inputs.
+  void run() const {
+    const int link = ::accept(listens_, nullptr, nullptr);
+    std::array<std::uint8_t, 12> request{};
+    if (::recv(link, request.data(), request.size(), MSG_WAITALL) == 12) {
+      const std::array<std::uint8_t, 10> answer = {request[0], request[1], 0,          0, 0,
+                                                   4,          request[6], request[7], 1, 0};
+      for (const std::uint8_t byte : answer) {
+        ::poll(nullptr, 0, 50);
+        if (::send(link, &byte, 1, MSG_NOSIGNAL) != 1) {
+          break;
+        }
+      }
+    }
+    ::close(link);
+  }
+
+  int listens_;
+  int port_ = 0;
+  std::thread thread_;
+};
+
+// `reply_s` is for the whole answer: else each byte might take another half second.
+TEST(Modbus, AnAnswerInPiecesHasNoMoreTimeThanAWholeOne) {
+  const SlowModule module;
+  Lines lines = lines_of(module.address());
+  lines.reply_s = 0.1;
+  lines.feed.panel = {0, 7};
+  lines.running = kernel::machine::kNoLine;
+  const auto wires = ModbusWires::make(lines).value();
+  Levels inputs;
+  Levels outputs;
+  const auto read = wires->read(inputs, outputs);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().what.find("inputs 0 … 7"), std::string::npos) << read.error().what;
 }
 
 /// Two serial lines with a wire between.

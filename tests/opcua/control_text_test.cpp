@@ -53,6 +53,28 @@ TEST(ControlText, PlcBlockHasThisMachinesCodes) {
   EXPECT_NE(text.find("    19: DB21.DB4 := B#16#1A;   // 100 %"), std::string::npos);
 }
 
+// The control writes 5EX-5; 5e-05 is an error there.
+TEST(ControlText, SmallNumbersHaveNoExponent) {
+  auto of = machine();
+  of.file = "m.toml";
+  of.control.interpolator_period_s = 0.001;
+  of.envelope.max_offset_mm = 0.1;
+  of.envelope.offset_slew_mm_s = 0.05;
+  const std::string text = adapters::opcua::control_texts(of).value().front().text;
+  EXPECT_NE(text.find(")>0.00005 DO"), std::string::npos);
+  EXPECT_EQ(text.find("e-0"), std::string::npos);
+}
+
+TEST(ControlText, TheMachinesNameStaysInItsComment) {
+  auto of = by_plc();
+  of.name = "mill\nG0 X100";
+  of.file = "mill\r\nM30";
+  for (const auto& text : adapters::opcua::control_texts(of).value()) {
+    EXPECT_EQ(text.text.find("\nG0 X100"), std::string::npos) << text.name;
+    EXPECT_EQ(text.text.find("\nM30"), std::string::npos) << text.name;
+  }
+}
+
 TEST(ControlText, TooManyActionsAreRefused) {
   auto of = machine();
   of.opcua.first_action = 230;

@@ -81,7 +81,8 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 }
 
 /// What must be written without an order: masks that nobody asks for, and the panel's word where
-/// the layer is between panel and control.
+/// the layer is between panel and control. That goes out at each reading, turned or not: the
+/// module's watchdog would drop it.
 Result<void> LinesDevice::pass_on() {
   ++silent_;
   const bool ends = acting_ && silent_ > kSilentReadings;
@@ -91,11 +92,10 @@ Result<void> LinesDevice::pass_on() {
   acting_ = false;
   Levels outputs = on_wires_;
   release(outputs);
-  const bool same = sent_ && ((outputs ^ on_wires_) & ours_).none();
-  return same ? Result<void>() : send(outputs);
+  return send(outputs);
 }
 
-Result<void> LinesDevice::read(LineSample& sample) {
+Result<void> LinesDevice::read_lines(LineSample& sample) {
   Levels outputs;
   if (auto got = parts_.wires->read(sample.inputs, outputs); !got) {
     sent_ = false;
@@ -123,17 +123,22 @@ Result<void> LinesDevice::read(LineSample& sample) {
   if (parts_.spindle) {
     sample.spindle = parts_.spindle->see(sample.inputs, outputs);
   }
-  if (auto passed = pass_on(); !passed) {
-    return passed;
-  }
+  return pass_on();
+}
+
+/// The encoders are read while the lines fail, too: a gap would end their positions for good.
+Result<void> LinesDevice::read(LineSample& sample) {
+  auto lines = read_lines(sample);
   if (parts_.encoders) {
     auto encoders = parts_.encoders->next();
-    if (!encoders) {
+    if (lines && !encoders) {
       return std::unexpected(std::move(encoders.error()));
     }
-    sample.encoders = *encoders;
+    if (encoders) {
+      sample.encoders = *encoders;
+    }
   }
-  return {};
+  return lines;
 }
 
 Result<void> LinesDevice::write(const LineOrder& order) {

@@ -52,6 +52,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   kernel::outcome::Result<void> write(const LineOrder& order) override;
 
  private:
+  kernel::outcome::Result<void> read_lines(LineSample& sample);
   kernel::outcome::Result<void> check_outputs(const Levels& outputs);
   kernel::outcome::Result<void> pass_on();
   kernel::outcome::Result<void> send(const Levels& outputs);

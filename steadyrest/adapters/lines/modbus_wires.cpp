@@ -60,6 +60,15 @@ Range registers_of(const Range& lines) {
   return {.first = first, .count = last - first + 1};
 }
 
+/// A register is written whole: its other lines go back as they were read.
+Range whole_registers(const Range& lines) {
+  if (lines.count == 0) {
+    return lines;
+  }
+  const Range all = registers_of(lines);
+  return {.first = all.first * kPerRegister, .count = all.count * kPerRegister};
+}
+
 /// The module answered, with a refusal.
 bool is_answer(int fault) noexcept {
   return fault >= EMBXILFUN && fault <= EMBXGTAR;
@@ -97,11 +106,14 @@ Result<std::unique_ptr<ModbusWires>> ModbusWires::make(const Lines& lines) {
 ModbusWires::ModbusWires(const Lines& lines, Link link)
     : lines_(lines),
       inputs_(inputs_of(lines)),
-      outputs_(outputs_of(lines)),
+      outputs_(lines.registers ? whole_registers(outputs_of(lines)) : outputs_of(lines)),
       link_(std::move(link)) {
   const auto reply_us = static_cast<std::uint32_t>(1e6 * lines.reply_s);
   modbus_set_slave(link_.get(), static_cast<int>(lines.unit));
   modbus_set_response_timeout(link_.get(), reply_us / 1000000, reply_us % 1000000);
+  // Without a time of their own the bytes have that of the whole answer: a module that sends one
+  // now and then would hold the thread for minutes.
+  modbus_set_byte_timeout(link_.get(), 0, 0);
 }
 
 ModbusWires::~ModbusWires() = default;

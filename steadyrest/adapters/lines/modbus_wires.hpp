@@ -16,7 +16,8 @@ namespace steadyrest::adapters::lines {
 /// The lines of a remote I/O module, by Modbus over TCP or over a serial line.
 ///
 /// As bits: functions 2 (inputs), 1 (outputs read back), 15 (outputs). As registers, 16 lines a
-/// piece: 4, 3 and 16. Outputs between the layer's lowest and highest are the layer's. At each
+/// piece: 4, 3 and 16. Outputs between the layer's lowest and highest are the layer's, with
+/// registers all outputs of those: they are written as they were at the connection. At each
 /// connection the registers of the module's watchdog are written and read back.
 class ModbusWires final : public Wires {
  public:

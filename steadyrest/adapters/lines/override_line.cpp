@@ -35,7 +35,8 @@ OverrideLine::Seen OverrideLine::see(const Levels& inputs, const Levels& outputs
     seen_.panel_ratio = table_.ratio(*panel);
   }
   seen_.effective_ratio = seen_.panel_ratio;
-  const bool masked = wires.mask == kNoLine || outputs[wires.mask];
+  const bool masked =
+      config_.wiring == Wiring::through || wires.mask == kNoLine || outputs[wires.mask];
   const auto word = table_.step_of_code(word_of(outputs, wires.out, wires.out_inverted));
   if (masked && word) {
     const double ratio = table_.ratio(*word);

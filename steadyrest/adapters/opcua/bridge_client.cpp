@@ -21,6 +21,7 @@ constexpr double kFirstPause_s = 0.1;
 constexpr double kLongestPause_s = 5.0;
 constexpr double kSlack_s = 0.2;  ///< the bridge times the control out by itself
 constexpr double kCertificate_s = 8.0;
+constexpr int kMostEvents = 1000;  ///< taken at once: a bridge may say more than anybody reads
 
 std::vector<std::string> ids_of(const std::vector<NodePlan::Node>& nodes) {
   std::vector<std::string> out;
@@ -84,6 +85,7 @@ std::optional<Answer> BridgeClient::take(double until_s) {
 Result<void> BridgeClient::start(double until_s) {
   if (process_ && process_->ended()) {
     why_ = "bridge_ended";
+    detail_.clear();
     drop();
   }
   if (!process_) {
@@ -136,7 +138,7 @@ Result<void> BridgeClient::connect(double patience_s) {
     return started;
   }
   // What has come meanwhile counts first: a link may have gone and come.
-  while (process_ && take(0.0)) {
+  for (int i = 0; i < kMostEvents && process_ && take(0.0); ++i) {
   }
   while (process_ && !process_->ended() && state_ != "connected" && monotonic_s() < until_s) {
     const std::string before = state_;
@@ -165,8 +167,10 @@ Result<Answer> BridgeClient::exchange(const std::string& line, std::uint64_t id,
       }
       return *std::move(answer);
     }
-    if (!answer && process_ && !process_->ended() && monotonic_s() >= until_s) {
+    // Events are no answer, however many come.
+    if (process_ && !process_->ended() && monotonic_s() >= until_s) {
       why_ = "bridge_hangs";
+      detail_.clear();
       drop();
       return unavailable("the OPC UA bridge does not answer", "it is started again");
     }

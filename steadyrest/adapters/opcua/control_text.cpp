@@ -32,8 +32,21 @@ struct Axis {
   std::string machine_name;
 };
 
+/// Without an exponent: the control writes 5EX-5 and takes 5e-05 for an error.
 std::string number(double value) {
-  return fmt::format("{:.10g}", value);
+  std::string out = fmt::format("{:.10f}", value);
+  out.erase(out.find_last_not_of('0') + 1);
+  if (out.ends_with('.')) {
+    out.pop_back();
+  }
+  return out;
+}
+
+/// For a comment: what ends a line there would begin a block of the program.
+std::string comment(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
+  return text;
 }
 
 std::vector<Axis> axes_of(const Machine& machine) {
@@ -85,8 +98,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
   const auto unless = [](bool has) { return has ? std::string() : std::string(kWithout); };
   const auto dead_cycles = static_cast<int>(std::floor(config.dead_man_s / ipo_s + 1e-9));
   return {
-      {"NAME", machine.name},
-      {"FILE", machine.file.empty() ? "M" : machine.file},
+      {"NAME", comment(machine.name)},
+      {"FILE", machine.file.empty() ? "M" : comment(machine.file)},
       {"IPO_MS", number(1e3 * ipo_s)},
       {"IPO_S", number(ipo_s)},
       {"DEAD_MS", number(1e3 * config.dead_man_s)},

@@ -25,10 +25,11 @@ bool has(const OpcUa& config, Quantity quantity) noexcept {
                              [=](const auto& place) { return place.quantity == quantity; });
 }
 
-/// G codes of group 1 by their number there, as the control counts them: G0 is 1. Of the others
-/// only that they are no plain feed matters.
+/// G codes of group 1 by their number there, as the control counts them: G0 is 1, G33 is 10, G34
+/// and G35 are 16 and 17. Of the others only that they are feed matters.
 double code_of_number(double number) noexcept {
-  constexpr std::array<double, 16> kCodes = {0, 0, 1, 2, 3, 1, 1, 1, 1, 1, 33, 331, 332, 1, 1, 1};
+  constexpr std::array<double, 18> kCodes = {0, 0,  1,   2,   3, 1, 1, 1,  1,
+                                             1, 33, 331, 332, 1, 1, 1, 34, 35};
   return number >= 1.0 && number < static_cast<double>(kCodes.size())
              ? kCodes[static_cast<std::size_t>(number)]
              : 1.0;

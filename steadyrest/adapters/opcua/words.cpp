@@ -15,7 +15,7 @@ struct Words {
   std::string_view to_do;
 };
 
-constexpr std::array<Words, 20> kWords = {{
+constexpr std::array<Words, 22> kWords = {{
     {"certificate_not_trusted", "the control's certificate is not trusted",
      "compare its fingerprint with the one on the control and trust it: steadyrest opcua trust"},
     {"certificate_changed", "the control shows another certificate than the trusted one",
@@ -49,6 +49,10 @@ constexpr std::array<Words, 20> kWords = {{
     {"stopped", "the bridge was stopped", "start again"},
     {"bad_request", "the OPC UA bridge does not understand the layer",
      "use the bridge that belongs to this program"},
+    {"bridge_ended", "the OPC UA bridge has ended",
+     "it is started again; see whether Node runs: node --version"},
+    {"bridge_hangs", "the OPC UA bridge does not answer",
+     "it is started again; see what slows this computer down"},
     {"too_many_requests", "the OPC UA bridge is overloaded", "see what slows this computer down"},
 }};
 

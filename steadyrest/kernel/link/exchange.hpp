@@ -101,10 +101,12 @@ class Exchange {
   void run() {
     while (!ends_.load()) {
       wake_.wait(-1.0);
+      // Looked at first: an order that was left before the question is there then.
+      const bool asked = asked_.exchange(false);
       if (ordered_.exchange(false)) {
         tell(device_->write(order_.load()), unwritten_, write_fault_);
       }
-      if (asked_.exchange(false)) {
+      if (asked) {
         Sample sample{};
         const auto got = device_->read(sample);
         sample_.store(sample);

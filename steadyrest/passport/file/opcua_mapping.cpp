@@ -166,6 +166,18 @@ class MappingReader {
       return;
     }
     const auto axis = of_axis ? present_[rank] : std::uint8_t{0};
+    const auto same_place = std::ranges::find_if(out, [&](const OpcUaPlace& other) {
+      return other.node == node && other.index == static_cast<std::uint32_t>(index);
+    });
+    if (kernel::machine::is_written(quantity) && same_place != out.end() &&
+        (same_place->quantity != quantity || same_place->axis != axis)) {
+      faults_.add(given.at({"index", "node"}),
+                  fmt::format("{} has the place of {}: {} entry {}", read.quantity,
+                              kQuantityWords[static_cast<std::size_t>(same_place->quantity)],
+                              cut(node), index),
+                  "what is written needs a place of its own");
+      return;
+    }
     if (std::ranges::any_of(out, [&](const OpcUaPlace& other) {
           return other.quantity == quantity && other.axis == axis;
         })) {

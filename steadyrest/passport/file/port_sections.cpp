@@ -60,6 +60,11 @@ void check_kind(const Lines& lines, const Given& given, Faults& faults) {
   };
   check_registers("watchdog_registers", lines.watchdog_registers);
   check_registers("watchdog_reset", lines.watchdog_reset);
+  if (!modbus && lines.watchdog_s > 0.0) {
+    faults.add(given.at({"watchdog_ms"}), "watchdog_ms is for Modbus modules",
+               "leave it out: GPIO lines and comedi cards keep their levels; wire heartbeat to a "
+               "watchdog relay");
+  }
   if (lines.wiring == Wiring::through && lines.watchdog_s <= 0.0) {
     faults.add(given.at({"wiring"}),
                "wiring = \"through\" without an output watchdog: a dead layer would leave its last "
@@ -108,6 +113,58 @@ void check_twice(std::vector<std::uint32_t> lines, std::string_view what, const 
   }
 }
 
+/// A Modbus address has 16 bits: a larger one would be another line's.
+void check_addresses(const Lines& lines, std::uint32_t last_input, std::uint32_t last_output,
+                     const Given& given, Faults& faults) {
+  constexpr std::uint32_t kLastModbusAddress = 65535;
+  constexpr std::uint32_t kRegisterLines = 16;
+  const std::uint32_t lines_each = lines.registers ? kRegisterLines : 1;
+  const auto check = [&](std::string_view key, std::uint32_t first, std::uint32_t last) {
+    if (first + last / lines_each > kLastModbusAddress) {
+      faults.add(given.at({key}),
+                 fmt::format("{} = {}: line {} would be at address {}, beyond {}", key, first, last,
+                             first + last / lines_each, kLastModbusAddress),
+                 "correct the address or the lines' numbers");
+    }
+  };
+  check("first_input", lines.first_input, last_input);
+  check("first_output", lines.first_output, last_output);
+  if (lines.output_copy != lines.first_output) {
+    check("output_copy", lines.output_copy, last_output);
+  }
+}
+
+/// On one comedi subdevice all lines from the lowest to the highest output are turned to outputs.
+void check_subdevice(const std::vector<std::uint32_t>& inputs,
+                     const std::vector<std::uint32_t>& outputs, const Given& given,
+                     Faults& faults) {
+  const auto [first, last] = std::ranges::minmax(outputs);
+  for (const std::uint32_t input : inputs) {
+    if (input >= first && input <= last) {
+      faults.add(
+          given.at({"output_device"}),
+          fmt::format("input {} is among the outputs {} … {} of its subdevice", input, first, last),
+          "put inputs and outputs into separate ranges, or on separate subdevices");
+      return;
+    }
+  }
+}
+
+/// What can only be seen of all lines together.
+void check_reach(const Lines& lines, std::vector<std::uint32_t> inputs,
+                 std::vector<std::uint32_t> outputs, const Given& given, Faults& faults) {
+  std::erase(inputs, kNoLine);
+  std::erase(outputs, kNoLine);
+  if (inputs.empty() || outputs.empty()) {
+    return;
+  }
+  if (lines.kind == LinesKind::modbus_tcp || lines.kind == LinesKind::modbus_rtu) {
+    check_addresses(lines, std::ranges::max(inputs), std::ranges::max(outputs), given, faults);
+  } else if (lines.kind == LinesKind::comedi && lines.input_device == lines.output_device) {
+    check_subdevice(inputs, outputs, given, faults);
+  }
+}
+
 void check_all_lines(const Lines& lines, const Given& given, Faults& faults) {
   std::vector<std::uint32_t> inputs = {lines.running, lines.cutting, lines.locked, lines.modulate};
   std::vector<std::uint32_t> outputs = {lines.heartbeat, lines.feed.mask, lines.spindle.mask};
@@ -121,6 +178,7 @@ void check_all_lines(const Lines& lines, const Given& given, Faults& faults) {
     outputs[1] = kNoLine;
   }
   check_twice(outputs, "output", given, faults);
+  check_reach(lines, inputs, outputs, given, faults);
   if (lines.wiring == Wiring::plc && lines.heartbeat == kNoLine) {
     faults.add(given.at({"wiring"}), "wiring = \"plc\" without a heartbeat",
                "add heartbeat = the output that the PLC watches");

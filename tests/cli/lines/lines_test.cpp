@@ -157,6 +157,23 @@ TEST_F(Mill, TheLayerRunsAndLeavesTheOutputsNeutral) {
   EXPECT_EQ(after.outputs >> 11U & 1U, 0U);
 }
 
+// Counters have no device file; they are encoders all the same.
+TEST_F(Mill, CountersAreEncodersThatAProgramCanFollow) {
+  std::string text = text_of_file(machine_);
+  std::string inputs;
+  const auto encoders = encoder_count(passport::read(machine_).value());
+  for (std::size_t i = 0; i < encoders; ++i) {
+    inputs += (i == 0 ? "" : ", ") + std::string("999, ") + std::to_string(i);
+  }
+  text += "\n[recorder]\nkind = \"counter\"\ninputs = [" + inputs + "]\n";
+  const std::string program = scratch_.file("part.mpf", "G0 X0\nM30\n");
+  const Finished start =
+      run_line("run --for-s 0.1 --machine " + scratch_.file("counters.toml", text) + " --program " +
+               program + " --socket " + scratch_.at("s"));
+  EXPECT_NE(start.code, 0);
+  EXPECT_THAT(start.err, HasSubstr("counter999/count0/count cannot be opened"));
+}
+
 TEST_F(Mill, AModuleThatIsNotThereIsRefusedByName) {
   const std::string address = module_->address();
   module_.reset();

@@ -30,6 +30,8 @@ using kernel::outcome::unavailable;
 constexpr const char* kSeeFolder =
     "see /sys/bus/counter/devices for the counters of this machine and their counts";
 
+constexpr std::uint64_t kLeastRange = 256;  ///< counts, of a counter that follows an axis
+
 std::optional<std::uint64_t> number_of(std::string_view text) noexcept {
   std::uint64_t value = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -52,7 +54,7 @@ std::int64_t moved_by(std::uint64_t from, std::uint64_t to, std::uint64_t range)
   if (range == 0) {
     return static_cast<std::int64_t>(to - from);
   }
-  const std::uint64_t up = (to + range - from) % range;
+  const std::uint64_t up = to >= from ? to - from : range - (from - to);
   return up <= range / 2 ? static_cast<std::int64_t>(up) : -static_cast<std::int64_t>(range - up);
 }
 
@@ -109,6 +111,11 @@ Result<void> CounterEncoders::add(std::uint32_t counter, std::uint32_t number,
   // The largest value; without it the counter is as wide as its figure.
   const auto ceiling = number_of(line_in(count.folder / "ceiling"));
   count.range = ceiling && *ceiling < std::numeric_limits<std::uint64_t>::max() ? *ceiling + 1 : 0;
+  if (count.range > 0 && count.range < kLeastRange) {
+    return unavailable(
+        fmt::format("{} counts up to {} only", count.folder.string(), *ceiling),
+        "write its largest value to its file ceiling: some counters begin with 0 there");
+  }
   auto value = value_of(count);
   if (!value) {
     return std::unexpected(std::move(value.error()));

@@ -12,6 +12,7 @@ using kernel::outcome::unavailable;
 namespace {
 
 constexpr double kLongestGap_s = 2.0;  ///< between two samples that belong together
+constexpr std::uint32_t kMostTicks = 0xFFFFFFFFU;
 
 double seconds(std::uint32_t ticks, std::uint32_t clock_hz) noexcept {
   return static_cast<double>(ticks) / static_cast<double>(clock_hz);
@@ -20,6 +21,12 @@ double seconds(std::uint32_t ticks, std::uint32_t clock_hz) noexcept {
 }  // namespace
 
 Result<void> RecorderTrack::check(const RecorderSample& sample) const {
+  if (seconds(kMostTicks, sample.clock_hz) < 2.0 * kLongestGap_s) {
+    return unavailable(fmt::format("the recorder's clock of {} Hz goes round too soon: a gap of "
+                                   "{:g} s would not be seen",
+                                   sample.clock_hz, kLongestGap_s),
+                       "let it send ticks of a slower clock, 1 GHz at most");
+  }
   if (!started_) {
     return {};
   }

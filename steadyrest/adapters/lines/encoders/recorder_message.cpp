@@ -102,6 +102,10 @@ bool RecorderParser::feed(Bytes bytes, RecorderSample& newest) noexcept {
       started_ = true;
       sequence_ = sample.sequence;
       ++counts_.samples;
+      for (std::size_t i = 0; i < kMostCounters; ++i) {
+        CounterSample& counter = sample.counter.at(i);
+        counter.lost = counter.lost || newest.counter.at(i).lost;
+      }
       newest = sample;
       got = true;
     }

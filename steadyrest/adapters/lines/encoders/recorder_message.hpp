@@ -43,7 +43,8 @@ class RecorderParser {
     std::uint64_t missing = 0;  ///< by the sequence
   };
 
-  /// The newest sample of these bytes; false: none ended in them.
+  /// The newest sample of these bytes; false: none ended in them. `lost` is that of all samples
+  /// and of what `newest` had before: a message that nobody looks at may be the one that tells.
   bool feed(std::span<const std::uint8_t> bytes, RecorderSample& newest) noexcept;
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
 

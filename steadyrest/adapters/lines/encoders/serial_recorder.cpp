@@ -32,6 +32,9 @@ constexpr std::array kRates = {
     Rate{460800, B460800},   Rate{921600, B921600},   Rate{1000000, B1000000},
     Rate{2000000, B2000000}, Rate{3000000, B3000000}, Rate{4000000, B4000000}};
 
+/// Calls of `read` in one reading: a device that never stops must not hold the thread.
+constexpr int kMostPieces = 64;
+
 /// Bytes as they are, 8 bits, no parity.
 bool make_raw(int descriptor, speed_t speed) {
   termios settings{};
@@ -77,7 +80,7 @@ SerialRecorder::~SerialRecorder() {
 bool SerialRecorder::drain(RecorderSample& newest, bool& ended) {
   bool got = false;
   std::array<std::uint8_t, 4096> bytes{};
-  for (;;) {
+  for (int i = 0; i < kMostPieces; ++i) {
     const ssize_t count = ::read(descriptor_, bytes.data(), bytes.size());
     if (count > 0) {
       got = parser_.feed({bytes.data(), static_cast<std::size_t>(count)}, newest) || got;
@@ -85,9 +88,10 @@ bool SerialRecorder::drain(RecorderSample& newest, bool& ended) {
       continue;
     } else {
       ended = count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
-      return got;
+      break;
     }
   }
+  return got;
 }
 
 Result<EncoderReading> SerialRecorder::next() {

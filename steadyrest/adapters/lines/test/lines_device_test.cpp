@@ -121,6 +121,45 @@ TEST(LinesDevice, ThroughPassesThePanelOnWhileTheLayerIsOff) {
   }
 }
 
+// A module's watchdog counts writes: a panel that nobody turns must reach it all the same.
+TEST(LinesDevice, ThroughWritesAtEachReadingThoughNothingTurns) {
+  Scene scene(Wiring::through);
+  scene.reads(5);
+  EXPECT_EQ(scene.held.written.size(), 5U);
+}
+
+/// Counts how often it was read.
+class CountedEncoders final : public EncoderSource {
+ public:
+  explicit CountedEncoders(int& readings) : readings_(readings) {}
+  kernel::outcome::Result<EncoderReading> next() override {
+    ++readings_;
+    return EncoderReading();
+  }
+
+ private:
+  int& readings_;
+};
+
+TEST(LinesDevice, EncodersAreReadWhileTheLinkIsCut) {
+  Held held;
+  int readings = 0;
+  LinesDevice::Parts parts;
+  parts.wires = std::make_unique<HeldWires>(held);
+  parts.encoders = std::make_unique<CountedEncoders>(readings);
+  LinesDevice device(lines_of(Wiring::plc), std::move(parts));
+  LineSample sample;
+  held.cut = true;
+  for (int i = 0; i < 3; ++i) {
+    const auto read = device.read(sample);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().what, "the link is cut");
+  }
+  EXPECT_EQ(readings, 3) << "without them a gap would end the positions for good";
+  held.cut = false;
+  EXPECT_TRUE(device.read(sample));
+}
+
 TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
   DeviceScene scene(Wiring::plc);
   scene.acts(1);

@@ -133,6 +133,20 @@ TEST(OverrideLine, ThroughPassesWhateverThePanelShows) {
   EXPECT_EQ(scene.out(), sinumerik_code(0)) << "the operator's 0";
 }
 
+// A mask output that nothing switches says nothing about which word is in force.
+TEST(OverrideLine, ThroughShowsTheWordOnTheWiresWithAMaskToo) {
+  auto line = OverrideLine::make(
+                  {.wires = {.panel = {0, 1, 2, 3, 4}, .out = {7, 8, 9, 10, 11}, .mask = kMask},
+                   .table = table_840d(),
+                   .wiring = Wiring::through})
+                  .value();
+  Levels inputs;
+  Levels outputs;
+  put_word(sinumerik_code(k100), line.config().wires.panel, false, inputs);
+  put_word(sinumerik_code(k50), line.config().wires.out, false, outputs);
+  EXPECT_DOUBLE_EQ(line.see(inputs, outputs).effective_ratio, 0.5);
+}
+
 // What a lost order leaves out, the wires walk all the same.
 TEST(OverrideLine, AJumpOnSeparateWiresBecomesAWalk) {
   Scene scene(Wiring::plc);

@@ -201,6 +201,10 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
   EXPECT_THAT(mapping("step = 2", "step = 100"), HasSubstr("index 103 is beyond the 17 values"));
   EXPECT_THAT(mapping("scale = 0.001", "scale = 0"), HasSubstr("scale = 0"));
   EXPECT_THAT(mapping("\"sample_end\"", "\"feed_panel_percent\""), HasSubstr("mapped twice"));
+  EXPECT_THAT(mapping("[program_state]",
+                      "[[write]]\nquantity = \"feed_percent\"\nnode = \"s=/W\"\nindex = 2\n"
+                      "length = 5\n[program_state]"),
+              HasSubstr("feed_percent has the place of heartbeat: s=/W entry 2"));
   EXPECT_THAT(mapping("\"actual_mm\"", "\"offset_mm\""), HasSubstr("the mapping has no actual_mm"));
   EXPECT_THAT(mapping("quantity = \"heartbeat\"", "quantity = \"feed_percent\""),
               HasSubstr("no heartbeat"));

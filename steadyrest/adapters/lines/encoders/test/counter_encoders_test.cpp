@@ -113,6 +113,14 @@ TEST_F(Counters, WrapAtTheirCeiling) {
   EXPECT_FALSE(encoders->next()) << "for good";
 }
 
+TEST_F(Counters, WrapBeyondHalfOfWhatANumberHolds) {
+  put("counter0/count1/ceiling", "13835058055282163711");  // 3·2⁶² − 1
+  put("counter0/count1/count", "3");
+  const auto encoders = open().value();
+  put("counter0/count1/count", "13835058055282163709");
+  EXPECT_EQ(encoders->next().value().count[0], -6);
+}
+
 TEST_F(Counters, ACounterThatTellsOfChangesGivesTheEdgeItsTime) {
   with_events();
   const auto encoders = open().value();
@@ -153,6 +161,9 @@ TEST_F(Counters, WhatCannotBeAPositionIsRefusedByName) {
   put("counter3/count0/enable", "0");
   EXPECT_NE(open().error().what.find("counter3/count0 is switched off"), std::string::npos);
   put("counter3/count0/enable", "1");
+  put("counter3/count0/ceiling", "0");  // as some begin: it would stay at 0 for ever
+  EXPECT_NE(open().error().what.find("counter3/count0 counts up to 0 only"), std::string::npos);
+  put("counter3/count0/ceiling", "65535");
   put("counter3/count0/count", "none");
   EXPECT_NE(open().error().what.find("counter3/count0 cannot be read"), std::string::npos);
   fs::remove_all(root_ / "counter3");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -89,6 +90,26 @@ TEST(RecorderMessage, LostOnesAreCounted) {
   EXPECT_EQ(parser.counts().missing, 3U);  // 65534; 0 and 1
 }
 
+// Between two readings of the layer the recorder sends several; only the newest is taken.
+TEST(RecorderMessage, WhatIsLostInAnOlderOneIsTold) {
+  RecorderParser parser;
+  RecorderSample newest;
+  auto lost = sample_of(2, 2000, 2);
+  lost.counter[1].lost = true;
+  Bytes stream;
+  for (const auto& one : {sample_of(1, 1000, 1), lost, sample_of(3, 3000, 3)}) {
+    const Bytes message = message_of(one);
+    stream.insert(stream.end(), message.begin(), message.end());
+  }
+  ASSERT_TRUE(parser.feed(stream, newest));
+  EXPECT_EQ(newest.sequence, 3);
+  EXPECT_FALSE(newest.counter[0].lost);
+  EXPECT_TRUE(newest.counter[1].lost);
+  RecorderSample next;
+  ASSERT_TRUE(parser.feed(message_of(sample_of(4, 4000, 4)), next));
+  EXPECT_FALSE(next.counter[1].lost) << "told once";
+}
+
 // A million bytes of noise: nothing but what has the right checksum by chance, 2^-16, could count.
 TEST(RecorderMessage, NoiseIsNoSample) {
   std::mt19937 dice(7);  // NOLINT(bugprone-random-generator-seed): the same cases each time
@@ -135,6 +156,16 @@ TEST(RecorderTrack, AnOldEdgeKeepsItsTime) {
     sample.ticks += 1'900'000;
     ASSERT_DOUBLE_EQ(track.take(sample).value().edge_s[0], edge_s);
   }
+}
+
+// At 4 GHz the ticks go round each second, and no silence would ever look long.
+TEST(RecorderTrack, AClockThatGoesRoundTooSoonIsRefused) {
+  RecorderTrack track;
+  auto fast = sample_of(0, 1000, 0);
+  fast.clock_hz = 4'000'000'000U;
+  const auto refused = track.take(fast);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("4000000000 Hz"), std::string::npos);
 }
 
 TEST(RecorderTrack, WhatEndsThePositionsEndsThemForGood) {

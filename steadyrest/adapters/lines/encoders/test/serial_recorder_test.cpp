@@ -27,10 +27,11 @@ struct Line {
     ::close(kept);
     ::close(recorder);
   }
-  void send(std::uint16_t sequence, std::int32_t count) const {
+  void send(std::uint16_t sequence, std::int32_t count, bool lost = false) const {
     RecorderSample sample{
         .sequence = sequence, .ticks = 1000U * sequence, .clock_hz = 1'000'000, .counters = 1};
     sample.counter[0].count = count;
+    sample.counter[0].lost = lost;
     const auto bytes = message_of(sample);
     ASSERT_EQ(::write(recorder, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   }
@@ -58,6 +59,19 @@ TEST(SerialRecorder, GivesTheNewestOfWhatHasCome) {
   EXPECT_EQ(newest.count[0], 500);
   EXPECT_DOUBLE_EQ(newest.time_s, 0.005);
   EXPECT_EQ(recorder->counts().missing, 0U);
+}
+
+TEST(SerialRecorder, CountsThatWereLostBetweenTwoReadingsEndThePositions) {
+  const Line line;
+  const auto recorder = line.open();
+  line.send(0, 10);
+  ASSERT_TRUE(recorder->next());
+  line.send(1, 20);
+  line.send(2, 30, true);
+  line.send(3, 40);
+  const auto refused = recorder->next();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "encoder 1 moved too fast for the recorder: counts are lost");
 }
 
 TEST(SerialRecorder, BytesAreLeftAsTheyAre) {
