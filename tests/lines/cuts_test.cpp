@@ -4,11 +4,13 @@
 #include <array>
 #include <memory>
 #include <random>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 #include <tests/lines/line_chain.hpp>
 
+#include <steadyrest/kernel/link/event.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 
 namespace steadyrest::test::lines {
@@ -29,14 +31,20 @@ constexpr double kWatchdog_s = 0.1;  ///< of the module, with relays
 /// A machine on a long circle whose layer asks for half the feed and four fifths of the speed.
 class Scene {
  public:
-  explicit Scene(Wiring wiring) : machine_(wired_840d(0.040)) {
-    machine_.contour.enabled = false;
+  enum class Asks : std::uint8_t { both, contour };
+
+  /// `contour`: it is the contour room, with positions, that asks for a lower feed.
+  explicit Scene(Wiring wiring, Asks asks = Asks::both) : machine_(wired_840d(0.040)) {
+    machine_.contour.enabled = asks == Asks::contour;
     machine_.lines.wiring = wiring;
     Machine real = machine_;
     real.port = kernel::machine::PortKind::sim;
-    const auto path = path_of(real,
-                              "G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 "
-                              "F2000\nM30\n");
+    const auto path = path_of(
+        real, asks == Asks::both
+                  ? "G17 G90 G94 G71\nS3000 M3\nG0 X10 Y0\nG3 X10 Y0 I-10 J0 TURN=900 "
+                    "F2000\nM30\n"
+                  : "G17 G90 G94 G71 G64\nS3000 M3\nG0 X10 Y-12\nG1 X10 Y0 F4000\nG3 X10 Y0 "
+                    "I-10 J0 TURN=9\nM30\n");
     sim_ = sim::SimulatedMachine::make(
                {.machine = real, .path = path, .operator_actions = {}, .cutting = {}})
                .value();
@@ -44,8 +52,10 @@ class Scene {
     link->watchdog_s = wiring == Wiring::relay ? kWatchdog_s : 0.0;
     link_ = link.get();
     chain_ = std::make_unique<LineChain>(machine_, path, std::move(link));
-    chain_->requests.feed = feed_;
-    chain_->requests.spindle = spindle_;
+    if (asks == Asks::both) {
+      chain_->requests.feed = feed_;
+      chain_->requests.spindle = spindle_;
+    }
   }
 
   const Frame& step() {
@@ -69,6 +79,8 @@ class Scene {
       chain_->kill();
     }
   }
+  void silence_recorder() { chain_->silence_recorder(); }
+  [[nodiscard]] const std::string& last_fault() const { return chain_->last_fault(); }
   void mend(Cut what) {
     link_->cut = false;
     link_->dead = false;
@@ -156,6 +168,31 @@ TEST_P(Cuts, TheRelayFallsInTheWatchdogsTime) {
     scene.run(0.3);
     ASSERT_FALSE(scene.masked());
     scene.mend(GetParam());
+  }
+}
+
+/// No word of the layer outlives its positions, and handing back is no jump with any wiring.
+TEST(RecorderFails, TheFeedGoesBackByTheRampAndThenTheFaultIsTold) {
+  for (const Wiring wiring : {Wiring::relay, Wiring::plc}) {
+    Scene scene(wiring, Scene::Asks::contour);
+    scene.run(4.0);
+    double before = scene.frame().feed.effective_ratio;
+    ASSERT_LT(before, 0.8);
+    scene.silence_recorder();
+    const double most_step = 0.1 + 1e-9;  // of the switch
+    // Without the recorder's clock the ramp runs by the computer's.
+    const double from_s = kernel::link::monotonic_s();
+    while (before < 1.0 && kernel::link::monotonic_s() < from_s + 60.0) {
+      kernel::link::Event().wait(0.001);
+      const double now = scene.step().feed.effective_ratio;
+      ASSERT_LE(now, before + most_step);
+      before = now;
+    }
+    EXPECT_EQ(before, 1.0);
+    EXPECT_GT(kernel::link::monotonic_s(), from_s + 0.1) << "it took several positions";
+    scene.run(0.3);
+    EXPECT_FALSE(scene.masked());
+    EXPECT_NE(scene.last_fault().find("the recorder sends nothing"), std::string::npos);
   }
 }
 

@@ -100,6 +100,7 @@ struct LineChain::Side {
   std::unique_ptr<Link> link;
   Terminals terminals;
   RecorderSample sample;
+  bool recorder_silent = false;
 
   class LinkWires final : public adapters::lines::Wires {
    public:
@@ -119,7 +120,12 @@ struct LineChain::Side {
   class Encoders final : public EncoderSource {
    public:
     explicit Encoders(Side& side) : side_(side) {}
-    Result<EncoderReading> next() override { return track_.take(side_.sample); }
+    Result<EncoderReading> next() override {
+      if (side_.recorder_silent) {
+        return kernel::outcome::unavailable("the recorder sends nothing", "see its cable");
+      }
+      return track_.take(side_.sample);
+    }
 
    private:
     Side& side_;
@@ -156,6 +162,11 @@ void LineChain::begin() {
                                  .estimated = true});
   followed_->offer(route_);
   layer_.emplace(supervisor::Supervisor::make(machine_, followed_->capability()).value());
+}
+
+void LineChain::silence_recorder() {
+  settle();
+  side_->recorder_silent = true;
 }
 
 void LineChain::settle() {

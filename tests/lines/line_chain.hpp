@@ -82,6 +82,8 @@ class LineChain {
   void settle();
   /// The layer's process does not run from here on; the wires stay as they are.
   void kill() { killed_ = true; }
+  /// From now on the recorder sends nothing.
+  void silence_recorder();
   /// Another process begins.
   void restart();
   [[nodiscard]] std::uint64_t faults() const { return faults_; }

@@ -69,7 +69,8 @@ TEST(ControlText, TheMachinesNameStaysInItsComment) {
   auto of = by_plc();
   of.name = "mill\nG0 X100";
   of.file = "mill\r\nM30";
-  for (const auto& text : adapters::opcua::control_texts(of).value()) {
+  const auto texts = adapters::opcua::control_texts(of).value();
+  for (const auto& text : texts) {
     EXPECT_EQ(text.text.find("\nG0 X100"), std::string::npos) << text.name;
     EXPECT_EQ(text.text.find("\nM30"), std::string::npos) << text.name;
   }

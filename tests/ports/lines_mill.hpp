@@ -88,9 +88,9 @@ class LinesMill {
         outputs_[wires.mask] && word ? std::min(panel_, table_.ratio(*word)) : panel_;
     x_mm_ += kFeed_mm_s * ratio * kPeriod_s;
   }
-  [[nodiscard]] adapters::lines::RecorderSample sample() const {
+  [[nodiscard]] adapters::lines::RecorderSample sample() {
     adapters::lines::RecorderSample out{
-        .sequence = 0,
+        .sequence = ++sequence_,
         .ticks = static_cast<std::uint32_t>(std::llround(time_s_ * kClock_hz)),
         .clock_hz = kClock_hz,
         .counters = 3};
@@ -99,6 +99,7 @@ class LinesMill {
     return out;
   }
 
+  std::uint16_t sequence_ = 0;
   kernel::machine::Machine machine_;
   kernel::override::Table table_;
   kernel::override::Table spindle_table_;

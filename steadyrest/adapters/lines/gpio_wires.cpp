@@ -21,6 +21,12 @@ using kernel::outcome::unavailable;
 
 constexpr const char* kConsumer = "steadyrest";
 
+bool request_as_is(gpiod_line_bulk& lines) {
+  const gpiod_line_request_config config{
+      .consumer = kConsumer, .request_type = GPIOD_LINE_REQUEST_DIRECTION_AS_IS, .flags = 0};
+  return gpiod_line_request_bulk(&lines, &config, nullptr) == 0;
+}
+
 std::unexpected<kernel::outcome::Refusal> gpio_fault(const std::string& what) {
   return unavailable(fmt::format("{}: {}", what, std::strerror(errno)),
                      "see gpioinfo for the chip's lines and who uses them");
@@ -37,6 +43,7 @@ struct GpioWires::Taken {
   gpiod_line_bulk out{};
   bool has_in = false;
   bool has_out = false;
+  bool driven = false;  ///< the outputs are outputs
 
   Taken() = default;
   Taken(const Taken&) = delete;
@@ -57,7 +64,7 @@ struct GpioWires::Taken {
 GpioWires::GpioWires(std::unique_ptr<Taken> taken) : taken_(std::move(taken)) {}
 GpioWires::~GpioWires() = default;
 
-/// Outputs begin at 0: without a mask the layer's word counts for nothing.
+/// Outputs are left as they are until something is written.
 Result<std::unique_ptr<GpioWires>> GpioWires::open(const Lines& lines) {
   auto taken = std::make_unique<Taken>();
   taken->inputs = input_lines(lines);
@@ -81,10 +88,9 @@ Result<std::unique_ptr<GpioWires>> GpioWires::open(const Lines& lines) {
   }
   if (!taken->outputs.empty()) {
     const auto count = static_cast<unsigned>(taken->outputs.size());
-    const std::array<int, GPIOD_LINE_BULK_MAX_LINES> off{};
     taken->has_out =
         gpiod_chip_get_lines(taken->chip, taken->outputs.data(), count, &taken->out) == 0 &&
-        gpiod_line_request_bulk_output(&taken->out, kConsumer, off.data()) == 0;
+        request_as_is(taken->out);
     if (!taken->has_out) {
       return gpio_fault(fmt::format("outputs {} cannot be taken from {}",
                                     fmt::join(taken->outputs, ", "), lines.device));
@@ -115,9 +121,14 @@ Result<void> GpioWires::write(const Levels& outputs) {
   for (std::size_t i = 0; i < taken_->outputs.size(); ++i) {
     values.at(i) = outputs[taken_->outputs[i]] ? 1 : 0;
   }
-  if (taken_->has_out && gpiod_line_set_value_bulk(&taken_->out, values.data()) != 0) {
+  const auto put = [&] {
+    return taken_->driven ? gpiod_line_set_value_bulk(&taken_->out, values.data())
+                          : gpiod_line_set_direction_output_bulk(&taken_->out, values.data());
+  };
+  if (taken_->has_out && put() != 0) {
     return gpio_fault("the GPIO outputs cannot be written");
   }
+  taken_->driven = true;
   return {};
 }
 

@@ -28,6 +28,10 @@ Levels outputs_set(const Lines& lines) {
   return all;
 }
 
+bool is_in_force(const OverrideLine::Seen& seen) noexcept {
+  return seen.effective_ratio < seen.panel_ratio || seen.effective_ratio > seen.panel_ratio;
+}
+
 }  // namespace
 
 LinesDevice::LinesDevice(const Lines& lines, Parts parts)
@@ -131,9 +135,12 @@ Result<void> LinesDevice::read(LineSample& sample) {
   auto lines = read_lines(sample);
   if (parts_.encoders) {
     auto encoders = parts_.encoders->next();
-    if (lines && !encoders) {
+    // With the layer's word in force the lines are shown without positions, so that the loop hands
+    // back by its ramp; then the fault is told.
+    if (lines && !encoders && !is_in_force(sample.feed) && !is_in_force(sample.spindle)) {
       return std::unexpected(std::move(encoders.error()));
     }
+    sample.positions_known = encoders.has_value();
     if (encoders) {
       sample.encoders = *encoders;
     }
@@ -149,16 +156,11 @@ Result<void> LinesDevice::write(const LineOrder& order) {
   const auto settled = [this](const OverrideLine& line) {
     return stood_s_ >= line.table().scan_period_s() - kTimeTolerance;
   };
-  bool feed = true;
-  bool spindle = true;
   if (parts_.feed) {
-    feed = parts_.feed->put(order.feed, settled(*parts_.feed), outputs);
+    parts_.feed->put(order.feed, settled(*parts_.feed), outputs);
   }
   if (parts_.spindle) {
-    spindle = parts_.spindle->put(order.spindle, settled(*parts_.spindle), outputs);
-  }
-  if (lines_.feed.mask != kNoLine && lines_.feed.mask == lines_.spindle.mask) {
-    outputs[lines_.feed.mask] = feed && spindle;  // one relay for both words
+    parts_.spindle->put(order.spindle, settled(*parts_.spindle), outputs);
   }
   if (lines_.heartbeat != kNoLine) {
     outputs.flip(lines_.heartbeat);

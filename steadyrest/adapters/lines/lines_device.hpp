@@ -19,7 +19,8 @@ struct LineSample {
   OverrideLine::Seen feed;  ///< of what is wired
   OverrideLine::Seen spindle;
   EncoderReading encoders;
-  double read_s = 0.0;  ///< monotonic clock
+  bool positions_known = true;  ///< false: the encoders have failed, the layer's word is in force
+  double read_s = 0.0;          ///< monotonic clock
 };
 
 /// What the layer wants of both overrides.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -159,6 +160,24 @@ void LinesPort::show_axes(const EncoderReading& encoders, Frame& frame) noexcept
   before_s_ = frame.time_s;
 }
 
+void LinesPort::hide_axes(Frame& frame) const noexcept {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    frame.axis.at(i).actual_mm = std::numeric_limits<double>::quiet_NaN();
+    frame.axis.at(i).command_mm = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// By the recorder's clock; without its samples by this computer's, from the last one on.
+double LinesPort::time_of(const LineSample& sample) noexcept {
+  if (encoders_ == 0) {
+    return sample.read_s;
+  }
+  if (sample.positions_known) {
+    recorder_ahead_s_ = sample.encoders.time_s - sample.read_s;
+  }
+  return sample.read_s + recorder_ahead_s_;
+}
+
 void LinesPort::show_spindle(const EncoderReading& encoders, Frame& frame) noexcept {
   const double ratio = frame.spindle.effective_ratio;
   frame.spindle_programmed_rev_s = lines_.programmed_rev_s;
@@ -197,7 +216,7 @@ Result<Frame> LinesPort::read() noexcept {
     return std::unexpected(std::move(taken.error()));
   }
   const LineSample& sample = taken->sample;
-  if (sample.encoders.counters != encoders_) {
+  if (sample.positions_known && sample.encoders.counters != encoders_) {
     return unavailable(fmt::format("the recorder shows {} encoders; the machine file has {}",
                                    sample.encoders.counters, encoders_),
                        "the axes in the machine file's order, then the spindle if [recorder] has "
@@ -207,7 +226,7 @@ Result<Frame> LinesPort::read() noexcept {
   frame.cycle = ++cycle_;
   frame.age_s = taken->age_s;
   frame.axis_count = static_cast<std::uint8_t>(axes_.size());
-  frame.time_s = encoders_ > 0 ? sample.encoders.time_s : sample.read_s;
+  frame.time_s = time_of(sample);
   if (!lines_.feed.out.empty()) {
     frame.feed = state_of(sample.feed);
   }
@@ -215,7 +234,9 @@ Result<Frame> LinesPort::read() noexcept {
     frame.spindle = state_of(sample.spindle);
   }
   show_program(sample.inputs, frame);
-  if (encoders_ > 0) {
+  if (!sample.positions_known) {
+    hide_axes(frame);
+  } else if (encoders_ > 0) {
     show_axes(sample.encoders, frame);
   }
   show_spindle(sample.encoders, frame);

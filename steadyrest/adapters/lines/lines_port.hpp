@@ -35,6 +35,8 @@ class LinesPort final : public kernel::port::Port {
 
  private:
   LinesPort(const kernel::machine::Machine& machine, LinesDevice::Parts parts);
+  void hide_axes(kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] double time_of(const LineSample& sample) noexcept;
   void show_axes(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
   void show_spindle(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
   void show_program(const Levels& inputs, kernel::signal::Frame& frame) const noexcept;
@@ -43,6 +45,7 @@ class LinesPort final : public kernel::port::Port {
   kernel::machine::Lines lines_;
   std::vector<kernel::machine::Axis> axes_;
   std::vector<std::int64_t> start_count_;  ///< of each axis
+  double recorder_ahead_s_ = 0.0;          ///< its clock, of this computer's
   std::size_t encoders_;                   ///< that the recorder must have; 0: no recorder
   std::optional<SpindleWatch> spindle_watch_;
   std::uint64_t cycle_ = 0;

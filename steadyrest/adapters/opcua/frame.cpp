@@ -132,7 +132,11 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
                           ? reading[Quantity::motion_g]
                           : code_of_number(reading[Quantity::motion_number]);
   const bool at_rest = frame.program == ProgramState::stopped;
-  frame.motion = at_rest ? Motion::idle : mapped.motion ? motion_of_code(code) : Motion::feed;
+  // A motion that is not known may be a thread: the overrides are held.
+  frame.motion = at_rest                ? Motion::idle
+                 : !mapped.motion       ? Motion::feed
+                 : !std::isfinite(code) ? Motion::thread
+                                        : motion_of_code(code);
   const double line = reading[Quantity::program_line];
   frame.program_line = line > 0.0 && line < 4e9 ? static_cast<std::uint32_t>(line) : 0;
   frame.path_speed_mm_s = kPerMinute * reading[Quantity::path_speed_mm_min];

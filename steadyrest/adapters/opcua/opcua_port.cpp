@@ -72,7 +72,7 @@ double OpcUaPort::time_of(const Reading& reading) noexcept {
   if (!std::isfinite(shown_s)) {
     return shown_s;
   }
-  if (cycle_ > 0 && shown_s + shift_s_ <= last_s_) {
+  if (cycle_ > 0 && shown_s + shift_s_ < last_s_) {
     // It was started again, or its number has overflowed.
     shift_s_ = last_s_ + machine_.opcua.cycle_s - shown_s;
   }

@@ -158,6 +158,13 @@ void lines(const Machine& machine, List& out) {
                    "edges",
                    "set cycle_ms to twice the longest scan, or more"});
   }
+  if (of.watchdog_s > 0.0 && of.watchdog_s < 2.0 * of.cycle_s + of.reply_s) {
+    out.push_back(
+        {Severity::warning, "lines",
+         "watchdog_ms is shorter than two cycles and an answer: one slow answer would drop "
+         "the outputs",
+         "set it to five cycles or more, and reply_ms to what the module needs"});
+  }
   if (machine.contour.enabled && !machine.recorder.fitted) {
     out.push_back({Severity::error, "lines",
                    "[contour] is enabled, but without [recorder] the lines show no positions",

@@ -223,6 +223,22 @@ class MappingReader {
     return std::ranges::any_of(places, [=](const auto& one) { return one.quantity == quantity; });
   }
 
+  /// An array is written whole.
+  void gaps() {
+    for (auto place = out_.writes.begin(); place != out_.writes.end(); ++place) {
+      const auto mapped =
+          static_cast<std::size_t>(std::ranges::count(out_.writes, place->node, &OpcUaPlace::node));
+      const bool first = std::ranges::find(out_.writes, place->node, &OpcUaPlace::node) == place;
+      if (first && place->length > mapped) {
+        faults_.add(0,
+                    fmt::format("{} of the {} values of {} are mapped: the others would be written "
+                                "as 0",
+                                mapped, place->length, cut(place->node)),
+                    "give each value of a written array its [[write]], or write single values");
+      }
+    }
+  }
+
   void complete() {
     for (const Quantity needed :
          {Quantity::command_mm, Quantity::actual_mm, Quantity::feed_panel_percent}) {
@@ -238,6 +254,7 @@ class MappingReader {
       faults_.add(0, "the mapping writes, but has no heartbeat",
                   "add a [[write]] for it: the control's dead man needs it");
     }
+    gaps();
     if (has(out_.reads, Quantity::program_state) && out_.states[2].empty()) {
       faults_.add(0, "the mapping reads program_state, but does not say what running is",
                   "add [program_state] with stopped, paused and running");

@@ -173,10 +173,6 @@ void check_all_lines(const Lines& lines, const Given& given, Faults& faults) {
     outputs.insert(outputs.end(), wires->out.begin(), wires->out.end());
   }
   check_twice(inputs, "input", given, faults);
-  // One relay may switch both words.
-  if (lines.feed.mask != kNoLine && lines.feed.mask == lines.spindle.mask) {
-    outputs[1] = kNoLine;
-  }
   check_twice(outputs, "output", given, faults);
   check_reach(lines, inputs, outputs, given, faults);
   if (lines.wiring == Wiring::plc && lines.heartbeat == kNoLine) {

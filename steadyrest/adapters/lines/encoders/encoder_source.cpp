@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLongestGap_s = 2.0;  ///< between two samples that belong together
 constexpr std::uint32_t kMostTicks = 0xFFFFFFFFU;
+constexpr std::uint32_t kHalfRange = 0x80000000U;
 
 double seconds(std::uint32_t ticks, std::uint32_t clock_hz) noexcept {
   return static_cast<double>(ticks) / static_cast<double>(clock_hz);
@@ -34,7 +35,8 @@ Result<void> RecorderTrack::check(const RecorderSample& sample) const {
     return unavailable("another recorder answers: the number of encoders or the clock differs",
                        kReference);
   }
-  if (seconds(sample.ticks - last_.ticks, sample.clock_hz) > kLongestGap_s) {
+  const auto messages = static_cast<std::int16_t>(sample.sequence - last_.sequence);
+  if (messages < 0 || seconds(sample.ticks - last_.ticks, sample.clock_hz) > kLongestGap_s) {
     return unavailable(
         "the recorder began again or was silent for more than 2 s: its counts are no positions",
         kReference);
@@ -73,8 +75,11 @@ Result<EncoderReading> RecorderTrack::take(const RecorderSample& sample) {
     // An edge of long ago would wrap: only a new one has a time.
     const bool moved = !started_ || counter.edge_ticks != before.edge_ticks ||
                        counter.direction != before.direction;
+    // An edge while the message was made is later than its ticks.
+    const std::uint32_t after = sample.ticks - counter.edge_ticks;
+    const std::uint32_t age = after < kHalfRange ? after : 0;
     if (counter.direction != 0 && moved) {
-      now_.edge_s.at(i) = now_.time_s - seconds(sample.ticks - counter.edge_ticks, sample.clock_hz);
+      now_.edge_s.at(i) = now_.time_s - seconds(age, sample.clock_hz);
     }
     now_.direction.at(i) = counter.direction;
   }

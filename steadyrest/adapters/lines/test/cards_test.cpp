@@ -93,6 +93,21 @@ TEST(GpioCards, ALineThatAnotherProgramHasIsRefused) {
   EXPECT_EQ(fake_cards().released, 4U) << "the inputs are given back";
 }
 
+TEST(GpioCards, OutputsAreLeftAsTheyAreUntilSomethingIsWritten) {
+  fake_cards() = {};
+  fake_cards().chip = "here";
+  fake_cards().level[11] = 1;
+  const auto wires = open_wires(lines_of(LinesKind::gpio)).value();
+  Levels inputs;
+  Levels outputs;
+  ASSERT_TRUE(wires->read(inputs, outputs));
+  EXPECT_TRUE(outputs[11]);
+  EXPECT_EQ(fake_cards().direction[11], 3);
+  ASSERT_TRUE(wires->write(Levels()));
+  EXPECT_EQ(fake_cards().direction[11], 2);
+  EXPECT_EQ(fake_cards().level[11], 0);
+}
+
 TEST(ComediCards, LinesAreTurnedToTheirDirection) {
   fake_cards() = {};
   fake_cards().card = "here";

@@ -123,7 +123,7 @@ TEST(LinesDevice, ThroughPassesThePanelOnWhileTheLayerIsOff) {
 
 // A module's watchdog counts writes: a panel that nobody turns must reach it all the same.
 TEST(LinesDevice, ThroughWritesAtEachReadingThoughNothingTurns) {
-  Scene scene(Wiring::through);
+  DeviceScene scene(Wiring::through);
   scene.reads(5);
   EXPECT_EQ(scene.held.written.size(), 5U);
 }

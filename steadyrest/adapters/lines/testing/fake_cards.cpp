@@ -75,9 +75,13 @@ int gpiod_chip_get_lines(gpiod_chip* /*chip*/, unsigned* offsets, unsigned count
 int gpiod_line_request_bulk_input(gpiod_line_bulk* bulk, const char* /*consumer*/) {
   return take(bulk, 1, nullptr);
 }
-int gpiod_line_request_bulk_output(gpiod_line_bulk* bulk, const char* /*consumer*/,
-                                   const int* levels) {
-  return take(bulk, 2, levels);
+int gpiod_line_request_bulk(gpiod_line_bulk* bulk, const gpiod_line_request_config* config,
+                            const int* levels) {
+  return take(bulk, config->request_type == GPIOD_LINE_REQUEST_DIRECTION_AS_IS ? 3 : 2, levels);
+}
+int gpiod_line_set_direction_output_bulk(gpiod_line_bulk* bulk, const int* values) {
+  errno = EIO;
+  return fake_cards().fails ? -1 : take(bulk, 2, values);
 }
 void gpiod_line_release_bulk(gpiod_line_bulk* bulk) {
   fake_cards().released += bulk->num_lines;

@@ -9,10 +9,11 @@
 namespace steadyrest::adapters::lines::testing {
 
 struct FakeCards {
-  std::string chip;                   ///< name of the chip that exists
-  unsigned lines = 32;                ///< of the chip, and of each subdevice
-  std::map<unsigned, int> level;      ///< of a GPIO line
-  std::map<unsigned, int> direction;  ///< −1: another program has it; 1 input, 2 output
+  std::string chip;               ///< name of the chip that exists
+  unsigned lines = 32;            ///< of the chip, and of each subdevice
+  std::map<unsigned, int> level;  ///< of a GPIO line
+  std::map<unsigned, int>
+      direction;  ///< −1: another program has it; 1 input, 2 output, 3 as it was
   unsigned released = 0;
   bool fails = false;  ///< whatever is asked for
 

@@ -100,7 +100,7 @@ std::vector<Finding> lines_findings(const Machine& machine) {
 
 std::expected<LivePort, Refusals> open_lines(const Machine& machine,
                                              const ProgramOptions& program) {
-  const bool encoders = machine.recorder.kind != kernel::machine::RecorderKind::none;
+  const bool encoders = machine.recorder.fitted;
   if (!program.file.empty() && !encoders) {
     return refused(bad_input(machine.file, "a program is of no use without positions",
                              "add [recorder], or leave --program out"));

@@ -85,7 +85,16 @@ node = "i=77"
 quantity = "heartbeat"
 node = "s=/W"
 index = 2
-length = 5
+length = 3
+[[write]]
+quantity = "masks_feed"
+node = "s=/W"
+length = 3
+[[write]]
+quantity = "masks_spindle"
+node = "s=/W"
+index = 1
+length = 3
 [program_state]
 running = [1, 2]
 stopped = [0]
@@ -167,7 +176,7 @@ TEST_F(OpcUaSection, PlaceholdersAreFilledInForEachAxisThatIsThere) {
   EXPECT_EQ(reads[2].offset, 1.0);
   EXPECT_EQ(reads[4].node, "s=/axis[2]");
   EXPECT_EQ(reads[5].index, 16U);
-  EXPECT_EQ(machine.opcua.writes.front().length, 5U);
+  EXPECT_EQ(machine.opcua.writes.front().length, 3U);
   EXPECT_EQ(machine.opcua.states[2], (std::vector<double>{1, 2}));
 }
 
@@ -201,9 +210,12 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
   EXPECT_THAT(mapping("step = 2", "step = 100"), HasSubstr("index 103 is beyond the 17 values"));
   EXPECT_THAT(mapping("scale = 0.001", "scale = 0"), HasSubstr("scale = 0"));
   EXPECT_THAT(mapping("\"sample_end\"", "\"feed_panel_percent\""), HasSubstr("mapped twice"));
+  EXPECT_THAT(mapping("quantity = \"masks_spindle\"\nnode = \"s=/W\"",
+                      "quantity = \"masks_spindle\"\nnode = \"s=/V\""),
+              HasSubstr("2 of the 3 values of s=/W are mapped"));
   EXPECT_THAT(mapping("[program_state]",
                       "[[write]]\nquantity = \"feed_percent\"\nnode = \"s=/W\"\nindex = 2\n"
-                      "length = 5\n[program_state]"),
+                      "length = 3\n[program_state]"),
               HasSubstr("feed_percent has the place of heartbeat: s=/W entry 2"));
   EXPECT_THAT(mapping("\"actual_mm\"", "\"offset_mm\""), HasSubstr("the mapping has no actual_mm"));
   EXPECT_THAT(mapping("quantity = \"heartbeat\"", "quantity = \"feed_percent\""),

@@ -158,10 +158,14 @@ TEST(PortSections, OutputsAreReadBackWhereTheyAreWritten) {
   EXPECT_EQ(parse(text, "lines.toml").value().lines.output_copy, 4U);
 }
 
-TEST(PortSections, OneRelayMaySwitchBothWords) {
+// The feed would jump when the spindle's word comes in or goes.
+TEST(PortSections, EachOverrideHasItsOwnMask) {
   std::string text = kMachine + kLines;
   text.replace(text.find("mask = 18"), 9, "mask = 17");
-  EXPECT_TRUE(parse(text, "lines.toml"));
+  const auto shared = parse(text, "lines.toml");
+  ASSERT_FALSE(shared);
+  EXPECT_NE(kernel::outcome::text(shared.error()).find("output 17 has two purposes"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -151,11 +151,33 @@ TEST(RecorderTrack, AnOldEdgeKeepsItsTime) {
   RecorderTrack track;
   auto sample = sample_of(0, 1000, 0);
   ASSERT_TRUE(track.take(sample));
+  ++sample.sequence;
   const double edge_s = track.take(sample).value().edge_s[0];
   for (int i = 0; i < 4000; ++i) {  // the clock goes round almost twice
+    ++sample.sequence;
     sample.ticks += 1'900'000;
     ASSERT_DOUBLE_EQ(track.take(sample).value().edge_s[0], edge_s);
   }
+}
+
+TEST(RecorderTrack, AnEdgeWhileTheMessageWasMadeIsNow) {
+  RecorderTrack track;
+  auto sample = sample_of(0, 1000, 0);
+  ASSERT_TRUE(track.take(sample));
+  ++sample.sequence;
+  sample.ticks += 1000;
+  sample.counter[0].edge_ticks = sample.ticks + 3;
+  sample.counter[0].direction = 1;
+  const auto now = track.take(sample).value();
+  EXPECT_EQ(now.edge_s[0], now.time_s);
+}
+
+TEST(RecorderTrack, ARestartIsSeenThoughItsClockFits) {
+  RecorderTrack track;
+  ASSERT_TRUE(track.take(sample_of(900, 900'000, 5000)));
+  const auto again = track.take(sample_of(3, 903'000, 0));
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().what.find("began again"), std::string::npos);
 }
 
 // At 4 GHz the ticks go round each second, and no silence would ever look long.
