@@ -11,6 +11,7 @@
 #include <tests/opcua/scene.hpp>
 
 #include <steadyrest/adapters/opcua/node_check.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/link/event.hpp>
 
 namespace steadyrest::opcua {
@@ -113,6 +114,15 @@ TEST_F(Access, AnotherCertificateThanTheTrustedOneIsNamedAsSuch) {
   std::ofstream(folder / "controls.json")
       << "{\"" << of.opcua.endpoint << "\": \"" << std::string(64, 'a') << "\"}\n";
   EXPECT_THAT(why_not(of), Says("shows another certificate than the trusted one"));
+}
+
+TEST_F(Access, ACertificateIsTrustedForItsEndpointAlone) {
+  const Machine of = trusting();
+  const std::filesystem::path seen = std::filesystem::path(of.opcua.certificates) / "controls.json";
+  std::string text = kernel::file::testing::text_of_file(seen.string());
+  text.replace(text.find(of.opcua.endpoint), of.opcua.endpoint.size(), "opc.tcp://elsewhere:4840");
+  std::ofstream(seen) << text;
+  EXPECT_THAT(why_not(of), Says("is not trusted"));
 }
 
 TEST_F(Access, AWrongUserOrPasswordIsNamed) {

@@ -171,7 +171,7 @@ TEST_F(Mill, CountersAreEncodersThatAProgramCanFollow) {
       run_line("run --for-s 0.1 --machine " + scratch_.file("counters.toml", text) + " --program " +
                program + " --socket " + scratch_.at("s"));
   EXPECT_NE(start.code, 0);
-  EXPECT_THAT(start.err, HasSubstr("counter999/count0/count cannot be opened"));
+  EXPECT_THAT(start.err, HasSubstr("counter999/count0 cannot be opened"));
 }
 
 TEST_F(Mill, AModuleThatIsNotThereIsRefusedByName) {

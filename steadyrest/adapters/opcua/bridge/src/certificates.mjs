@@ -12,6 +12,7 @@ import { OPCUACertificateManager } from "node-opcua-certificate-manager";
 import { Fault } from "./words.mjs";
 
 const kYears = 10;
+const kMostRefused = 32;
 export const kApplicationUri = () => `urn:${os.hostname()}:steadyrest`;
 
 export const fingerprintOf = (der) => createHash("sha256").update(der).digest("hex");
@@ -79,13 +80,23 @@ export class Certificates {
     }
   }
 
-  /** Throws unless this very certificate is trusted and valid today. */
+  /** The newest ones: a host that shows another certificate each time must not fill the disk. */
+  #keepRefused(shown, der) {
+    const folder = path.join(this.folder, "refused");
+    replaceFile(path.join(folder, `${shown.fingerprint}.der`), der);
+    const age = (name) => fs.statSync(path.join(folder, name)).mtimeMs;
+    const all = fs.readdirSync(folder).filter((name) => name.endsWith(".der"));
+    all.sort((a, b) => age(b) - age(a));
+    for (const name of all.slice(kMostRefused)) fs.rmSync(path.join(folder, name), { force: true });
+  }
+
+  /** Throws unless this very certificate is trusted for this endpoint and valid today. */
   demand(endpoint, der, now = new Date()) {
     const shown = describe(der);
     const trusted = path.join(this.folder, "controls", `${shown.fingerprint}.der`);
-    if (!fs.existsSync(trusted)) {
-      replaceFile(path.join(this.folder, "refused", `${shown.fingerprint}.der`), der);
-      const before = this.#seen()[endpoint];
+    const before = this.#seen()[endpoint];
+    if (before !== shown.fingerprint || !fs.existsSync(trusted)) {
+      this.#keepRefused(shown, der);
       if (typeof before === "string" && before !== shown.fingerprint) {
         throw new Fault("certificate_changed",
           `${shown.subject}, SHA-256 ${shown.fingerprint}; trusted was ${before}`);
@@ -105,8 +116,13 @@ export class Certificates {
     }
     replaceFile(path.join(this.folder, "controls", `${shown}.der`), der);
     fs.rmSync(path.join(this.folder, "refused", `${shown}.der`), { force: true });
-    replaceFile(path.join(this.folder, "controls.json"),
-      JSON.stringify({ ...this.#seen(), [endpoint]: shown }, null, 2) + "\n");
+    const before = this.#seen()[endpoint];
+    const seen = { ...this.#seen(), [endpoint]: shown };
+    replaceFile(path.join(this.folder, "controls.json"), JSON.stringify(seen, null, 2) + "\n");
+    // The former one is trusted no longer.
+    if (/^[0-9a-f]{64}$/.test(before ?? "") && !Object.values(seen).includes(before)) {
+      fs.rmSync(path.join(this.folder, "controls", `${before}.der`), { force: true });
+    }
   }
 }
 
