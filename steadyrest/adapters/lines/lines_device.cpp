@@ -152,6 +152,10 @@ Result<void> LinesDevice::write(const LineOrder& order) {
   acting_ = true;
   silent_ = 0;
   stood_s_ += lines_.cycle_s;
+  if (differing_ > 0) {
+    // A write now would put word and mask back in one step; the next reading tells.
+    return {};
+  }
   Levels outputs = on_wires_;
   const auto settled = [this](const OverrideLine& line) {
     return stood_s_ >= line.table().scan_period_s() - kTimeTolerance;

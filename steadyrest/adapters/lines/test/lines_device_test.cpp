@@ -173,6 +173,20 @@ TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
   EXPECT_TRUE(scene.read()) << "and the layer begins again with what there is";
 }
 
+TEST(LinesDevice, OutputsThatDropAreNotPutBackInOneStep) {
+  DeviceScene scene(Wiring::relay);
+  scene.acts(5);
+  ASSERT_TRUE(scene.masks());
+  scene.held.outputs = {};  // a watchdog, while the layer goes on
+  ASSERT_TRUE(scene.read());
+  ASSERT_TRUE(scene.device->write(kHalf));
+  EXPECT_TRUE(scene.held.outputs.none());
+  EXPECT_FALSE(scene.read());
+  ASSERT_TRUE(scene.read());
+  ASSERT_TRUE(scene.device->write(kHalf));
+  EXPECT_FALSE(scene.masks()) << "the panel's word settles first";
+}
+
 TEST(LinesDevice, AStuckOutputIsFoundAgainAndAgain) {
   DeviceScene scene(Wiring::plc);
   scene.held.stuck_on = Levels(4);
