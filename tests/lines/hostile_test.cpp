@@ -101,7 +101,9 @@ TEST(HostileLines, AMillionReadingsBringNoWordOutsideOfTheTable) {
       }
     }
     EXPECT_EQ(seen->wrong(), 0);
-    EXPECT_GT(seen->writes(), 300000);
+    // Three readings of four have an order, and at least two of three of those before it show the
+    // outputs as they were written, so that it goes out; 3 % of all calls fail.
+    EXPECT_GT(seen->writes(), 0.97 * 500000 * 3 / 4 * 2 / 3);
   }
 }
 

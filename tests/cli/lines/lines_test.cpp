@@ -93,6 +93,17 @@ TEST_F(Mill, AWalkWithEveryMaskOffFindsAllWordsRight) {
   EXPECT_EQ(after.outputs >> 11U & 1U, 0U);
 }
 
+TEST_F(Mill, NobodyWalksTheWordUnderALayerThatActs) {
+  module_->tell("stick 5 1");
+  const Finished test = run_line("lines test --machine " + machine_);
+  EXPECT_EQ(test.code, 1);
+  EXPECT_THAT(test.err, HasSubstr("output 5, a mask, is on: a layer acts on this module"));
+  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U);
+  module_->tell("stick 0 1");  // the word of 0 %
+  EXPECT_THAT(run_line("doctor --machine " + machine_).out,
+              HasSubstr("the outputs show another word than the panel"));
+}
+
 TEST_F(Mill, AStuckOutputIsNamed) {
   module_->tell("stick 3 1");
   const json answer = tested("", 1);

@@ -59,6 +59,15 @@ std::vector<Finding> findings_of(const Machine& machine, const Result<Frame>& fi
   std::vector<Finding> out;
   check_panel("feed", machine.lines.feed, first->feed, out);
   check_panel("spindle", machine.lines.spindle, first->spindle, out);
+  const auto layer = [](const auto& of) { return of.effective_ratio != of.panel_ratio; };
+  if ((first->feed.panel_code_known && layer(first->feed)) ||
+      (first->spindle.panel_code_known && layer(first->spindle))) {
+    out.push_back({Severity::warning, "lines",
+                   "the outputs show another word than the panel: a layer acts on this module, or "
+                   "one has died and its module has no watchdog",
+                   "two layers on one module disturb each other: stop the other one; if none runs, "
+                   "switch the module off and on, and see its watchdog"});
+  }
   return out;
 }
 
