@@ -41,6 +41,10 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   EXPECT_EQ(early.code, 2);
   EXPECT_THAT(early.err, HasSubstr("certificate is not trusted"));
 
+  const Finished nowhere = run_line("run --for-s 0.1 --program /nonexist.mpf" + of + socket);
+  EXPECT_EQ(nowhere.code, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("/nonexist.mpf: there is no such program file"));
+
   const json shown = json::parse(run_line("opcua trust --json" + of).out);
   EXPECT_FALSE(shown["trusted"]);
   const std::string fingerprint = shown["fingerprint"];

@@ -114,6 +114,9 @@ std::expected<LivePort, Refusals> open_lines(const Machine& machine,
     return refused(bad_input(machine.file, "a program is of no use without positions",
                              "add [recorder], or leave --program out"));
   }
+  if (auto there = check_program_file(program.file); !there) {
+    return std::unexpected(std::move(there.error()));
+  }
   auto port = LinesPort::open(machine);
   if (!port) {
     return refused(port.error());

@@ -146,6 +146,11 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
 
 std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
                                              const ProgramOptions& program) {
+  ProgramOptions options = program;
+  options.file = program.file.empty() ? machine.opcua.program : program.file;
+  if (auto there = check_program_file(options.file); !there) {
+    return std::unexpected(std::move(there.error()));
+  }
   LivePort out;
   Refusals refusals;
   for (Finding& finding : opcua_findings(machine)) {
@@ -170,8 +175,6 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
   std::shared_ptr<OpcUaPort> port = std::move(*made);
   out.period_s = layer_cycle_s(machine);
   auto followed = std::make_unique<FollowedPort>(*port);
-  ProgramOptions options = program;
-  options.file = program.file.empty() ? machine.opcua.program : program.file;
   std::shared_ptr<ProgramWatch> watch;
   if (!options.file.empty()) {
     auto start = program_config(options, machine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,15 @@ Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
           {"segments", status.segments},
           {"place", place.place},
           {"words", words.empty() ? Json(nullptr) : Json(words)}};
+}
+
+std::expected<void, Refusals> check_program_file(const std::string& file) {
+  std::error_code error;
+  if (file.empty() || std::filesystem::is_regular_file(file, error)) {
+    return {};
+  }
+  return refused(bad_input(file, "there is no such program file on this computer",
+                           "name the NC program that the control runs, or leave it out"));
 }
 
 }  // namespace steadyrest::apps::cli::live
