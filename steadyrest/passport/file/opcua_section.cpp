@@ -56,6 +56,8 @@ struct Range {
   std::size_t count;
 };
 
+constexpr std::size_t kLastR = 32535;  ///< MM_NUM_R_PARAM at most
+
 void check_blocks(const OpcUa& config, std::size_t axes, const Given& given, Faults& faults) {
   std::array<Range, 3> ranges = {
       {{"sample_r", config.first_sample, kernel::machine::sample_count(axes)},
@@ -70,6 +72,13 @@ void check_blocks(const OpcUa& config, std::size_t axes, const Given& given, Fau
                              ranges[i + 1].key, ranges[i + 1].first),
                  "leave room between them");
     }
+  }
+  const Range& last = ranges.back();
+  if (last.first + last.count - 1 > kLastR) {
+    faults.add(given.at({last.key}),
+               fmt::format("{} takes R{} to R{}; R{} is the last there can be", last.key,
+                           last.first, last.first + last.count - 1, kLastR),
+               "begin it earlier");
   }
 }
 

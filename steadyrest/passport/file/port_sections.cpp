@@ -238,6 +238,18 @@ void check_recorder(const Machine& machine, const Given& given, Faults& faults) 
                        : "give the lines of channels A and B for each axis, then the spindle");
   } else if (!counter) {
     check_twice(recorder.inputs, "line", given, faults);
+  } else {
+    std::vector<std::uint32_t> counts;
+    for (std::size_t i = 0; i + 1 < recorder.inputs.size(); i += 2) {
+      counts.push_back(1024 * recorder.inputs[i] + recorder.inputs[i + 1]);
+    }
+    std::ranges::sort(counts);
+    if (const auto twice = std::ranges::adjacent_find(counts); twice != counts.end()) {
+      faults.add(given.at({"inputs"}),
+                 fmt::format("counter {} count {} is given for two encoders", *twice / 1024,
+                             *twice % 1024),
+                 "give each encoder a count of its own");
+    }
   }
 }
 

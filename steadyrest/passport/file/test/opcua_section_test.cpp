@@ -160,6 +160,15 @@ TEST_F(OpcUaSection, EveryKeyIsReadAndPathsBeginAtTheMachineFile) {
   }
 }
 
+TEST_F(OpcUaSection, BlocksEndWithinTheControlsRParameters) {
+  std::string section = kOpcUaSection;
+  section.replace(section.find("work_r = 60"), 11, "work_r = 32530");
+  const auto refused = read(kOpcUaMachine + section, kMapping);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(kernel::outcome::text(refused.error().front()),
+              HasSubstr("work_r takes R32530 to R32545; R32535 is the last there can be"));
+}
+
 TEST_F(OpcUaSection, PlaceholdersAreFilledInForEachAxisThatIsThere) {
   const auto machine = read(kOpcUaMachine + kOpcUaSection, kMapping).value();
   const auto& reads = machine.opcua.reads;
