@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include <steadyrest/adapters/lines/line_walk.hpp>
-#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::lines {
 
@@ -23,11 +20,6 @@ Result<Walk> walk(Wires& wires, const Lines& lines, const OverrideWires& of,
   }
   for (const std::uint32_t mask : {lines.feed.mask, lines.spindle.mask}) {
     if (mask < kMostLines) {
-      if (outputs[mask]) {
-        return kernel::outcome::unavailable(
-            fmt::format("output {}, a mask, is on: a layer acts on this module", mask),
-            "stop it; if none runs, one has died: switch the module off and on");
-      }
       outputs.reset(mask);
     }
   }

@@ -20,8 +20,7 @@ struct Walk {
 };
 
 /// Writes every word of the table, a neighbour after the other, with all masks off, and reads it
-/// back after `settle`. At the end the word is the first one again. Refused: the link; a
-/// mask is on, so that a layer acts.
+/// back after `settle`. At the end the word is the first one again. Refused: the link.
 [[nodiscard]] kernel::outcome::Result<Walk> walk(Wires& wires, const kernel::machine::Lines& lines,
                                                  const kernel::machine::OverrideWires& of,
                                                  const kernel::machine::OverrideTable& table,

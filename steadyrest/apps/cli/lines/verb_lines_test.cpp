@@ -19,6 +19,7 @@
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 
 // Three tests, in the order in which a machine is wired: what is on which line (--list), the switch
 // (--panel), the outputs (the walk; with --jumpers all the way round). Every mask stays off.
@@ -124,9 +125,30 @@ void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// Walks both words. Refused: the link.
+/// A mask that is on belongs to a layer that acts: nobody may walk the word under it.
+std::expected<void, Refusals> check_masks(const Machine& machine, adapter::Wires& wires) {
+  adapter::Levels inputs;
+  adapter::Levels outputs;
+  if (auto read = wires.read(inputs, outputs); !read) {
+    return refused(read.error());
+  }
+  for (const std::uint32_t mask : {machine.lines.feed.mask, machine.lines.spindle.mask}) {
+    if (mask < adapter::kMostLines && outputs[mask]) {
+      return refused(kernel::outcome::unavailable(
+                         fmt::format("output {}, a mask, is on: a layer acts on this module", mask),
+                         "stop it; if none runs, one has died: switch the module off and on")
+                         .error());
+    }
+  }
+  return {};
+}
+
+/// Walks both words. Refused: the link, a layer that acts.
 std::expected<bool, Refusals> walk_all(const Machine& machine, const Options& options,
                                        adapter::Wires& wires, Progress& progress, Answer& answer) {
+  if (auto free = check_masks(machine, wires); !free) {
+    return std::unexpected(std::move(free.error()));
+  }
   bool ok = true;
   for (const Wired& of : wired(machine)) {
     const double settle_s =

@@ -124,7 +124,7 @@ TEST(GpioEncoders, CountAsTheEncodersTurn) {
 
 TEST(GpioEncoders, GiveTheLastEdgeItsTimeAndDirection) {
   Chip chip;
-  chip.levels = 0b0011;  // encoder 1 stands where both channels are high
+  chip.levels = 0b0011;  // both channels of encoder 1 are high
   chip.phases[0] = 2;
   const auto encoders = open_of("/dev/null").value();
   const auto still = encoders->next().value();
