@@ -60,6 +60,7 @@ const LoopFigures& Loop::run() noexcept {
     pass_note_on();
     grant_wish();
     if (!goes_on(pace_.now_s())) {
+      end();
       return figures_;
     }
     cycle();
@@ -115,11 +116,21 @@ void Loop::grant_wish() noexcept {
   wishes_.answer(outcome);
 }
 
+void Loop::end() noexcept {
+  figures_.ended_in_fault = now_.port_fault;
+  figures_.last_fault = now_.port_words.data();
+}
+
+bool Loop::stops(double now_s) const noexcept {
+  return stop_.load() || (config_.most_cycles > 0 && figures_.cycles >= config_.most_cycles) ||
+         (config_.most_s > 0.0 && now_s - began_s_ >= config_.most_s) ||
+         (config_.finished && config_.finished());
+}
+
 /// Sets the mode of the next cycle; false once there is none.
 bool Loop::goes_on(double now_s) noexcept {
-  const bool stops = stop_.load() ||
-                     (config_.most_cycles > 0 && figures_.cycles >= config_.most_cycles) ||
-                     (config_.finished && config_.finished());
+  began_s_ = began_s_ < 0.0 ? now_s : began_s_;
+  const bool stops = this->stops(now_s);
   if (stops && stopped_s_ < 0.0) {
     stopped_s_ = now_s;
   }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,7 +41,9 @@ struct LoopFigures {
   bool listens = false;              ///< to chatter
   std::uint64_t chatter_events = 0;  ///< how often it began
   double chatter_s = 0.0;
-  bool handed_back = true;  ///< nothing of the layer was left on the machine at the end
+  bool handed_back = true;      ///< nothing of the layer was left on the machine at the end
+  std::string last_fault;       ///< of the port, in words; empty: none
+  bool ended_in_fault = false;  ///< the last cycle could not read or write
   /// Cycles by the reason of the feed, spindle, offsets: one cycle may count in several.
   std::vector<std::uint64_t> by_reason;  ///< in the order of kernel::outcome::reasons()
 };
@@ -72,7 +75,8 @@ class Loop {
     double handback_s = 5.0;        ///< the longest way to neutral at the end
     kernel::machine::Mode mode = kernel::machine::Mode::observe;
     std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
-    bool port_paces = false;        ///< read() waits for the next frame
+    double most_s = 0.0;      ///< likewise, by the pace's clock: cycles of a dead link are long
+    bool port_paces = false;  ///< read() waits for the next frame
     // NOLINTBEGIN(readability-redundant-member-init)
     /// The machine has nothing more to do; empty: never.
     std::function<bool()> finished = {};
@@ -161,7 +165,9 @@ class Loop {
   void succeed() noexcept;
   void pass_note_on() noexcept;
   void grant_wish() noexcept;
+  [[nodiscard]] bool stops(double now_s) const noexcept;
   [[nodiscard]] bool goes_on(double now_s) noexcept;
+  void end() noexcept;
   void cycle() noexcept;
   void watch() noexcept;
   void count(const kernel::signal::Command& command) noexcept;
@@ -177,6 +183,7 @@ class Loop {
   std::atomic<Successor*> offered_{nullptr};
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> beats_{0};
+  double began_s_ = -1.0;                      ///< the first cycle; not yet
   double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   std::mutex noting_;

@@ -112,6 +112,8 @@ Json figures_json(const LoopFigures& figures) {
     out["chatter_s"] = figures.chatter_s;
   }
   out["port_faults"] = figures.port_faults;
+  out["last_fault"] = figures.last_fault.empty() ? Json() : Json(figures.last_fault);
+  out["ended_in_fault"] = figures.ended_in_fault;
   out["handed_back"] = figures.handed_back;
   out["reasons"] = Json::object();
   const auto all = kernel::outcome::reasons();

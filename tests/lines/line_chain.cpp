@@ -106,15 +106,18 @@ struct LineChain::Side {
    public:
     explicit LinkWires(Side& side) : side_(side) {}
     Result<void> read(Levels& inputs, Levels& outputs) override {
+      now_s_ = side_.terminals.now_s;
       return side_.link->read(inputs, outputs);
     }
     Result<void> write(const Levels& outputs) override { return side_.link->write(outputs); }
     [[nodiscard]] std::uint64_t connections() const noexcept override {
       return side_.link->connections();
     }
+    [[nodiscard]] double now_s() const noexcept override { return now_s_; }
 
    private:
     Side& side_;
+    double now_s_ = 0.0;
   };
 
   class Encoders final : public EncoderSource {

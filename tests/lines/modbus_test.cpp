@@ -271,6 +271,32 @@ TEST(Modbus, AnExpiredWatchdogIsClearedAtTheNextConnection) {
   EXPECT_EQ(wires->connections(), 2U);
 }
 
+// As some couplers do: every request is answered with exception 4 until the watchdog is cleared.
+TEST(Modbus, AModuleThatAnswersNothingAfterItsWatchdogIsReadAgain) {
+  const auto module = ModuleServer::start();
+  ASSERT_NE(module, nullptr);
+  module->tell("latch mute");
+  Lines lines = lines_of(module->address());
+  lines.watchdog_registers = {4384, 100};
+  lines.watchdog_reset = {4385, 0xBECF, 4385, 0xAFFE};
+  {
+    const auto before = ModbusWires::make(lines).value();
+    ASSERT_TRUE(before->write(Levels(4)));
+  }
+  ASSERT_EQ(module->exchange(1U << 4U, 0.2).outputs, 0U) << "its layer has died";
+  Levels inputs;
+  Levels outputs;
+  Lines without = lines;
+  without.watchdog_reset.clear();
+  const auto mute = ModbusWires::make(without).value()->read(inputs, outputs);
+  ASSERT_FALSE(mute);
+  EXPECT_NE(mute.error().what.find("Slave device or server failure"), std::string::npos)
+      << mute.error().what;
+  const auto read = ModbusWires::make(lines).value()->read(inputs, outputs);
+  ASSERT_TRUE(read) << kernel::outcome::text(read.error());
+  EXPECT_EQ(inputs, Levels(1U << 4U));
+}
+
 TEST(Modbus, AWatchdogThatDoesNotTakeItsSettingIsRefused) {
   const auto module = ModuleServer::start();
   ASSERT_NE(module, nullptr);
@@ -279,9 +305,10 @@ TEST(Modbus, AWatchdogThatDoesNotTakeItsSettingIsRefused) {
   const auto wires = ModbusWires::make(lines).value();
   Levels inputs;
   Levels outputs;
-  const auto read = wires->read(inputs, outputs);
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().what,
+  EXPECT_TRUE(wires->read(inputs, outputs)) << "who only reads starts no watchdog";
+  const auto written = wires->write(outputs);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().what,
             "the module " + module->address() + " keeps 0 in the watchdog's register 4386, not 5");
 }
 

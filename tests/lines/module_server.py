@@ -9,7 +9,7 @@ Prints `ready PORT` (serial: `ready 0`). Then one line in, one line out:
   → OUTPUTS N R  levels of the outputs likewise, how many times they were written, and inputs read
   watchdog S    the outputs drop when they were not written for S seconds of the machine's time
   latch         a watchdog that has expired keeps the outputs off until 0xBECF, then 0xAFFE is
-                written to register 4385
+                written to register 4385; `latch mute`: and readings are answered with exception 4
   stick LINE L  output LINE stays at level L whatever is written
   join A:B …    output A is joined to input B, by a jumper
   hang          answers no Modbus request any more
@@ -36,6 +36,7 @@ class Terminals:
         self.last = 0.0
         self.watchdog = 0.0
         self.latches = False
+        self.mute = False
         self.latched = False
         self.stuck = {}
         self.jumpers = []
@@ -81,6 +82,8 @@ class Block(ModbusSequentialDataBlock):
         return 0 <= address and (address + count) * self.width <= LINES
 
     def getValues(self, address, count=1):
+        if self.terminals.mute and self.terminals.latched:
+            raise RuntimeError("the watchdog has expired")  # pymodbus answers with exception 4
         self.terminals.reads += 0 if self.out else 1
         word = self.terminals.outputs if self.out else self.terminals.inputs
         return [word >> (self.width * (address + i)) & ((1 << self.width) - 1) for i in range(count)]
@@ -123,6 +126,7 @@ def answer(terminals, words):
         terminals.watchdog = float(words[1])
     elif words[0] == "latch":
         terminals.latches = True
+        terminals.mute = words[1:] == ["mute"]
     elif words[0] == "stick":
         terminals.stuck[int(words[1])] = int(words[2])
         terminals.hold()

@@ -55,6 +55,7 @@ class LinesMill {
       return {};
     }
     [[nodiscard]] std::uint64_t connections() const noexcept override { return 1; }
+    [[nodiscard]] double now_s() const noexcept override { return mill_->time_s_; }
 
    private:
     std::shared_ptr<LinesMill> mill_;

@@ -18,6 +18,8 @@ using kernel::outcome::unavailable;
 
 constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
+constexpr int kMostDisputes = 3;
+constexpr double kDispute_s = 60.0;
 constexpr double kTimeTolerance = 1e-9;
 
 Levels outputs_set(const Lines& lines) {
@@ -49,18 +51,22 @@ LinesDevice::~LinesDevice() {
   }
 }
 
+bool LinesDevice::settled(const OverrideLine& line) const noexcept {
+  return parts_.wires->now_s() - since_s_ >= line.table().scan_period_s() - kTimeTolerance;
+}
+
 void LinesDevice::release(Levels& outputs) noexcept {
-  if (parts_.feed) {
-    parts_.feed->release(outputs);
-  }
-  if (parts_.spindle) {
-    parts_.spindle->release(outputs);
+  for (auto* line : {&parts_.feed, &parts_.spindle}) {
+    if (*line) {
+      (*line)->release(settled(**line), outputs);
+    }
   }
 }
 
 Result<void> LinesDevice::send(const Levels& outputs) {
-  const bool changed = ((outputs ^ on_wires_) & words_).any();
-  stood_s_ = changed ? 0.0 : stood_s_;
+  if (((outputs ^ on_wires_) & words_).any()) {
+    since_s_ = parts_.wires->now_s();
+  }
   on_wires_ = outputs;
   auto written = parts_.wires->write(outputs);
   sent_ = written.has_value();
@@ -74,14 +80,31 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
     return {};
   }
   differing_ = 0;
+  return dispute(outputs, differ);
+}
+
+Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
+  const double now_s = parts_.wires->now_s();
+  disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
+  dispute_s_ = now_s;
   sent_ = false;
-  parts_.wires->disconnect();  // a watchdog that has expired is cleared at a connection
   const std::size_t line = differ._Find_first();
-  return unavailable(
-      fmt::format("output {} of the module is {}, but {} was written", line,
-                  outputs[line] ? "on" : "off", outputs[line] ? "off" : "on"),
-      "its watchdog has dropped the outputs, the line is stuck, or another client writes: "
-      "steadyrest lines test");
+  const std::string what = fmt::format("output {} of the module is {}, but {} was written", line,
+                                       outputs[line] ? "on" : "off", outputs[line] ? "off" : "on");
+  const char* const why =
+      "its watchdog has dropped the outputs, the line is stuck, or another "
+      "client writes: steadyrest lines test";
+  if (disputes_ < kMostDisputes) {
+    parts_.wires->disconnect();  // a watchdog that has expired is cleared at a connection
+    return unavailable(what, why);
+  }
+  let_go_ = unavailable(what + ", again and again: the layer has let go of the outputs",
+                        std::string(why) + "; then start the layer again")
+                .error();
+  silent_ = kSilentReadings;
+  on_wires_ = outputs;
+  static_cast<void>(pass_on());
+  return std::unexpected(*let_go_);
 }
 
 /// What must be written without an order: masks that nobody asks for, and the panel's word where
@@ -110,10 +133,10 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
     connection_ = parts_.wires->connections();
     sent_ = false;
   }
-  if (auto as_written = check_outputs(outputs); !as_written) {
+  if (auto as_written = let_go_ ? Result<void>() : check_outputs(outputs); !as_written) {
     return as_written;
   }
-  if (!sent_) {
+  if (!sent_ || let_go_) {
     on_wires_ = outputs;
     for (auto* line : {&parts_.feed, &parts_.spindle}) {
       if (*line) {
@@ -127,7 +150,8 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
   if (parts_.spindle) {
     sample.spindle = parts_.spindle->see(sample.inputs, outputs);
   }
-  return pass_on();
+  auto passed = pass_on();
+  return let_go_ ? std::unexpected(*let_go_) : passed;
 }
 
 /// The encoders are read while the lines fail, too: a gap would end their positions for good.
@@ -149,17 +173,16 @@ Result<void> LinesDevice::read(LineSample& sample) {
 }
 
 Result<void> LinesDevice::write(const LineOrder& order) {
+  if (let_go_) {
+    return std::unexpected(*let_go_);
+  }
   acting_ = true;
   silent_ = 0;
-  stood_s_ += lines_.cycle_s;
   if (differing_ > 0) {
     // A write now would put word and mask back in one step; the next reading tells.
     return {};
   }
   Levels outputs = on_wires_;
-  const auto settled = [this](const OverrideLine& line) {
-    return stood_s_ >= line.table().scan_period_s() - kTimeTolerance;
-  };
   if (parts_.feed) {
     parts_.feed->put(order.feed, settled(*parts_.feed), outputs);
   }

@@ -35,7 +35,8 @@ struct LineOrder {
 /// act any more: the masks are taken off. While it does not act nothing is written, but for the
 /// wiring `through`, which needs the panel's word passed on. Outputs that are not as they were
 /// written in two readings one after the other are a fault of the link: the module's watchdog has
-/// dropped them, a line is stuck, or another client writes.
+/// dropped them, a line is stuck, or another client writes. Three such faults, each within a minute
+/// of the one before, and the layer lets go for good: two that write would flip the word for ever.
 class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
  public:
   struct Parts {
@@ -55,9 +56,11 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
  private:
   kernel::outcome::Result<void> read_lines(LineSample& sample);
   kernel::outcome::Result<void> check_outputs(const Levels& outputs);
+  kernel::outcome::Result<void> dispute(const Levels& outputs, const Levels& differ);
   kernel::outcome::Result<void> pass_on();
   kernel::outcome::Result<void> send(const Levels& outputs);
   void release(Levels& outputs) noexcept;
+  [[nodiscard]] bool settled(const OverrideLine& line) const noexcept;
 
   kernel::machine::Lines lines_;
   Parts parts_;
@@ -67,9 +70,12 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   std::uint64_t connection_ = 0;
   bool sent_ = false;  ///< `on_wires_` is what was written on this connection
   bool acting_ = false;
-  int silent_ = 0;      ///< readings since the last order
-  int differing_ = 0;   ///< readings with other outputs
-  double stood_s_ = 0;  ///< the words have been on the wires, by the layer's cycles
+  int silent_ = 0;                                  ///< readings since the last order
+  int differing_ = 0;                               ///< readings with other outputs
+  double since_s_ = 0;                              ///< when the words on the wires were written
+  int disputes_ = 0;                                ///< lost links by other outputs
+  double dispute_s_ = 0;                            ///< the last one
+  std::optional<kernel::outcome::Refusal> let_go_;  ///< why the layer does not act any more
 };
 
 }  // namespace steadyrest::adapters::lines

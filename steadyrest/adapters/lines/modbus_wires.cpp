@@ -9,6 +9,7 @@
 #include <modbus.h>
 
 #include <steadyrest/adapters/lines/modbus_wires.hpp>
+#include <steadyrest/kernel/link/host_port.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::lines {
@@ -23,31 +24,6 @@ using kernel::outcome::unavailable;
 
 constexpr std::uint32_t kPerRegister = 16;
 constexpr const char* kPort = "502";
-
-struct HostAndPort {
-  std::string host;
-  std::string port;
-};
-
-/// `HOST`, `HOST:PORT`, `[V6]`, `[V6]:PORT`.
-HostAndPort split(const std::string& address) {
-  const bool bracketed = address.starts_with('[');
-  const std::size_t end = bracketed ? address.find(']') : address.find(':');
-  if (end == std::string::npos) {
-    return {.host = address, .port = kPort};
-  }
-  const std::size_t colon = bracketed ? end + 1 : end;
-  const std::string port = colon < address.size() && address[colon] == ':'
-                               ? address.substr(colon + 1)
-                               : std::string(bracketed ? kPort : "");
-  return {.host = bracketed ? address.substr(1, end - 1) : address.substr(0, end), .port = port};
-}
-
-bool is_port(const std::string& port) {
-  return !port.empty() && port.size() <= 5 &&
-         std::ranges::all_of(port, [](char c) { return c >= '0' && c <= '9'; }) &&
-         std::stoul(port) >= 1 && std::stoul(port) <= 65535;
-}
 
 char parity_letter(Parity parity) {
   return parity == Parity::even ? 'E' : parity == Parity::odd ? 'O' : 'N';
@@ -84,12 +60,12 @@ void ModbusWires::Free::operator()(_modbus* link) const noexcept {
 Result<std::unique_ptr<ModbusWires>> ModbusWires::make(const Lines& lines) {
   Link link;
   if (lines.kind == LinesKind::modbus_tcp) {
-    const HostAndPort at = split(lines.address);
-    if (at.host.empty() || !is_port(at.port)) {
+    const auto at = kernel::link::host_and_port(lines.address, kPort);
+    if (!at) {
       return refuse(fmt::format("[lines] address = \"{}\" is no HOST or HOST:PORT", lines.address),
                     "give the module's name or number, and its port (1 … 65535) if it is not 502");
     }
-    link.reset(modbus_new_tcp_pi(at.host.c_str(), at.port.c_str()));
+    link.reset(modbus_new_tcp_pi(at->host.c_str(), at->port.c_str()));
   } else {
     link.reset(modbus_new_rtu(lines.device.c_str(), static_cast<int>(lines.baud),
                               parity_letter(lines.parity), 8,
@@ -130,6 +106,7 @@ Result<void> ModbusWires::done(int got, const Request& request) {
   }
   const int fault = errno;
   disconnect();
+  expired_ = fault == EMBXSFAIL;
   const bool refused = fault == EMBXILADD || fault == EMBXILFUN || fault == EMBXILVAL;
   return unavailable(
       fmt::format("the module {} does not take {} {} … {}: {}", name(), request.what,
@@ -155,11 +132,21 @@ Result<void> ModbusWires::connect() {
         "see its power, its link and its address in [lines]");
   }
   connected_ = true;
+  guarded_ = false;
   ++connections_;
+  return {};
+}
+
+Result<void> ModbusWires::guard() {
+  if (guarded_) {
+    return {};
+  }
   if (auto cleared = clear_watchdog(); !cleared) {
     return cleared;
   }
-  return set_watchdog();
+  auto set = set_watchdog();
+  guarded_ = set.has_value();
+  return set;
 }
 
 /// A module that has nothing to clear may refuse it: only a broken link counts.
@@ -240,19 +227,35 @@ Result<void> ModbusWires::get(bool input, Levels& levels) {
   return {};
 }
 
-Result<void> ModbusWires::read(Levels& inputs, Levels& outputs) {
+Result<void> ModbusWires::get_all(Levels& inputs, Levels& outputs) {
   if (auto connected = connect(); !connected) {
     return connected;
   }
-  if (auto got = get(true, inputs); !got) {
+  auto got = get(true, inputs);
+  return got ? get(false, outputs) : got;
+}
+
+/// Some modules answer nothing more once their watchdog has expired.
+Result<void> ModbusWires::read(Levels& inputs, Levels& outputs) {
+  auto got = get_all(inputs, outputs);
+  if (got || !std::exchange(expired_, false) || lines_.watchdog_reset.empty()) {
     return got;
   }
-  return get(false, outputs);
+  if (auto connected = connect(); !connected) {
+    return connected;
+  }
+  if (auto cleared = clear_watchdog(); !cleared) {
+    return cleared;
+  }
+  return get_all(inputs, outputs);
 }
 
 Result<void> ModbusWires::write(const Levels& outputs) {
   if (auto connected = connect(); !connected) {
     return connected;
+  }
+  if (auto guarded = guard(); !guarded) {
+    return guarded;
   }
   if (lines_.registers) {
     const Range all = registers_of(outputs_);

@@ -17,8 +17,9 @@ namespace steadyrest::adapters::lines {
 ///
 /// As bits: functions 2 (inputs), 1 (outputs read back), 15 (outputs). As registers, 16 lines a
 /// piece: 4, 3 and 16. Outputs between the layer's lowest and highest are the layer's, with
-/// registers all outputs of those: they are written as they were at the connection. At each
-/// connection the registers of the module's watchdog are written and read back.
+/// registers all outputs of those: they are written as they were at the connection. The registers
+/// of the module's watchdog are written and read back before the first write of each connection, so
+/// that who only reads starts no watchdog.
 class ModbusWires final : public Wires {
  public:
   /// Refused: an address that cannot be one.
@@ -45,8 +46,10 @@ class ModbusWires final : public Wires {
 
   ModbusWires(const kernel::machine::Lines& lines, Link link);
   kernel::outcome::Result<void> connect();
+  kernel::outcome::Result<void> guard();
   kernel::outcome::Result<void> clear_watchdog();
   kernel::outcome::Result<void> set_watchdog();
+  kernel::outcome::Result<void> get_all(Levels& inputs, Levels& outputs);
   kernel::outcome::Result<void> get(bool input, Levels& levels);
   kernel::outcome::Result<void> done(int got, const Request& request);
   [[nodiscard]] std::string name() const;
@@ -56,6 +59,9 @@ class ModbusWires final : public Wires {
   Range outputs_;
   Link link_;
   bool connected_ = false;
+  bool guarded_ = false;  ///< by the module's watchdog, on this connection
+  bool expired_ =
+      false;  ///< the module has failed, as it says itself: so an expired watchdog shows
   std::uint64_t connections_ = 0;
 };
 

@@ -63,7 +63,8 @@ std::size_t OverrideLine::walk(std::size_t step, bool step_time) noexcept {
   return step;
 }
 
-bool OverrideLine::put_mask(bool on, Levels& outputs) const noexcept {
+bool OverrideLine::put_mask(bool on, Levels& outputs) noexcept {
+  mask_on_ = on;
   if (config_.wires.mask != kNoLine) {
     outputs[config_.wires.mask] = on;
   }
@@ -79,41 +80,47 @@ bool OverrideLine::put(const Word& word, bool step_time, Levels& outputs) noexce
   const auto panel = table_.step_of_code(seen_.panel_code);
   const bool masks = word.masks && layer;
   if (!masks && config_.wiring == Wiring::through) {
-    release(outputs);
+    release(step_time, outputs);
     return false;
   }
+  // Before the mask is on, it is the panel's word that settles, whatever the layer wants.
+  const bool settled = panel && step_ == panel && step_time;
+  const bool comes = config_.wiring != Wiring::through && !mask_on_;
+  const bool waits = comes && (config_.wiring == Wiring::relay || !settled);
   // Whatever is not masked follows the panel, so that a mask that comes changes nothing.
-  const auto wanted = masks ? layer : panel;
-  // Before the relay is in, it is the panel's word that settles, whatever the layer wants.
-  const bool comes_in = config_.wiring == Wiring::relay && !relay_in_;
-  const auto goal = comes_in ? panel : wanted;
-  const bool settled = goal && step_ == goal && step_time;
+  const auto goal = masks && !waits ? layer : panel;
   if (!goal) {
-    relay_in_ = put_mask(false, outputs);
+    put_mask(false, outputs);
     return false;
   }
   const std::size_t step = walk(*goal, step_time);
   put_code(table_.code(step), outputs);
   switch (config_.wiring) {
     case Wiring::relay:
-      relay_in_ = (relay_in_ || settled) && !operator_has_it(step);
-      return put_mask(relay_in_, outputs);
+      return put_mask((mask_on_ || settled) && !operator_has_it(step), outputs);
     case Wiring::plc:
-      return put_mask(masks, outputs);
+      return put_mask(masks && !waits, outputs);
     case Wiring::through:
       break;
   }
   if (operator_has_it(step)) {
-    release(outputs);
+    release(step_time, outputs);
     return false;
   }
   return true;
 }
 
-void OverrideLine::release(Levels& outputs) noexcept {
-  relay_in_ = put_mask(false, outputs);
-  if (config_.wiring == Wiring::through) {
-    step_ = table_.step_of_code(seen_.panel_code);
+void OverrideLine::release(bool step_time, Levels& outputs) noexcept {
+  put_mask(false, outputs);
+  if (config_.wiring != Wiring::through) {
+    return;
+  }
+  const auto panel = table_.step_of_code(seen_.panel_code);
+  const bool rises = panel && step_ && table_.ratio(*panel) > table_.ratio(*step_);
+  if (rises) {
+    put_code(table_.code(walk(*panel, step_time)), outputs);
+  } else {
+    step_ = panel;
     put_code(seen_.panel_code, outputs);
   }
 }

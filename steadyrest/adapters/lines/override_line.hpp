@@ -26,7 +26,8 @@ struct Word {
 ///            without a mask the panel's own word passes through it. It comes in once that word has
 ///            been on the outputs for a scan, and falls for the operator: panel at 0, at an unknown
 ///            code, or below the word.
-///   plc      word and mask as the layer has them; the PLC takes the lower one.
+///   plc      word and mask as the layer has them; the PLC takes the lower one. The mask comes once
+///            the panel's word has been on the outputs for a scan.
 ///   through  the layer's word where it masks, else the panel's, known or not.
 /// A word that is not in the table is never written: the panel's takes its place. A word whose bits
 /// do not take effect together changes only where every mixture of its bits lies between the two
@@ -54,12 +55,13 @@ class OverrideLine {
   /// Sets this override's outputs to what the layer wants; `step_time`: the last change has been on
   /// the wires for a scan. True: the mask is on.
   bool put(const Word& word, bool step_time, Levels& outputs) noexcept;
-  /// Its outputs while the layer does not act.
-  void release(Levels& outputs) noexcept;
+  /// Its outputs while the layer does not act. With `through` the word rises to the panel's by safe
+  /// steps, as put() changes it; the operator's lower or unknown word is there at once.
+  void release(bool step_time, Levels& outputs) noexcept;
   /// The outputs may be others than those that were put.
   void forget() noexcept {
     step_.reset();
-    relay_in_ = false;
+    mask_on_ = false;
   }
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return table_; }
@@ -70,14 +72,14 @@ class OverrideLine {
       : config_(std::move(config)), table_(std::move(table)) {}
   [[nodiscard]] std::size_t walk(std::size_t step, bool step_time) noexcept;
   [[nodiscard]] bool operator_has_it(std::size_t step) const noexcept;
-  bool put_mask(bool on, Levels& outputs) const noexcept;
+  bool put_mask(bool on, Levels& outputs) noexcept;
   void put_code(std::uint32_t code, Levels& outputs) const noexcept;
 
   Config config_;
   kernel::override::Table table_;
   Seen seen_;
   std::optional<std::size_t> step_;  ///< that the outputs have
-  bool relay_in_ = false;
+  bool mask_on_ = false;
 };
 
 }  // namespace steadyrest::adapters::lines

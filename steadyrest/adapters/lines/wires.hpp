@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <steadyrest/kernel/link/event.hpp>
 #include <steadyrest/kernel/machine/lines.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -34,6 +35,8 @@ class Wires {
   virtual void disconnect() noexcept {}
   /// How many connections there were: the outputs of a new one are not those that were written.
   [[nodiscard]] virtual std::uint64_t connections() const noexcept = 0;
+  /// The time in which the lines change, s: the monotonic clock's, or a simulated machine's.
+  [[nodiscard]] virtual double now_s() const noexcept { return kernel::link::monotonic_s(); }
 };
 
 /// Numbers of neighbouring lines.

@@ -19,6 +19,8 @@ class BridgeDevice final : public kernel::link::Device<Reading, Order> {
  public:
   explicit BridgeDevice(BridgeClient::Config config)
       : plan_(config.machine),
+        guarded_(plan_.reads(kernel::machine::Quantity::sample_begin) &&
+                 plan_.reads(kernel::machine::Quantity::sample_end)),
         patience_s_(config.machine.reply_s),
         config_(config.machine),
         client_(std::move(config), plan_) {}
@@ -36,6 +38,7 @@ class BridgeDevice final : public kernel::link::Device<Reading, Order> {
 
  private:
   NodePlan plan_;
+  bool guarded_;  ///< by a number first and last
   double patience_s_;
   kernel::machine::OpcUa config_;
   BridgeClient client_;

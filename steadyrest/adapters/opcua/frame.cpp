@@ -18,7 +18,6 @@ using kernel::signal::ProgramState;
 
 constexpr double kPercent = 0.01;
 constexpr double kPerMinute = 1.0 / 60.0;
-constexpr std::uint64_t kHeartbeats = 1000000;  ///< a REAL keeps whole numbers up to 16777216
 
 bool has(const OpcUa& config, Quantity quantity) noexcept {
   return std::ranges::any_of(config.reads,

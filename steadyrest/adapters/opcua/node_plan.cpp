@@ -12,7 +12,6 @@ namespace {
 using kernel::machine::OpcUaPlace;
 using kernel::machine::Quantity;
 
-constexpr std::uint32_t kHeartbeatBytes = 250;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 double shown_at(const Answer::Value& value, const OpcUaPlace& place) noexcept {
@@ -42,7 +41,7 @@ double wanted(const Order& order, const OpcUaPlace& place) noexcept {
     case Quantity::axis_offset_mm:
       return order.has_offsets ? order.offset_mm[place.axis] : 0.0;
     case Quantity::heartbeat_byte:
-      return 1.0 + order.heartbeat % kHeartbeatBytes;
+      return heartbeat_byte(order.heartbeat);
     case Quantity::mask_byte:
       return (order.masks_feed ? 1.0 : 0.0) + (order.masks_spindle ? 2.0 : 0.0);
     case Quantity::feed_position:
@@ -74,6 +73,11 @@ NodePlan::NodePlan(const kernel::machine::OpcUa& config) {
   for (const OpcUaPlace& place : config.writes) {
     write_slots_.push_back({node_of(writes_, place), place});
   }
+}
+
+bool NodePlan::reads(Quantity quantity) const noexcept {
+  return std::ranges::any_of(read_slots_,
+                             [=](const Slot& slot) { return slot.place.quantity == quantity; });
 }
 
 bool NodePlan::writes(Quantity quantity) const noexcept {

@@ -26,6 +26,7 @@ class NodePlan {
 
   [[nodiscard]] const std::vector<Node>& reads() const noexcept { return reads_; }
   [[nodiscard]] const std::vector<Node>& writes() const noexcept { return writes_; }
+  [[nodiscard]] bool reads(kernel::machine::Quantity quantity) const noexcept;
   [[nodiscard]] bool writes(kernel::machine::Quantity quantity) const noexcept;
 
   /// The quantities in one answer; what is missing, bad or of another type is NaN. Refused: an

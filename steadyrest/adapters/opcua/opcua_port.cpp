@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
@@ -47,6 +48,8 @@ OpcUaPort::OpcUaPort(const Machine& machine, std::optional<kernel::override::Tab
     : machine_(machine),
       mapped_(mapped(machine.opcua)),
       feed_table_(std::move(feed_table)),
+      first_heartbeat_(std::random_device()() % kHeartbeats),
+      orders_(writes(machine.opcua, Quantity::heartbeat_byte) ? kHeartbeatBytes : kHeartbeats),
       exchange_("the control's OPC UA server", std::move(device), machine.opcua.reply_s) {
   const OpcUa& config = machine_.opcua;
   capability_ = {.feed_override = writes(config, Quantity::feed_percent) ||
@@ -80,6 +83,15 @@ double OpcUaPort::time_of(const Reading& reading) noexcept {
   return last_s_;
 }
 
+Result<void> OpcUaPort::check_alone() const noexcept {
+  if (!orders_.other()) {
+    return {};
+  }
+  return kernel::outcome::unavailable(
+      "the control takes orders of another layer: this one has let go of it",
+      "stop the other one, then start this one again");
+}
+
 Result<kernel::signal::Frame> OpcUaPort::read() noexcept {
   auto taken = exchange_.read();
   if (!taken) {
@@ -87,6 +99,11 @@ Result<kernel::signal::Frame> OpcUaPort::read() noexcept {
     return std::unexpected(std::move(taken.error()));
   }
   const Reading& reading = taken->sample;
+  orders_.seen(reading[Quantity::heartbeat_seen]);
+  if (auto alone = check_alone(); !alone) {
+    in_force_.store(-1);
+    return std::unexpected(std::move(alone.error()));
+  }
   kernel::signal::Frame frame =
       frame_of(reading, mapped_, machine_, feed_table_ ? &*feed_table_ : nullptr);
   frame.time_s = time_of(reading);
@@ -105,10 +122,16 @@ Result<void> OpcUaPort::write(const kernel::signal::Command& command) noexcept {
   if (!command.write) {
     return refuse("a command that must not be written", "write in the mode act only");
   }
+  if (auto alone = check_alone(); !alone) {
+    return alone;
+  }
   Order order = order_of(command, machine_);
+  order.heartbeat = 1 + (order.heartbeat + first_heartbeat_) % kHeartbeats;
   order.masks_feed = order.masks_feed && capability_.feed_override;
   order.masks_spindle = order.masks_spindle && capability_.spindle_override;
   order.has_offsets = order.has_offsets && capability_.axis_offset;
+  orders_.sent(writes(machine_.opcua, Quantity::heartbeat_byte) ? heartbeat_byte(order.heartbeat)
+                                                                : order.heartbeat);
   return exchange_.write(order);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include <steadyrest/adapters/opcua/frame.hpp>
+#include <steadyrest/adapters/opcua/order_watch.hpp>
 #include <steadyrest/adapters/opcua/reading.hpp>
 #include <steadyrest/kernel/link/exchange.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
@@ -31,7 +32,8 @@ struct ShownProgram {
 /// read() asks for the control's newest sample and waits for it, `reply_s` at most. Time is the
 /// control's own (`time_s` of the mapping) where it shows one, else the server's time stamp; where
 /// it goes back (the control was started again), it continues from the last frame. write() leaves
-/// an order with a new heartbeat and returns.
+/// an order with a new heartbeat and returns. Once the control has shown that it takes another
+/// layer's orders, this one has let go for good: both are refused.
 class OpcUaPort final : public kernel::port::Port {
  public:
   using Device = kernel::link::Device<Reading, Order>;
@@ -52,14 +54,17 @@ class OpcUaPort final : public kernel::port::Port {
   OpcUaPort(const kernel::machine::Machine& machine,
             std::optional<kernel::override::Table> feed_table, std::unique_ptr<Device> device);
   [[nodiscard]] double time_of(const Reading& reading) noexcept;
+  [[nodiscard]] kernel::outcome::Result<void> check_alone() const noexcept;
 
   kernel::machine::Machine machine_;
   Mapped mapped_;
   std::optional<kernel::override::Table> feed_table_;
   kernel::port::Capability capability_;
   std::uint64_t cycle_ = 0;
-  double last_s_ = 0.0;   ///< of the last frame
-  double shift_s_ = 0.0;  ///< frame's time less the control's
+  double last_s_ = 0.0;            ///< of the last frame
+  double shift_s_ = 0.0;           ///< frame's time less the control's
+  std::uint32_t first_heartbeat_;  ///< by chance: two layers that begin together differ
+  OrderWatch orders_;
   std::atomic<int> in_force_{-1};
   kernel::rt::Snapshot<ShownProgram> program_;
   kernel::link::Exchange<Reading, Order> exchange_;  ///< last: its thread ends first

@@ -40,6 +40,15 @@ struct Reading {
   std::array<char, kLongestName + 1> program{};                        ///< ends in 0
 };
 
+/// Heartbeats go from 1 to this and begin again: a REAL keeps whole numbers up to 16777216.
+inline constexpr std::uint32_t kHeartbeats = 1000000;
+/// Likewise where a PLC takes a byte.
+inline constexpr std::uint32_t kHeartbeatBytes = 250;
+
+[[nodiscard]] constexpr std::uint32_t heartbeat_byte(std::uint32_t heartbeat) noexcept {
+  return 1 + heartbeat % kHeartbeatBytes;
+}
+
 /// What the layer wants of the control's side.
 struct Order {
   std::uint32_t heartbeat = 0;

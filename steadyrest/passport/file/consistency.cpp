@@ -165,6 +165,12 @@ void lines(const Machine& machine, List& out) {
          "the outputs",
          "set it to five cycles or more, and reply_ms to what the module needs"});
   }
+  if (machine.chatter.enabled && of.programmed_rev_s <= 0.0 &&
+      machine.recorder.spindle_counts_rev <= 0.0) {
+    out.push_back({Severity::warning, "lines",
+                   "[chatter] is enabled, but no spindle speed is known: it is not modulated",
+                   "give programmed_rpm, or spindle_counts_rev in [recorder]"});
+  }
   if (machine.contour.enabled && !machine.recorder.fitted) {
     out.push_back({Severity::error, "lines",
                    "[contour] is enabled, but without [recorder] the lines show no positions",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
 
 /// What is allowed in a machine file but will disappoint: the findings of `steadyrest doctor`.
 namespace steadyrest::passport {
@@ -22,6 +23,7 @@ struct Finding {
   std::string_view check;  ///< stable name of the check, for scripts
   std::string what;
   std::string to_do;
+  kernel::outcome::Kind kind = kernel::outcome::Kind::bad_input;  ///< of an error
 };
 
 [[nodiscard]] std::vector<Finding> findings(const kernel::machine::Machine& machine);

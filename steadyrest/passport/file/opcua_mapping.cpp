@@ -169,13 +169,19 @@ class MappingReader {
     const auto same_place = std::ranges::find_if(out, [&](const OpcUaPlace& other) {
       return other.node == node && other.index == static_cast<std::uint32_t>(index);
     });
-    if (kernel::machine::is_written(quantity) && same_place != out.end() &&
+    // Two quantities of the control may be read at one place; of axes that is a forgotten step.
+    const bool alone =
+        kernel::machine::is_written(quantity) ||
+        (of_axis && same_place != out.end() && kernel::machine::is_of_axis(same_place->quantity));
+    if (alone && same_place != out.end() &&
         (same_place->quantity != quantity || same_place->axis != axis)) {
       faults_.add(given.at({"index", "node"}),
                   fmt::format("{} has the place of {}: {} entry {}", read.quantity,
                               kQuantityWords[static_cast<std::size_t>(same_place->quantity)],
                               cut(node), index),
-                  "what is written needs a place of its own");
+                  of_axis
+                      ? "each axis needs a place of its own: {axis} in the node, or index and step"
+                      : "what is written needs a place of its own");
       return;
     }
     if (std::ranges::any_of(out, [&](const OpcUaPlace& other) {
@@ -239,6 +245,21 @@ class MappingReader {
     }
   }
 
+  /// A state that is two.
+  void twice() {
+    constexpr std::array<std::string_view, 3> kNames = {"stopped", "paused", "running"};
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      for (std::size_t k = i + 1; k < kNames.size(); ++k) {
+        const auto both = std::ranges::find_first_of(out_.states[i], out_.states[k]);
+        if (both != out_.states[i].end()) {
+          faults_.add(
+              0, fmt::format("program_state {:g} is both {} and {}", *both, kNames[i], kNames[k]),
+              "keep it in one of them");
+        }
+      }
+    }
+  }
+
   void complete() {
     for (const Quantity needed :
          {Quantity::command_mm, Quantity::actual_mm, Quantity::feed_panel_percent}) {
@@ -255,6 +276,7 @@ class MappingReader {
                   "add a [[write]] for it: the control's dead man needs it");
     }
     gaps();
+    twice();
     if (has(out_.reads, Quantity::program_state) && out_.states[2].empty()) {
       faults_.add(0, "the mapping reads program_state, but does not say what running is",
                   "add [program_state] with stopped, paused and running");

@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/link/host_port.hpp>
 #include <steadyrest/passport/file/opcua_section.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -22,7 +26,11 @@ constexpr std::string_view kHead = "[opcua]";
 constexpr double kLeastOrders = 3.0;  ///< that may be late or lost before the dead man acts
 
 void check_access(const OpcUa& config, const Given& given, Faults& faults) {
-  if (!config.endpoint.starts_with("opc.tcp://")) {
+  constexpr std::string_view kScheme = "opc.tcp://";
+  const std::string_view rest =
+      std::string_view(config.endpoint).substr(std::min(kScheme.size(), config.endpoint.size()));
+  if (!config.endpoint.starts_with(kScheme) ||
+      !kernel::link::host_and_port(rest.substr(0, rest.find('/')), "4840")) {
     faults.add(given.at({"endpoint"}), fmt::format("endpoint = \"{}\"", config.endpoint),
                "write opc.tcp://HOST:PORT, e.g. opc.tcp://192.168.214.241:4840");
   }
@@ -47,6 +55,25 @@ void check_times(const OpcUa& config, const Given& given, Faults& faults) {
                fmt::format("dead_man_ms = {:g} is less than three cycles of {:g} ms",
                            1e3 * config.dead_man_s, 1e3 * config.cycle_s),
                "raise dead_man_ms or lower cycle_ms: one late order must not hand back");
+  }
+}
+
+/// Names of the control in its texts: two of one name would move one axis twice.
+void check_names(const OpcUa& config, std::size_t axes, const Given& given, Faults& faults) {
+  std::istringstream text(config.machine_axes);
+  std::vector<std::string> names;
+  for (std::string name; text >> name;) {
+    if (std::ranges::find(names, name) != names.end() || name == config.spindle) {
+      faults.add(given.at({"machine_axes", "spindle"}),
+                 fmt::format("{} is the name of two axes", name), "give each axis its own");
+    }
+    names.push_back(std::move(name));
+  }
+  if (given.has("machine_axes") && names.size() != axes) {
+    faults.add(
+        given.at({"machine_axes"}),
+        fmt::format("machine_axes has {} names; the machine has {} axes", names.size(), axes),
+        "give one for each axis, X first");
   }
 }
 
@@ -139,6 +166,7 @@ void read_opcua(const toml::table& root, Machine& out, Faults& faults) {
       static_cast<std::size_t>(std::ranges::count_if(out.axes, &kernel::machine::Axis::present));
   check_access(out.opcua, given, faults);
   check_times(out.opcua, given, faults);
+  check_names(out.opcua, axes, given, faults);
   check_blocks(out.opcua, axes, given, faults);
   if (faults.list.size() == before) {
     read_mapping_file(out, given, out.opcua, faults);

@@ -3,10 +3,12 @@
 #include <bit>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include <steadyrest/kernel/link/host_port.hpp>
 #include <steadyrest/passport/file/port_sections.hpp>
 
 // A line that is named twice, or a word that is too narrow for its table, would make the layer
@@ -45,6 +47,11 @@ void check_kind(const Lines& lines, const Given& given, Faults& faults) {
   if (network && lines.address.empty()) {
     faults.add(given.at({"kind"}), R"([lines] has no address for kind = "modbus_tcp")",
                R"(add address = "HOST" or "HOST:PORT")");
+  }
+  if (network && !lines.address.empty() && !kernel::link::host_and_port(lines.address, "502")) {
+    faults.add(given.at({"address"}),
+               fmt::format("address = \"{}\" is no HOST or HOST:PORT", lines.address),
+               "give the module's name or number, and its port (1 … 65535) if it is not 502");
   }
   if (!network && lines.device.empty()) {
     faults.add(given.at({"kind"}), "[lines] has no device for this kind",
@@ -132,6 +139,17 @@ void check_addresses(const Lines& lines, std::uint32_t last_input, std::uint32_t
   if (lines.output_copy != lines.first_output) {
     check("output_copy", lines.output_copy, last_output);
   }
+  // Setting the watchdog would set outputs.
+  const auto check_watchdog = [&](std::string_view key, const std::vector<std::uint32_t>& all) {
+    for (std::size_t i = 0; lines.registers && i < all.size(); i += 2) {
+      if (all[i] >= lines.first_output && all[i] <= lines.first_output + last_output / lines_each) {
+        faults.add(given.at({key}), fmt::format("{}: {} is a register of outputs", key, all[i]),
+                   "give the watchdog's registers by the module's manual");
+      }
+    }
+  };
+  check_watchdog("watchdog_registers", lines.watchdog_registers);
+  check_watchdog("watchdog_reset", lines.watchdog_reset);
 }
 
 /// On one comedi subdevice all lines from the lowest to the highest output are turned to outputs.
@@ -209,6 +227,12 @@ void read_lines(const toml::table& section, Machine& out, Faults& faults) {
   if (faults.list.size() == before) {
     check_kind(out.lines, given, faults);
   }
+  if (faults.list.size() == before && out.lines.programmed_rev_s > out.spindle.max_rev_s) {
+    faults.add(given.at({"programmed_rpm"}),
+               fmt::format("programmed_rpm = {:g} is above the spindle's {:g}",
+                           60.0 * out.lines.programmed_rev_s, 60.0 * out.spindle.max_rev_s),
+               "give the speed that the program has, or the spindle's max_rpm");
+  }
   wires_at(section, "feed", out.feed_override, out.lines.wiring, out.lines.feed, faults);
   wires_at(section, "spindle", out.spindle_override, out.lines.wiring, out.lines.spindle, faults);
   if (faults.list.size() == before) {
@@ -253,6 +277,33 @@ void check_recorder(const Machine& machine, const Given& given, Faults& faults) 
   }
 }
 
+/// One position for each axis of the file; in `start_mm` then for missing ones too.
+void place_start(Machine& machine, const Given& given, Faults& faults) {
+  const std::vector<double> shown = std::exchange(machine.recorder.start_mm, {});
+  const auto present = static_cast<std::size_t>(
+      std::ranges::count_if(machine.axes, &kernel::machine::Axis::present));
+  if (shown.empty()) {
+    return;
+  }
+  if (shown.size() != present) {
+    faults.add(
+        given.at({"start_mm"}),
+        fmt::format("start_mm has {} entries; the machine has {} axes", shown.size(), present),
+        "give one for each axis, X first");
+    return;
+  }
+  for (auto next = shown.begin(); const auto& axis : machine.axes) {
+    const double start_mm = axis.present ? *next++ : 0.0;
+    if (axis.present && !axis.rotary && (start_mm < axis.min_au || start_mm > axis.max_au)) {
+      faults.add(given.at({"start_mm"}),
+                 fmt::format("start_mm: {} = {:g} is outside of its travel, {:g} … {:g}", axis.name,
+                             start_mm, axis.min_au, axis.max_au),
+                 "give where the axes stand when the layer starts, in machine coordinates");
+    }
+    machine.recorder.start_mm.push_back(start_mm);
+  }
+}
+
 void read_recorder(const toml::table& section, Machine& out, Faults& faults) {
   const std::size_t before = faults.list.size();
   out.recorder.fitted = true;
@@ -261,11 +312,8 @@ void read_recorder(const toml::table& section, Machine& out, Faults& faults) {
   if (faults.list.size() == before) {
     check_recorder(out, given, faults);
   }
-  if (faults.list.size() == before && out.recorder.start_mm.size() > out.axes.size()) {
-    faults.add(given.at({"start_mm"}),
-               fmt::format("start_mm has {} entries; the machine has {} axes",
-                           out.recorder.start_mm.size(), out.axes.size()),
-               "give one for each axis, X first");
+  if (faults.list.size() == before) {
+    place_start(out, given, faults);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <tests/lines/module_server.hpp>
 
+#include <steadyrest/adapters/lines/wires.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::test {
@@ -98,10 +99,34 @@ TEST_F(Mill, NobodyWalksTheWordUnderALayerThatActs) {
   const Finished test = run_line("lines test --machine " + machine_);
   EXPECT_EQ(test.code, 1);
   EXPECT_THAT(test.err, HasSubstr("output 5, a mask, is on: a layer acts on this module"));
-  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U);
-  module_->tell("stick 0 1");  // the word of 0 %
   EXPECT_THAT(run_line("doctor --machine " + machine_).out,
-              HasSubstr("the outputs show another word than the panel"));
+              HasSubstr("warning: output 5, a mask, is on: a layer acts on this module"));
+  const Finished start =
+      run_line("run --for-s 0.1 --machine " + machine_ + " --socket " + scratch_.at("s"));
+  EXPECT_EQ(start.code, 1);
+  EXPECT_THAT(start.err, HasSubstr("output 5, a mask, is on: a layer acts on this module"));
+  EXPECT_EQ(module_->exchange(kPanel, 0.0).written, 0U);
+}
+
+// A second layer that begins in the same moment sees nothing yet.
+TEST_F(Mill, WhereAnotherClientWritesTheLayerLetsGoAndSaysSo) {
+  const std::jthread other([this](const std::stop_token& stop) {
+    auto lines = passport::read(machine_).value().lines;
+    const auto wires = adapters::lines::open_wires(lines).value();
+    for (bool on = false; !stop.stop_requested(); on = !on) {
+      // It begins once this layer's first orders are there.
+      if (module_->exchange(kPanel, 0.0).written > 0) {
+        static_cast<void>(wires->write(adapters::lines::Levels(on ? 1 : 2)));
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+  });
+  const Finished acted = run_line("run --json --for-s 4 --machine " + machine_ +
+                                  " --mode act --socket " + scratch_.at("s"));
+  EXPECT_EQ(acted.code, 1) << acted.err;
+  const json answer = json::parse(acted.out);
+  EXPECT_TRUE(answer["ended_in_fault"]);
+  EXPECT_THAT(std::string(answer["last_fault"]), HasSubstr("the layer has let go of the outputs"));
 }
 
 TEST_F(Mill, AStuckOutputIsNamed) {
@@ -188,8 +213,10 @@ TEST_F(Mill, CountersAreEncodersThatAProgramCanFollow) {
 TEST_F(Mill, AModuleThatIsNotThereIsRefusedByName) {
   const std::string address = module_->address();
   module_.reset();
-  expect_refused("run --for-s 0.1 --machine " + machine_ + " --socket " + scratch_.at("s"),
-                 "the module " + address + " cannot be reached");
+  const Finished start =
+      run_line("run --for-s 0.1 --machine " + machine_ + " --socket " + scratch_.at("s"));
+  EXPECT_EQ(start.code, 1) << start.err;
+  EXPECT_THAT(start.err, HasSubstr("the module " + address + " cannot be reached"));
   const Finished test = run_line("lines test --machine " + machine_);
   EXPECT_EQ(test.code, 1) << test.err;
   EXPECT_THAT(test.err, HasSubstr("cannot be reached"));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A control with an OPC UA server, as a user meets it: its certificate, `doctor`, a run that
 // observes and one that acts. The server is node-opcua, the bridge the shipped one.
+#include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "program.hpp"
 #include "scratch.hpp"
@@ -38,7 +40,7 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   EXPECT_THAT(before.out, HasSubstr("certificate is not trusted"));
   EXPECT_THAT(before.out, HasSubstr("opcua trust"));
   const Finished early = run_line("run --for-s 0.1 --mode act" + of + socket);
-  EXPECT_EQ(early.code, 2);
+  EXPECT_EQ(early.code, 1);
   EXPECT_THAT(early.err, HasSubstr("certificate is not trusted"));
 
   const Finished nowhere = run_line("run --for-s 0.1 --program /nonexist.mpf" + of + socket);
@@ -63,8 +65,22 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   EXPECT_EQ(machine->seen().obeyed_cycles, 0U);
   EXPECT_EQ(machine->seen().least_feed_ratio, 1.0);
 
-  const Finished acted = run_line("run --json --for-s 4 --mode act" + of + socket);
+  // What a second layer meets while the first one acts.
+  Finished beside;
+  std::string seen_beside;
+  std::jthread second([&] {
+    while (machine->seen().obeyed_cycles == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    seen_beside = run_line("doctor" + of).out;
+    beside = run_line("run --for-s 0.1 --mode act" + of + " --socket " + scratch.at("t"));
+  });
+  const Finished acted = run_line("run --json --for-s 12 --mode act" + of + socket);
   EXPECT_EQ(acted.code, 0) << acted.err;
+  second.join();
+  EXPECT_EQ(beside.code, 1);
+  EXPECT_THAT(beside.err, HasSubstr("another layer acts on this control"));
+  EXPECT_THAT(seen_beside, HasSubstr("warning: another layer acts on this control"));
   const auto seen = machine->seen();
   EXPECT_GT(seen.obeyed_cycles, 100U);
   EXPECT_LT(seen.least_feed_ratio, 0.9);

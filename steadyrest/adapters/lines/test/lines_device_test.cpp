@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -39,13 +40,15 @@ constexpr LineOrder kHalf{.feed = {.code = 3, .masks = true}, .spindle = {}};
 /// A device on wires that the test holds, the panel at 100 %.
 class DeviceScene {
  public:
-  explicit DeviceScene(Wiring wiring) {
+  explicit DeviceScene(Wiring wiring, bool latched = true) {
+    auto table = small_table();
+    table.latched_word = latched;
     const auto lines = lines_of(wiring);
     held.inputs = Levels(2);
     LinesDevice::Parts parts;
     parts.wires = std::make_unique<HeldWires>(held);
     parts.feed =
-        OverrideLine::make({.wires = lines.feed, .table = small_table(), .wiring = wiring}).value();
+        OverrideLine::make({.wires = lines.feed, .table = table, .wiring = wiring}).value();
     device = std::make_unique<LinesDevice>(lines, std::move(parts));
   }
   kernel::outcome::Result<void> read() { return device->read(sample); }
@@ -162,7 +165,7 @@ TEST(LinesDevice, EncodersAreReadWhileTheLinkIsCut) {
 
 TEST(LinesDevice, OutputsThatDifferTwiceAreALostLink) {
   DeviceScene scene(Wiring::plc);
-  scene.acts(1);
+  scene.acts(3);
   scene.held.outputs = {};  // a watchdog
   ASSERT_TRUE(scene.read()) << "a reading may fall between";
   const auto refused = scene.read();
@@ -187,15 +190,93 @@ TEST(LinesDevice, OutputsThatDropAreNotPutBackInOneStep) {
   EXPECT_FALSE(scene.masks()) << "the panel's word settles first";
 }
 
-TEST(LinesDevice, AStuckOutputIsFoundAgainAndAgain) {
+/// Reads and orders until the layer lets go; how many readings were refused on the way.
+int lets_go(DeviceScene& scene) {
+  for (int refused = 1, i = 0; i < 100; ++i) {
+    const auto read = scene.read();
+    if (!read && read.error().what.find("has let go of the outputs") != std::string::npos) {
+      return refused;
+    }
+    refused += read ? 0 : 1;
+    EXPECT_TRUE(scene.device->write(kHalf));
+  }
+  return -1;
+}
+
+TEST(LinesDevice, AStuckOutputIsFoundThreeTimesThenTheLayerLetsGoForGood) {
   DeviceScene scene(Wiring::plc);
   scene.held.stuck_on = Levels(4);
-  int refused = 0;
-  for (int i = 0; i < 12; ++i) {
-    refused += scene.read() ? 0 : 1;
-    ASSERT_TRUE(scene.device->write(kHalf));
+  EXPECT_EQ(lets_go(scene), 3);
+  EXPECT_FALSE(scene.masks());
+  scene.held.stuck_on = {};
+  const std::size_t written = scene.held.written.size();
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(scene.read());
+    EXPECT_FALSE(scene.device->write(kHalf));
   }
-  EXPECT_EQ(refused, 5) << "every second reading";
+  EXPECT_EQ(scene.held.written.size(), written);
+}
+
+TEST(LinesDevice, TwoLayersOnOneModuleBothLetGo) {
+  DeviceScene scene(Wiring::plc);
+  const auto lines = lines_of(Wiring::plc);
+  LinesDevice::Parts parts;
+  parts.wires = std::make_unique<HeldWires>(scene.held);
+  parts.feed =
+      OverrideLine::make({.wires = lines.feed, .table = small_table(), .wiring = Wiring::plc})
+          .value();
+  LinesDevice second(lines, std::move(parts));
+  LineSample sample;
+  constexpr LineOrder kFull{.feed = {.code = 2, .masks = true}, .spindle = {}};
+  for (int i = 0; i < 100; ++i) {
+    static_cast<void>(scene.read());
+    static_cast<void>(scene.device->write(kHalf));
+    static_cast<void>(second.read(sample));
+    static_cast<void>(second.write(kFull));
+  }
+  const auto first = scene.read();
+  const auto other = second.read(sample);
+  ASSERT_TRUE(!first && !other);
+  EXPECT_NE(first.error().what.find("has let go of the outputs"), std::string::npos);
+  EXPECT_NE(other.error().what.find("has let go of the outputs"), std::string::npos);
+  EXPECT_FALSE(scene.masks());
+}
+
+TEST(LinesDevice, ThroughPassesThePanelOnAfterItHasLetGo) {
+  DeviceScene scene(Wiring::through);
+  scene.held.stuck_on = Levels(1U << 4U);  // the heartbeat
+  ASSERT_EQ(lets_go(scene), 3);
+  scene.held.inputs = Levels(3);
+  EXPECT_FALSE(scene.read());
+  EXPECT_EQ(scene.held.outputs & Levels(7), Levels(3));
+}
+
+// 1 … 6 is one of the changes in which other positions may be read.
+TEST(LinesDevice, ThroughRisesToThePanelByWholeSteps) {
+  DeviceScene scene(Wiring::through, false);
+  scene.held.inputs = Levels(6);
+  scene.reads(2);
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_TRUE(scene.read());
+    ASSERT_TRUE(scene.device->write({.feed = {.code = 1, .masks = true}, .spindle = {}}));
+  }
+  ASSERT_EQ(scene.held.outputs & Levels(7), Levels(1));
+  for (const unsigned code : {1U, 1U, 1U, 3U, 2U, 6U}) {
+    scene.reads(1);
+    EXPECT_EQ(scene.held.outputs & Levels(7), Levels(code));
+  }
+}
+
+TEST(LinesDevice, FaultsThatAreFarApartAreLostLinksEach) {
+  DeviceScene scene(Wiring::plc);
+  for (int i = 0; i < 5; ++i) {
+    scene.acts(2);
+    scene.held.outputs = {};
+    ASSERT_TRUE(scene.read());
+    ASSERT_FALSE(scene.read());
+    scene.held.now_s += 61.0;
+  }
+  scene.acts(2);
 }
 
 TEST(LinesDevice, AfterALostLinkItBeginsWithTheModulesOutputs) {

@@ -92,6 +92,21 @@ TEST(OverrideLine, ThePlcGetsWordAndMaskAsTheLayerHasThem) {
   EXPECT_DOUBLE_EQ(scene.panel(sinumerik_code(k100)).effective_ratio, 1.0);
 }
 
+// Bits of a word and a mask that come together could be read apart.
+TEST(OverrideLine, ThePlcsMaskComesOnceThePanelsWordHasBeenThereForAScan) {
+  Scene scene(Wiring::plc);
+  scene.panel(sinumerik_code(k100));
+  EXPECT_FALSE(scene.put(k50, true));
+  EXPECT_EQ(scene.out(), sinumerik_code(k100));
+  EXPECT_FALSE(scene.put(k50, true, false));
+  EXPECT_TRUE(scene.put(k50, true));
+  EXPECT_EQ(scene.out(), sinumerik_code(k100 - 1)) << "a safe step with it";
+  scene.panel(0);  // an open cable: the PLC keeps the operator's last word by itself
+  EXPECT_TRUE(scene.put(k50, true));
+  scene.line.forget();
+  EXPECT_FALSE(scene.put(k50, true)) << "no mask begins at an unknown panel";
+}
+
 TEST(OverrideLine, TheRelayStaysInAndPassesThePanelOn) {
   Scene scene(Wiring::relay);
   scene.panel(sinumerik_code(k100));

@@ -17,6 +17,8 @@ struct Held {
   bool cut = false;
   std::uint64_t connections = 1;
   int disconnected = 0;  ///< times
+  static constexpr double kCycle_s = 0.02;
+  double now_s = 0.0;  ///< goes on by a cycle with each reading
 };
 
 class HeldWires final : public Wires {
@@ -27,6 +29,7 @@ class HeldWires final : public Wires {
     if (held_.cut) {
       return kernel::outcome::unavailable("the link is cut", "mend it");
     }
+    held_.now_s += Held::kCycle_s;
     inputs = held_.inputs;
     outputs = held_.outputs;
     return {};
@@ -41,6 +44,7 @@ class HeldWires final : public Wires {
   }
   void disconnect() noexcept override { ++held_.disconnected; }
   [[nodiscard]] std::uint64_t connections() const noexcept override { return held_.connections; }
+  [[nodiscard]] double now_s() const noexcept override { return held_.now_s; }
 
  private:
   Held& held_;

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <steadyrest/adapters/lines/line_walk.hpp>
+#include <steadyrest/adapters/lines/other_client.hpp>
 #include <steadyrest/adapters/lines/wire_diagnosis.hpp>
 #include <steadyrest/adapters/lines/wires.hpp>
 #include <steadyrest/apps/cli/lines/verb_lines_test.hpp>
@@ -125,20 +126,16 @@ void pause(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// A mask that is on belongs to a layer that acts: nobody may walk the word under it.
-std::expected<void, Refusals> check_masks(const Machine& machine, adapter::Wires& wires) {
-  adapter::Levels inputs;
-  adapter::Levels outputs;
-  if (auto read = wires.read(inputs, outputs); !read) {
-    return refused(read.error());
+/// Nobody may walk the word under a layer that acts.
+std::expected<void, Refusals> check_alone(const Machine& machine, adapter::Wires& wires) {
+  const auto other = adapter::other_client(wires, machine.lines);
+  if (!other) {
+    return refused(other.error());
   }
-  for (const std::uint32_t mask : {machine.lines.feed.mask, machine.lines.spindle.mask}) {
-    if (mask < adapter::kMostLines && outputs[mask]) {
-      return refused(kernel::outcome::unavailable(
-                         fmt::format("output {}, a mask, is on: a layer acts on this module", mask),
-                         "stop it; if none runs, one has died: switch the module off and on")
-                         .error());
-    }
+  if (!other->empty()) {
+    return refused(kernel::outcome::unavailable(
+                       *other, "stop it; if none runs, one has died: switch the module off and on")
+                       .error());
   }
   return {};
 }
@@ -146,7 +143,7 @@ std::expected<void, Refusals> check_masks(const Machine& machine, adapter::Wires
 /// Walks both words. Refused: the link, a layer that acts.
 std::expected<bool, Refusals> walk_all(const Machine& machine, const Options& options,
                                        adapter::Wires& wires, Progress& progress, Answer& answer) {
-  if (auto free = check_masks(machine, wires); !free) {
+  if (auto free = check_alone(machine, wires); !free) {
     return std::unexpected(std::move(free.error()));
   }
   bool ok = true;

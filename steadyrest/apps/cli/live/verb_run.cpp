@@ -82,8 +82,9 @@ std::string text_of(const LoopFigures& figures, const Json& json) {
   }
   std::string text = table.text();
   if (figures.port_faults > 0) {
-    text +=
-        fmt::format("the port could not be read or written in {} cycles\n", figures.port_faults);
+    text += fmt::format("the port could not be read or written in {} cycles{}: {}\n",
+                        figures.port_faults, figures.ended_in_fault ? ", the last one too" : "",
+                        figures.last_fault);
   }
   if (!figures.handed_back) {
     text += "ended before all was handed back: the machine's watchdog takes over what was left\n";
@@ -98,7 +99,11 @@ Loop::Config loop_config(const Options& options, const kernel::machine::Machine&
                       .mode = steadyrest::live::mode_of(options.mode).value_or(machine.mode),
                       .port_paces = port.paces,
                       .finished = port.finished};
-  if (options.for_s > 0.0) {
+  const bool waits = machine.port == kernel::machine::PortKind::lines ||
+                     machine.port == kernel::machine::PortKind::opcua;
+  if (waits) {
+    config.most_s = options.for_s;
+  } else if (options.for_s > 0.0) {
     config.most_cycles = std::max<std::uint64_t>(
         1, static_cast<std::uint64_t>(std::llround(options.for_s / port.period_s)));
   }
@@ -229,6 +234,7 @@ Result<std::unique_ptr<RunRecord>> start_record(const Options& options, const Pr
 Answer answer_of(const LoopFigures& figures, const Prepared& of,
                  const steadyrest::live::RealTime& real_time, RunRecord* record) {
   Answer answer;
+  answer.exit_code = figures.ended_in_fault || !figures.handed_back ? kFailed : kDone;
   answer.json = steadyrest::live::figures_json(figures);
   answer.json["machine"] = of.machine.name;
   answer.json["port"] = passport::word(of.machine.port);

@@ -53,35 +53,4 @@ std::vector<Finding> real_time_findings(const Machine& machine,
   return all;
 }
 
-std::vector<Finding> by_severity(const std::vector<Finding>& findings) {
-  std::vector<Finding> sorted;
-  for (const Severity severity : {Severity::error, Severity::warning, Severity::note}) {
-    std::ranges::copy_if(findings, std::back_inserter(sorted), [severity](const Finding& finding) {
-      return finding.severity == severity;
-    });
-  }
-  return sorted;
-}
-
-Refusals errors_of(const Machine& machine, const std::vector<Finding>& findings) {
-  Refusals errors;
-  for (const Finding& finding : findings) {
-    if (finding.severity == Severity::error) {
-      errors.push_back(bad_input(machine.file, finding.what, finding.to_do));
-    }
-  }
-  return errors;
-}
-
-Json json_of(const std::vector<Finding>& findings) {
-  Json all = Json::array();
-  for (const Finding& finding : findings) {
-    all.push_back({{"severity", passport::word(finding.severity)},
-                   {"check", finding.check},
-                   {"what", finding.what},
-                   {"to_do", finding.to_do}});
-  }
-  return all;
-}
-
 }  // namespace steadyrest::apps::cli

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <steadyrest/apps/cli/shared/session.hpp>
+#include <steadyrest/apps/cli/shared/findings.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -17,14 +17,5 @@ namespace steadyrest::apps::cli {
 /// Warnings; on the simulated machine, which nothing can hurt, notes.
 [[nodiscard]] std::vector<passport::Finding> real_time_findings(
     const kernel::machine::Machine& machine, const steadyrest::live::RealTime& granted);
-
-/// Errors first, in the order of the checks within one severity.
-[[nodiscard]] std::vector<passport::Finding> by_severity(
-    const std::vector<passport::Finding>& findings);
-/// The errors, as refusals of the machine file.
-[[nodiscard]] Refusals errors_of(const kernel::machine::Machine& machine,
-                                 const std::vector<passport::Finding>& findings);
-/// The key `findings`.
-[[nodiscard]] Json json_of(const std::vector<passport::Finding>& findings);
 
 }  // namespace steadyrest::apps::cli

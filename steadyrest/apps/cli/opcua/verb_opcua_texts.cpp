@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <expected>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,10 +20,36 @@ namespace steadyrest::apps::cli {
 namespace opcua_texts {
 namespace {
 
+constexpr std::string_view kMark = "Written by: steadyrest opcua texts";
+constexpr std::size_t kHead = 1000;  ///< bytes in which the mark is
+
 struct Options {
   std::string machine;
   std::string folder;
 };
+
+/// A machine has its own PROG_EVENT.SPF; a copy of it may be in that folder.
+std::expected<void, Refusals> check_ours(const std::vector<kernel::file::FileText>& files) {
+  Refusals out;
+  for (const auto& file : files) {
+    std::error_code error;
+    if (!std::filesystem::exists(file.file, error)) {
+      continue;
+    }
+    std::ifstream in(file.file, std::ios::binary);
+    std::string head(kHead, '\0');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(in.gcount()));
+    if (head.find(kMark) == std::string::npos) {
+      out.push_back(bad_input(file.file, "is there already, and is not of this program",
+                              "name another folder, or move it away"));
+    }
+  }
+  if (out.empty()) {
+    return {};
+  }
+  return std::unexpected(std::move(out));
+}
 
 Outcome run(const Options& options) {
   auto machine = read_machine(options.machine);
@@ -43,6 +73,9 @@ Outcome run(const Options& options) {
     files.push_back({.file = options.folder + "/" + text.name, .text = std::move(text.text)});
     answer.json["files"].push_back(files.back().file);
     answer.text += files.back().file + "\n";
+  }
+  if (auto ours = check_ours(files); !ours) {
+    return std::unexpected(std::move(ours.error()));
   }
   if (const auto written = kernel::file::write_files(files); !written) {
     return refused(written.error());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +11,10 @@
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/lines/lines_port.hpp>
+#include <steadyrest/adapters/lines/other_client.hpp>
 #include <steadyrest/apps/cli/ports/lines_live.hpp>
 #include <steadyrest/apps/cli/ports/program_place.hpp>
+#include <steadyrest/apps/cli/shared/findings.hpp>
 #include <steadyrest/live/path/commanded_port.hpp>
 #include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/live/path/program_watch.hpp>
@@ -30,6 +33,8 @@ using steadyrest::live::CommandedPort;
 using steadyrest::live::FollowedPort;
 using steadyrest::live::LoadedProgram;
 using steadyrest::live::ProgramWatch;
+
+constexpr const char* kLinesCheck = "lines";
 
 /// Estimates of commanded positions are good to some hundredths of a millimetre at a turn.
 constexpr double kNear_mm = 0.1;
@@ -52,22 +57,29 @@ void check_panel(const char* name, const OverrideWires& wires, const OverrideSta
   }
 }
 
-std::vector<Finding> findings_of(const Machine& machine, const Result<Frame>& first) {
+/// Before the port has the lines: a card gives them to one at a time.
+std::vector<Finding> alone_findings(const Machine& machine) {
+  auto wires = adapters::lines::open_wires(machine.lines);
+  const auto other = wires ? adapters::lines::other_client(**wires, machine.lines)
+                           : std::unexpected(std::move(wires.error()));
+  if (!other) {
+    return {error_of(kLinesCheck, other.error())};
+  }
+  if (other->empty()) {
+    return {};
+  }
+  return {other_layer(*other,
+                      "stop it; if none runs, one has died and its module has no watchdog: switch "
+                      "the module off and on")};
+}
+
+std::vector<Finding> panel_findings(const Machine& machine, const Result<Frame>& first) {
   if (!first) {
-    return {{Severity::error, "lines", first.error().what, first.error().to_do}};
+    return {error_of(kLinesCheck, first.error())};
   }
   std::vector<Finding> out;
   check_panel("feed", machine.lines.feed, first->feed, out);
   check_panel("spindle", machine.lines.spindle, first->spindle, out);
-  const auto layer = [](const auto& of) { return of.effective_ratio != of.panel_ratio; };
-  if ((first->feed.panel_code_known && layer(first->feed)) ||
-      (first->spindle.panel_code_known && layer(first->spindle))) {
-    out.push_back({Severity::warning, "lines",
-                   "the outputs show another word than the panel: a layer acts on this module, or "
-                   "one has died and its module has no watchdog",
-                   "two layers on one module disturb each other: stop the other one; if none runs, "
-                   "switch the module off and on, and see its watchdog"});
-  }
   return out;
 }
 
@@ -100,11 +112,15 @@ Result<std::shared_ptr<ProgramWatch>> watch_of(const Machine& machine,
 }  // namespace
 
 std::vector<Finding> lines_findings(const Machine& machine) {
-  const auto port = LinesPort::open(machine);
-  if (!port) {
-    return {{Severity::error, "lines", port.error().what, port.error().to_do}};
+  auto out = alone_findings(machine);
+  if (!out.empty() && out.front().severity == Severity::error) {
+    return out;
   }
-  return findings_of(machine, (*port)->read());
+  const auto port = LinesPort::open(machine);
+  std::ranges::move(port ? panel_findings(machine, (*port)->read())
+                         : std::vector<Finding>{error_of(kLinesCheck, port.error())},
+                    std::back_inserter(out));
+  return out;
 }
 
 std::expected<LivePort, Refusals> open_lines(const Machine& machine,
@@ -117,18 +133,17 @@ std::expected<LivePort, Refusals> open_lines(const Machine& machine,
   if (auto there = check_program_file(program.file); !there) {
     return std::unexpected(std::move(there.error()));
   }
+  if (auto errors = errors_of(machine, alone_findings(machine)); !errors.empty()) {
+    return std::unexpected(std::move(errors));
+  }
   auto port = LinesPort::open(machine);
   if (!port) {
     return refused(port.error());
   }
   LivePort out;
   out.period_s = layer_cycle_s(machine);
-  Refusals refusals;
-  for (const Finding& finding : findings_of(machine, (*port)->read())) {
-    refusals.push_back(bad_input(machine.file, finding.what, finding.to_do));
-  }
-  if (!refusals.empty()) {
-    return std::unexpected(std::move(refusals));
+  if (auto errors = errors_of(machine, panel_findings(machine, (*port)->read())); !errors.empty()) {
+    return std::unexpected(std::move(errors));
   }
   if (!encoders) {
     out.port = std::move(*port);

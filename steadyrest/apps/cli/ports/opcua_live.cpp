@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -16,6 +17,7 @@
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/program_place.hpp>
+#include <steadyrest/apps/cli/shared/findings.hpp>
 #include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/live/path/program_watch.hpp>
 
@@ -36,6 +38,7 @@ using steadyrest::live::ProgramWatch;
 constexpr double kConnect_s = 20.0;
 constexpr std::chrono::milliseconds kBetweenSamples(20);
 constexpr int kSamples = 10;
+constexpr double kDeadMen = 1.5;  ///< times of the dead man
 constexpr const char* kCheck = "opcua";
 
 std::string beside_program() {
@@ -55,23 +58,39 @@ std::string state_folder() {
   return (base / "steadyrest" / "opcua").string();
 }
 
-/// The control's side shows another sample each time. The longest that a reading takes, s.
-Result<double> check_sample(BridgeDevice& device) {
+/// What the control's side shows before this layer has sent anything.
+struct Watched {
+  double longest_s = 0.0;    ///< that a reading took
+  bool other_layer = false;  ///< the control takes orders, or obeys somebody
+};
+
+/// The control's side shows another sample each time.
+Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa& config) {
   using Clock = std::chrono::steady_clock;
+  using kernel::machine::Quantity;
   adapter::Reading reading;
   if (auto connected = device.connect(kConnect_s); !connected) {
     return std::unexpected(std::move(connected.error()));
   }
-  std::chrono::duration<double> longest{};
-  for (int i = 0; i < kSamples; ++i) {
+  Watched out;
+  double heartbeat = std::nan("");
+  // A layer that has just ended is still obeyed for the dead man's time.
+  const auto least = std::chrono::duration<double>(kDeadMen * config.dead_man_s);
+  const auto begin = Clock::now();
+  for (int i = 0; i < kSamples || Clock::now() - begin < least; ++i) {
     const auto before = Clock::now();
     if (auto read = device.read(reading); !read) {
       return std::unexpected(std::move(read.error()));
     }
-    longest = std::max<std::chrono::duration<double>>(longest, Clock::now() - before);
+    out.longest_s =
+        std::max(out.longest_s, std::chrono::duration<double>(Clock::now() - before).count());
+    const double seen = reading[Quantity::heartbeat_seen];
+    out.other_layer = out.other_layer || (i > 0 && seen != heartbeat && !std::isnan(heartbeat));
+    heartbeat = seen;
     std::this_thread::sleep_for(kBetweenSamples);
   }
-  return longest.count();
+  out.other_layer = out.other_layer || reading[Quantity::layer_alive] > 0.0;
+  return out;
 }
 
 /// Of the control's program what the operator names; its state is the control's own.
@@ -116,29 +135,36 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
     BridgeClient client(opcua_client(machine), plan);
     const auto connected = client.connect(kConnect_s);
     if (!connected) {
-      out.push_back({Severity::error, kCheck, connected.error().what, connected.error().to_do});
+      out.push_back(error_of(kCheck, connected.error()));
       return out;
     }
     const auto checked = client.check();
     if (!checked) {
-      out.push_back({Severity::error, kCheck, checked.error().what, checked.error().to_do});
+      out.push_back(error_of(kCheck, checked.error()));
       return out;
     }
     for (const Refusal& fault : adapter::node_faults(*checked, plan, machine.opcua)) {
-      out.push_back({Severity::error, kCheck, fault.what, fault.to_do});
+      out.push_back(error_of(kCheck, fault));
     }
   }
   if (std::ranges::none_of(out,
                            [](const Finding& one) { return one.severity == Severity::error; })) {
     BridgeDevice device(opcua_client(machine));
-    if (const auto shown = check_sample(device); !shown) {
-      out.push_back({Severity::error, kCheck, shown.error().what, shown.error().to_do});
-    } else if (*shown > machine.opcua.cycle_s) {
+    const auto watched = watch_samples(device, machine.opcua);
+    if (!watched) {
+      out.push_back(error_of(kCheck, watched.error()));
+      return out;
+    }
+    if (watched->longest_s > machine.opcua.cycle_s) {
       out.push_back({Severity::warning, kCheck,
                      fmt::format("the control takes up to {:.0f} ms for a reading, more than "
                                  "cycle_ms = {:g}",
-                                 1e3 * *shown, 1e3 * machine.opcua.cycle_s),
+                                 1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
                      "set cycle_ms above that, and dead_man_ms to three times as much"});
+    }
+    if (watched->other_layer) {
+      out.push_back(other_layer("another layer acts on this control",
+                                "stop it: two layers would disturb each other"));
     }
   }
   return out;
@@ -152,16 +178,9 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
     return std::unexpected(std::move(there.error()));
   }
   LivePort out;
-  Refusals refusals;
-  for (Finding& finding : opcua_findings(machine)) {
-    if (finding.severity == Severity::error) {
-      refusals.push_back(bad_input(machine.file, finding.what, finding.to_do));
-    } else {
-      out.findings.push_back(std::move(finding));
-    }
-  }
-  if (!refusals.empty()) {
-    return std::unexpected(std::move(refusals));
+  out.findings = opcua_findings(machine);
+  if (auto errors = errors_of(machine, out.findings); !errors.empty()) {
+    return std::unexpected(std::move(errors));
   }
   auto device = std::make_unique<BridgeDevice>(opcua_client(machine));
   if (const auto connected = device->connect(kConnect_s); !connected) {

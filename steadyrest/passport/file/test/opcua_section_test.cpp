@@ -191,6 +191,15 @@ TEST_F(OpcUaSection, PlaceholdersAreFilledInForEachAxisThatIsThere) {
 
 TEST_F(OpcUaSection, WhatDoesNotFitIsRefusedWithItsPlace) {
   EXPECT_THAT(faults("opc.tcp://", "http://"), HasSubstr("machine.toml:19: endpoint = \"http"));
+  for (const char* const endpoint : {"opc.tcp://a:0", "opc.tcp://a:99999", "opc.tcp://[::1",
+                                     "opc.tcp://user:pw@a:4840", "opc.tcp://"}) {
+    EXPECT_THAT(faults("opc.tcp://control:4840", endpoint),
+                HasSubstr(std::string("machine.toml:19: endpoint = \"") + endpoint));
+  }
+  EXPECT_EQ(faults("opc.tcp://control:4840", "opc.tcp://[fe80::1]/server"), "");
+  EXPECT_THAT(faults("MX MZ", "MX MZ MX"), HasSubstr("MX is the name of two axes"));
+  EXPECT_THAT(faults("MX MZ", "MX S2"), HasSubstr("S2 is the name of two axes"));
+  EXPECT_THAT(faults("MX MZ", "MX"), HasSubstr("machine_axes has 1 names; the machine has 2 axes"));
   EXPECT_THAT(faults("password_file = \"secret\"\n", ""), HasSubstr("a user without a password"));
   EXPECT_THAT(faults("user = \"layer\"\n", ""), HasSubstr("a password without a user"));
   EXPECT_THAT(faults("certificates", "password_variable = \"P\"\ncertificates"),
@@ -226,6 +235,9 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
                       "[[write]]\nquantity = \"feed_percent\"\nnode = \"s=/W\"\nindex = 2\n"
                       "length = 3\n[program_state]"),
               HasSubstr("feed_percent has the place of heartbeat: s=/W entry 2"));
+  EXPECT_THAT(mapping("step = 2\n", ""), HasSubstr("each axis needs a place of its own"));
+  EXPECT_THAT(mapping("stopped = [0]", "stopped = [0, 2]"),
+              HasSubstr("program_state 2 is both stopped and running"));
   EXPECT_THAT(mapping("\"actual_mm\"", "\"offset_mm\""), HasSubstr("the mapping has no actual_mm"));
   EXPECT_THAT(mapping("quantity = \"heartbeat\"", "quantity = \"feed_percent\""),
               HasSubstr("no heartbeat"));

@@ -115,7 +115,7 @@ TEST(PortSections, EveryKeyReachesItsField) {
   EXPECT_EQ(read->recorder.kind, kernel::machine::RecorderKind::serial);
   EXPECT_EQ(read->recorder.device, "/dev/ttyACM1");
   EXPECT_EQ(read->recorder.baud, 115200U);
-  EXPECT_EQ(read->recorder.start_mm, (std::vector<double>{1.5, -2.0}));
+  EXPECT_EQ(read->recorder.start_mm, (std::vector<double>{1.5, -2.0, 0.0}));
   EXPECT_EQ(read->recorder.spindle_counts_rev, 4096.0);
   EXPECT_EQ(layer_cycle_s(*read), read->lines.cycle_s);
   // A key without a line above would not be tried.

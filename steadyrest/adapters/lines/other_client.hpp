@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <steadyrest/adapters/lines/wires.hpp>
+#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Two layers on one module would flip its words for ever: the second one must not begin.
+namespace steadyrest::adapters::lines {
+
+/// Who else has the outputs, as far as they show it: a mask that is on, or outputs that change
+/// while this program writes nothing (the heartbeat; with `through` the word, though the panel does
+/// not turn). Watches for four cycles, 0.3 s at least. Empty: nobody. Refused: the link.
+[[nodiscard]] kernel::outcome::Result<std::string> other_client(
+    Wires& wires, const kernel::machine::Lines& lines);
+
+}  // namespace steadyrest::adapters::lines
