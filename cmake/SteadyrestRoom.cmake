@@ -100,9 +100,10 @@ steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_heade
 add_custom_target(threads_tests)
 
 # steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT): a GoogleTest executable; every test is a
-# ctest entry. Several labels may be given. NOT_HOT: see steadyrest_not_hot.
+# ctest entry; with WHOLE all of them are one, so that a suite starts its server once. Several labels may be given. NOT_HOT: see
+# steadyrest_not_hot.
 function(steadyrest_test)
-  cmake_parse_arguments(T "NOT_HOT;ALONE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  cmake_parse_arguments(T "NOT_HOT;ALONE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
   if(NOT T_ALONE)
     set(T_ALONE FALSE)
   endif()
@@ -125,9 +126,14 @@ function(steadyrest_test)
   if("threads" IN_LIST T_LABEL)
     add_dependencies(threads_tests ${target})
   endif()
-  gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${T_LABEL}" TIMEOUT 600
-    RUN_SERIAL ${T_ALONE}
+  set(properties LABELS "${T_LABEL}" TIMEOUT 600 RUN_SERIAL ${T_ALONE}
     ENVIRONMENT "RC_PARAMS=seed=${STEADYREST_PROPERTY_SEED} max_success=${STEADYREST_PROPERTY_RUNS}")
+  if(T_WHOLE)
+    add_test(NAME ${T_NAME} COMMAND ${target})
+    set_tests_properties(${T_NAME} PROPERTIES ${properties})
+  else()
+    gtest_discover_tests(${target} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  endif()
 endfunction()
 
 # steadyrest_bench(NAME x SOURCES … DEPENDS …): an executable of Google Benchmark; the target `bench` runs all of them.

@@ -67,6 +67,11 @@ Result<std::unique_ptr<EncoderSource>> open_encoders(const Recorder& recorder, d
   }
 }
 
+std::string name_of(const kernel::machine::Lines& lines) {
+  const bool network = lines.kind == kernel::machine::LinesKind::modbus_tcp;
+  return "the module " + (network ? lines.address : lines.device);
+}
+
 bool is_on(const Levels& inputs, std::uint32_t line) noexcept {
   return line < kMostLines && inputs[line];
 }
@@ -112,7 +117,7 @@ LinesPort::LinesPort(const Machine& machine, LinesDevice::Parts parts)
       axes_(machine.axes),
       start_count_(machine.axes.size()),
       encoders_(parts.encoders != nullptr ? encoder_count(machine) : 0),
-      exchange_("the override lines",
+      exchange_(name_of(machine.lines),
                 std::make_unique<LinesDevice>(machine.lines, std::move(parts)),
                 kPatience * machine.lines.reply_s) {
   for (std::size_t i = 0; i < axes_.size() && i < machine.recorder.start_mm.size(); ++i) {

@@ -3,10 +3,13 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <modbus.h>
+#include <netdb.h>
 
 #include <steadyrest/adapters/lines/modbus_wires.hpp>
 #include <steadyrest/kernel/link/host_port.hpp>
@@ -43,6 +46,19 @@ Range whole_registers(const Range& lines) {
   }
   const Range all = registers_of(lines);
   return {.first = all.first * kPerRegister, .count = all.count * kPerRegister};
+}
+
+/// libmodbus says "Connection refused" for a name that nobody knows. Empty: it is known.
+std::string unknown_host(const Lines& lines) {
+  const auto at = lines.kind == LinesKind::modbus_tcp
+                      ? kernel::link::host_and_port(lines.address, kPort)
+                      : std::nullopt;
+  addrinfo* found = nullptr;
+  const int fault = at ? ::getaddrinfo(at->host.c_str(), nullptr, nullptr, &found) : 0;
+  if (found != nullptr) {
+    ::freeaddrinfo(found);
+  }
+  return fault != 0 ? ::gai_strerror(fault) : std::string();
 }
 
 /// The module answered, with a refusal.
@@ -127,9 +143,11 @@ Result<void> ModbusWires::connect() {
     return {};
   }
   if (modbus_connect(link_.get()) != 0) {
-    return unavailable(
-        fmt::format("the module {} cannot be reached: {}", name(), modbus_strerror(errno)),
-        "see its power, its link and its address in [lines]");
+    const int fault = errno;
+    const std::string unknown = unknown_host(lines_);
+    return unavailable(fmt::format("the module {} cannot be reached: {}", name(),
+                                   unknown.empty() ? modbus_strerror(fault) : unknown),
+                       "see its power, its link and its address in [lines]");
   }
   connected_ = true;
   guarded_ = false;

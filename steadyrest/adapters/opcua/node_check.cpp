@@ -102,4 +102,46 @@ std::vector<Refusal> node_faults(const Answer& answer, const NodePlan& plan,
   return out;
 }
 
+std::vector<Refusal> value_faults(const Reading& reading, const kernel::machine::Machine& machine) {
+  using kernel::machine::OverrideTable;
+  using kernel::machine::Quantity;
+  std::vector<Refusal> out;
+  const auto check = [&](Quantity quantity, const std::string& of, double shown, double least,
+                         double most) {
+    if (shown < least || shown > most) {
+      out.push_back(
+          bad_input(machine.opcua.mapping,
+                    fmt::format("{}{} is {:g} now; it can be {:g} … {:g}",
+                                kernel::machine::kQuantityWords[static_cast<std::size_t>(quantity)],
+                                of, shown, least, most),
+                    "correct its node, scale or offset in the mapping"));
+    }
+  };
+  const auto most_percent = [](const OverrideTable& table) {
+    constexpr double kMost = 2.0;
+    return 100.0 * (table.ratio.empty() ? kMost : std::max(kMost, table.ratio.back()));
+  };
+  const std::array<std::pair<Quantity, const OverrideTable*>, 6> overrides = {
+      {{Quantity::feed_panel_percent, &machine.feed_override},
+       {Quantity::feed_effective_percent, &machine.feed_override},
+       {Quantity::rapid_panel_percent, &machine.rapid_override},
+       {Quantity::rapid_effective_percent, &machine.rapid_override},
+       {Quantity::spindle_panel_percent, &machine.spindle_override},
+       {Quantity::spindle_effective_percent, &machine.spindle_override}}};
+  for (const auto& [quantity, table] : overrides) {
+    check(quantity, "", reading[quantity], 0.0, most_percent(*table));
+  }
+  constexpr double kBeyond_mm = 1.0;
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    const auto& axis = machine.axes[i];
+    if (axis.present && !axis.rotary) {
+      for (const Quantity quantity : {Quantity::command_mm, Quantity::actual_mm}) {
+        check(quantity, " of " + axis.name, reading(quantity, i), axis.min_au - kBeyond_mm,
+              axis.max_au + kBeyond_mm);
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace steadyrest::adapters::opcua

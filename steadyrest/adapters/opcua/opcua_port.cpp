@@ -111,10 +111,7 @@ Result<kernel::signal::Frame> OpcUaPort::read() noexcept {
   frame.cycle = ++cycle_;
   const double alive = reading[Quantity::layer_alive];
   in_force_.store(std::isfinite(alive) ? (alive > 0.0 ? 1 : 0) : -1);
-  program_.store({.name = reading.program,
-                  .state = frame.program,
-                  .line = frame.program_line,
-                  .frames = cycle_});
+  program_.store({.name = reading.program, .state = frame.program});
   return frame;
 }
 

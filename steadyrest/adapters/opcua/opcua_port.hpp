@@ -21,10 +21,8 @@ namespace steadyrest::adapters::opcua {
 
 /// The NC program as the last frame showed it.
 struct ShownProgram {
-  std::array<char, kLongestName + 1> name{};
+  std::array<char, kLongestName + 1> name{};  ///< empty: not known
   kernel::signal::ProgramState state = kernel::signal::ProgramState::unknown;
-  std::uint32_t line = 0;
-  std::uint64_t frames = 0;  ///< so far
 };
 
 /// A control behind an OPC UA server as a machine.

@@ -15,7 +15,7 @@ struct Words {
   std::string_view to_do;
 };
 
-constexpr std::array<Words, 22> kWords = {{
+constexpr std::array<Words, 29> kWords = {{
     {"certificate_not_trusted", "the control's certificate is not trusted",
      "compare its fingerprint with the one on the control and trust it: steadyrest opcua trust"},
     {"certificate_changed", "the control shows another certificate than the trusted one",
@@ -27,6 +27,14 @@ constexpr std::array<Words, 22> kWords = {{
      "compare it again; another computer may answer at this address"},
     {"own_certificate_refused", "the control refuses the layer's certificate",
      "trust it on the control (docs/opcua.md, Certificates)"},
+    {"own_certificate_not_made", "the layer's own certificate cannot be made",
+     "let this user write the folder, or name another one: certificates in [opcua]"},
+    {"own_certificate_damaged", "the layer's own certificate or its key is damaged",
+     "remove the folder own, and trust the new certificate on the control"},
+    {"own_key_open", "others may read the private key of the layer's certificate", "chmod 600 it"},
+    {"user_needed", "the control wants a user", "add user and password_file to [opcua]"},
+    {"users_not_offered", "the control takes no user with a password at this endpoint",
+     "allow users on the control, or leave user out"},
     {"user_refused", "the control refuses the user or the password",
      "create the user on the control, and put its password into password_file"},
     {"password_missing", "there is no password", "write it into password_file"},
@@ -37,6 +45,11 @@ constexpr std::array<Words, 22> kWords = {{
      "correct endpoint, or give the control's IP address"},
     {"nobody_listens", "no OPC UA server listens there",
      "start it on the control, open its port in the firewall, or correct endpoint"},
+    {"no_answer", "what listens there does not answer",
+     "see whether the control's OPC UA server runs, or correct endpoint"},
+    {"no_opcua", "what listens there speaks no OPC UA, or ends the connection",
+     "correct endpoint (most controls: port 4840), and see whether the control lets this computer "
+     "in"},
     {"no_way", "there is no way to the control", "see to the network cable and the IP addresses"},
     {"link_lost", "the link to the control is lost", "see to the network and the control"},
     {"too_many_sessions", "the control has no session left",
@@ -45,7 +58,7 @@ constexpr std::array<Words, 22> kWords = {{
      "use the mapping of this control and firmware"},
     {"node_malformed", "the mapping has a node that is none", "correct it in the mapping file"},
     {"not_connected", "there is no connection to the control",
-     "wait, or see why: steadyrest doctor"},
+     "wait; if it stays so, see the control's OPC UA log"},
     {"stopped", "the bridge was stopped", "start again"},
     {"bad_request", "the OPC UA bridge does not understand the layer",
      "use the bridge that belongs to this program"},

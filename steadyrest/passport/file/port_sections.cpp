@@ -102,8 +102,8 @@ void check_wires(const OverrideWires& wires, const Given& given, Wiring wiring,
                "add the [override] section of that switch");
   } else if (wires.panel.size() < needed) {
     faults.add(given.at({"panel"}),
-               fmt::format("{} has {} lines; the table's code {:#b} needs {}", given.section,
-                           wires.panel.size(), widest, needed),
+               fmt::format("{} has {} of the {} lines that the table's code {:#b} needs",
+                           given.section, wires.panel.size(), needed, widest),
                "wire all bits of the word, or correct the table");
   }
 }

@@ -61,7 +61,7 @@ std::optional<Refusal> unfit_bytes(std::string_view text) {
     if ((c < 0x20U && c != '\t' && c != '\n' && c != '\r') || c == 0x7FU) {
       return bad_input("", line_at(text, i),
                        fmt::format("byte 0x{:02x} is not text; this looks like a binary file", c),
-                       "give a machine file: TOML in plain UTF-8");
+                       "give a TOML file in plain UTF-8");
     }
     const std::size_t length = sequence_length(text, i);
     if (length == 0) {
@@ -131,8 +131,8 @@ std::optional<Refusal> too_deep(std::string_view text) {
 std::optional<Refusal> unfit_text(std::string_view text) {
   if (text.size() > kMaxFileBytes) {
     return bad_input(
-        fmt::format("larger than {} MB; a machine file has a few kB", kMaxFileBytes >> 20U),
-        "give a machine file, not a program or a log");
+        fmt::format("larger than {} MB; such a file has a few kB", kMaxFileBytes >> 20U),
+        "give a TOML file, not a program or a log");
   }
   if (std::all_of(text.begin(), text.end(),
                   [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; })) {

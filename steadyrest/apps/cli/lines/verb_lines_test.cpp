@@ -111,8 +111,8 @@ bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs,
     answer.text += fmt::format("[lines.{}] {}: {}\n", of.name, way, line);
   }
   if (faults.empty()) {
-    answer.text +=
-        fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way, pairs.size());
+    answer.text += fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way,
+                               std::min(pairs.size(), of.table->code.size()));
   }
   Json words = Json::array();
   for (const WordPair& pair : pairs) {

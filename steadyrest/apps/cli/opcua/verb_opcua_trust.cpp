@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <expected>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
@@ -20,6 +23,24 @@ struct Options {
   bool where = false;
 };
 
+/// Pairs of digits may have colons or blanks between them, as controls and browsers show them.
+std::expected<void, Refusals> check_fingerprint(const std::string& text) {
+  constexpr std::size_t kDigits = 64;
+  const auto digits = std::ranges::count_if(text, [](char c) {
+    return std::string_view("0123456789abcdefABCDEF").find(c) != std::string_view::npos;
+  });
+  const auto between =
+      std::ranges::count_if(text, [](char c) { return c == ':' || c == ' ' || c == '-'; });
+  const bool whole =
+      std::cmp_equal(digits, kDigits) && std::cmp_equal(digits + between, text.size());
+  if (text.empty() || (whole && text.size() < 2 * kDigits)) {
+    return {};
+  }
+  return refused(bad_input("--fingerprint is not 64 hexadecimal digits",
+                           "copy the SHA-256 that steadyrest opcua trust shows and the control "
+                           "confirms"));
+}
+
 Outcome run(const Options& options) {
   auto machine = read_machine(options.machine);
   if (!machine) {
@@ -28,6 +49,9 @@ Outcome run(const Options& options) {
   if (machine->opcua.endpoint.empty()) {
     return refused(
         bad_input(machine->file, "there is no [opcua]", "add it, with the control's endpoint"));
+  }
+  if (auto whole = check_fingerprint(options.fingerprint); !whole) {
+    return std::unexpected(std::move(whole.error()));
   }
   const auto config = live::opcua_client(*machine);
   if (options.where) {

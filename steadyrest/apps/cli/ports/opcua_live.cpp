@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -15,9 +16,11 @@
 #include <steadyrest/adapters/opcua/bridge_device.hpp>
 #include <steadyrest/adapters/opcua/node_check.hpp>
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
+#include <steadyrest/adapters/opcua/program_name.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/program_place.hpp>
 #include <steadyrest/apps/cli/shared/findings.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/path/followed_port.hpp>
 #include <steadyrest/live/path/program_watch.hpp>
 
@@ -39,7 +42,7 @@ constexpr double kConnect_s = 20.0;
 constexpr std::chrono::milliseconds kBetweenSamples(20);
 constexpr int kSamples = 10;
 constexpr double kDeadMen = 1.5;  ///< times of the dead man
-constexpr const char* kCheck = "opcua";
+constexpr const char* kOpcUaCheck = "opcua";
 
 std::string beside_program() {
   std::error_code error;
@@ -62,17 +65,18 @@ std::string state_folder() {
 struct Watched {
   double longest_s = 0.0;    ///< that a reading took
   bool other_layer = false;  ///< the control takes orders, or obeys somebody
+  adapter::Reading last;
 };
 
 /// The control's side shows another sample each time.
 Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa& config) {
   using Clock = std::chrono::steady_clock;
   using kernel::machine::Quantity;
-  adapter::Reading reading;
   if (auto connected = device.connect(kConnect_s); !connected) {
     return std::unexpected(std::move(connected.error()));
   }
   Watched out;
+  adapter::Reading& reading = out.last;
   double heartbeat = std::nan("");
   // A layer that has just ended is still obeyed for the dead man's time.
   const auto least = std::chrono::duration<double>(kDeadMen * config.dead_man_s);
@@ -93,12 +97,21 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
   return out;
 }
 
-/// Of the control's program what the operator names; its state is the control's own.
+/// Of the control's program what the operator names; its state is the control's own. While it
+/// stands the control shows the name of what was selected, later that of a subprogram too.
 ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
   return [program = std::move(program), &port, seen = std::optional<bool>()](
              double wait_s) mutable -> Result<std::optional<LoadedProgram>> {
-    const auto state = port.program().state;
-    const bool stopped = state == kernel::signal::ProgramState::stopped;
+    const auto now = port.program();
+    const bool stopped = now.state == kernel::signal::ProgramState::stopped;
+    const std::string_view name = now.name.data();
+    if (stopped && !name.empty() && !adapter::same_program(name, program.file)) {
+      seen.reset();
+      std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
+      return kernel::outcome::refuse(program.file,
+                                     fmt::format("is not what the control has selected: {}", name),
+                                     "select it there, or start the layer with that program");
+    }
     if (seen == stopped) {
       std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
       return std::nullopt;
@@ -122,12 +135,13 @@ BridgeClient::Config opcua_client(const Machine& machine) {
 std::vector<Finding> opcua_findings(const Machine& machine) {
   std::vector<Finding> out;
   if (machine.opcua.security == kernel::machine::OpcUaSecurity::none) {
-    out.push_back({Severity::warning, kCheck,
+    out.push_back({Severity::warning, kOpcUaCheck,
                    "security = \"none\": everybody in the network can read and change what is sent",
                    "use sign_and_encrypt, or a dedicated cable between the two computers"});
   }
   if (machine.opcua.writes.empty()) {
-    out.push_back({Severity::note, kCheck, "the mapping writes nothing: the layer can only observe",
+    out.push_back({Severity::note, kOpcUaCheck,
+                   "the mapping writes nothing: the layer can only observe",
                    "add [[write]] to the mapping if it shall act"});
   }
   const adapter::NodePlan plan(machine.opcua);
@@ -135,16 +149,16 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
     BridgeClient client(opcua_client(machine), plan);
     const auto connected = client.connect(kConnect_s);
     if (!connected) {
-      out.push_back(error_of(kCheck, connected.error()));
+      out.push_back(error_of(kOpcUaCheck, connected.error()));
       return out;
     }
     const auto checked = client.check();
     if (!checked) {
-      out.push_back(error_of(kCheck, checked.error()));
+      out.push_back(error_of(kOpcUaCheck, checked.error()));
       return out;
     }
     for (const Refusal& fault : adapter::node_faults(*checked, plan, machine.opcua)) {
-      out.push_back(error_of(kCheck, fault));
+      out.push_back(error_of(kOpcUaCheck, fault));
     }
   }
   if (std::ranges::none_of(out,
@@ -152,15 +166,18 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
     BridgeDevice device(opcua_client(machine));
     const auto watched = watch_samples(device, machine.opcua);
     if (!watched) {
-      out.push_back(error_of(kCheck, watched.error()));
+      out.push_back(error_of(kOpcUaCheck, watched.error()));
       return out;
     }
     if (watched->longest_s > machine.opcua.cycle_s) {
-      out.push_back({Severity::warning, kCheck,
+      out.push_back({Severity::warning, kOpcUaCheck,
                      fmt::format("the control takes up to {:.0f} ms for a reading, more than "
                                  "cycle_ms = {:g}",
                                  1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
                      "set cycle_ms above that, and dead_man_ms to three times as much"});
+    }
+    for (const Refusal& fault : adapter::value_faults(watched->last, machine)) {
+      out.push_back(error_of(kOpcUaCheck, fault));
     }
     if (watched->other_layer) {
       out.push_back(other_layer("another layer acts on this control",

@@ -29,7 +29,7 @@ std::vector<Finding> by_severity(const std::vector<Finding>& findings) {
 Finding error_of(std::string_view check, const Refusal& refusal) {
   return {.severity = Severity::error,
           .check = check,
-          .what = refusal.what,
+          .what = (refusal.file.empty() ? "" : refusal.file + ": ") + refusal.what,
           .to_do = refusal.to_do,
           .kind = refusal.kind};
 }

@@ -4,12 +4,12 @@
 //   controls/      certificates of trusted controls, one .der file each, named by their fingerprint
 //   refused/       what a control showed and nobody trusts yet
 //   controls.json  which certificate each endpoint had when it was trusted
-import { createHash, X509Certificate } from "node:crypto";
+import { createHash, createPrivateKey, X509Certificate } from "node:crypto";
 import fs from "node:fs";
 import os from "node:os";
 import path from "node:path";
 import { OPCUACertificateManager } from "node-opcua-certificate-manager";
-import { Fault } from "./words.mjs";
+import { Fault, textOf } from "./words.mjs";
 
 const kYears = 10;
 const kMostRefused = 32;
@@ -32,6 +32,14 @@ export function describe(der) {
   return out;
 }
 
+function holds(file, bytes) {
+  try {
+    return fs.readFileSync(file).equals(bytes);
+  } catch {
+    return false;
+  }
+}
+
 function replaceFile(file, bytes) {
   const beside = `${file}.${process.pid}.new`;
   fs.writeFileSync(beside, bytes, { mode: 0o600 });
@@ -42,17 +50,35 @@ export class Certificates {
   /** @param {string} folder */
   constructor(folder) {
     this.folder = folder;
-    for (const below of ["own", "controls", "refused"]) {
-      fs.mkdirSync(path.join(folder, below), { recursive: true, mode: 0o700 });
-    }
     this.file = path.join(folder, "own", "certificate.pem");
     this.keyFile = path.join(folder, "own", "private", "private_key.pem");
   }
 
   /** Makes key and certificate where there are none; keeps them otherwise. */
-  own() {
-    this.made ??= this.#make();
-    return this.made;
+  async own() {
+    try {
+      for (const below of ["own", "controls", "refused"]) {
+        fs.mkdirSync(path.join(this.folder, below), { recursive: true, mode: 0o700 });
+      }
+      await this.#make();
+    } catch (error) {
+      throw new Fault("own_certificate_not_made", textOf(error));
+    }
+    this.#check();
+  }
+
+  #check() {
+    if ((fs.statSync(this.keyFile).mode & 0o077) !== 0) {
+      throw new Fault("own_key_open", this.keyFile);
+    }
+    let fits = false;
+    try {
+      const key = createPrivateKey(fs.readFileSync(this.keyFile));
+      fits = new X509Certificate(fs.readFileSync(this.file)).checkPrivateKey(key);
+    } catch (error) {
+      throw new Fault("own_certificate_damaged", `${path.dirname(this.file)}: ${textOf(error)}`);
+    }
+    if (!fits) throw new Fault("own_certificate_damaged", `${this.keyFile} is not the certificate's key`);
   }
 
   async #make() {
@@ -95,7 +121,7 @@ export class Certificates {
     const shown = describe(der);
     const trusted = path.join(this.folder, "controls", `${shown.fingerprint}.der`);
     const before = this.#seen()[endpoint];
-    if (before !== shown.fingerprint || !fs.existsSync(trusted)) {
+    if (before !== shown.fingerprint || !holds(trusted, der)) {
       this.#keepRefused(shown, der);
       if (typeof before === "string" && before !== shown.fingerprint) {
         throw new Fault("certificate_changed",

@@ -69,19 +69,22 @@ export class Link {
     let lost;
     const ended = new Promise((resolve) => (lost = resolve));
     this.lost = lost;
+    const attempt = { over: false };
     try {
-      await within(this.#connect(lost), 10 * this.#config.timeout_ms + 2000, "connecting");
+      await within(this.#connect(lost, attempt), 10 * this.#config.timeout_ms + 2000, "connecting");
       onConnected();
       this.#tell({ event: "state", state: "connected" });
       return await ended;
     } catch (error) {
       return error;
     } finally {
+      attempt.over = true;
       await this.#close();
     }
   }
 
-  async #connect(lost) {
+  /** An attempt that is over goes no further: its client would be nobody's, and its session stay. */
+  async #connect(lost, attempt) {
     const { endpoint, security, user, timeout_ms: timeout } = this.#config;
     const secure = security !== "none";
     this.#certificates ??= new Certificates(this.#config.state);
@@ -90,13 +93,19 @@ export class Link {
       ? { type: UserTokenType.Anonymous }
       : { type: UserTokenType.UserName, userName: user, password: passwordOf(this.#config) };
     const shown = secure ? await this.#endpointOf() : undefined;
+    if (attempt.over) return;
     const client = this.#make(secure, shown?.serverCertificate);
     this.#client = client;
     for (const event of ["connection_lost", "close", "abort"]) {
       client.on(event, (error) => lost(error ?? new Fault("link_lost", "the control closed the connection")));
     }
     await client.connect(endpoint);
-    this.#session = await client.createSession(identity);
+    const session = await client.createSession(identity);
+    if (attempt.over) {
+      await session.close();
+      return;
+    }
+    this.#session = session;
     this.#session.on("session_closed", () => lost(new Fault("link_lost", "the control closed the session")));
     await this.#resolve(timeout);
   }
@@ -215,7 +224,8 @@ export class Link {
     const data = await this.#ask(session.read(this.#read), "reading");
     const values = data.map((one) => (one.statusCode.isGood() ? plain(one.value?.value) : null));
     const status = data.map((one) => one.statusCode.value >>> 0);
-    const time = data.map((one) => one.sourceTimestamp?.getTime() ?? one.serverTimestamp?.getTime() ?? 0);
+    // A source's stamp stays while its value does.
+    const time = data.map((one) => one.serverTimestamp?.getTime() ?? one.sourceTimestamp?.getTime() ?? 0);
     return { values, status, time_ms: time, sent_ms: sent };
   }
 

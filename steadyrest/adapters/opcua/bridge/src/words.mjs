@@ -11,6 +11,8 @@ export class Fault extends Error {
 }
 
 const kByStatus = [
+  [/ANONYMOUS.*user token policy/i, "user_needed"],
+  [/user token policy/i, "users_not_offered"],
   [/BadIdentityTokenRejected|BadIdentityTokenInvalid|BadUserAccessDenied/, "user_refused"],
   [/BadUserSignatureInvalid/, "user_refused"],
   [/BadTooManySessions|BadMaxConnectionsReached|BadTcpNotEnoughResources/, "too_many_sessions"],
@@ -19,13 +21,15 @@ const kByStatus = [
   [/ENOTFOUND|EAI_AGAIN/, "host_unknown"],
   [/ECONNREFUSED|cannot be established/, "nobody_listens"],
   [/EHOSTUNREACH|ENETUNREACH|ETIMEDOUT/, "no_way"],
+  [/rejected by server[^]*Timeout/, "no_answer"],
+  [/rejected by server/, "no_opcua"],
   [/timeout|BadTimeout|BadRequestTimeout|BadConnectionClosed|Connection Break|ECONNRESET|EPIPE|socket/i, "link_lost"],
 ];
 
 /** @param {unknown} error */
 export function whyOf(error) {
   if (error instanceof Fault) return error.why;
-  const text = textOf(error);
+  const text = error instanceof Error ? error.message : String(error);
   for (const [pattern, why] of kByStatus) {
     if (pattern.test(text)) return why;
   }
@@ -35,6 +39,7 @@ export function whyOf(error) {
 /** @param {unknown} error */
 export function textOf(error) {
   const text = error instanceof Error ? error.message : String(error);
-  const first = text.split("\n")[0].trim();
+  // node-opcua puts the cause behind two lines of advice.
+  const first = (/Err = \(([^]*)\)/.exec(text)?.[1] ?? text.split("\n")[0]).trim();
   return (first === "" && error instanceof Error ? error.name : first).slice(0, 400);
 }
