@@ -59,7 +59,8 @@ struct Lines {
   std::uint32_t modulate = kNoLine;   ///< input: the program asks for speed modulation
   double programmed_rev_s = 0.0;      ///< S of the program, where no encoder shows it; 0: not known
   double watchdog_s = 0.0;  ///< the module drops its outputs after this time; 0: it has no watchdog
-  /// Registers that set it: address and value in turn, written at each connection and read back.
+  /// Registers that set it: address and value in turn, written and read back before the first write
+  /// of each connection.
   std::vector<std::uint32_t> watchdog_registers;
   /// Written before them, not read back and not missed: what clears a watchdog that has expired.
   std::vector<std::uint32_t> watchdog_reset;
@@ -80,7 +81,7 @@ struct Recorder {
   /// its count.
   std::vector<std::uint32_t> inputs;
   std::uint32_t baud = 2000000;   ///< of a real serial line; USB ignores it
-  std::vector<double> start_mm;   ///< positions of the axes when the layer starts; none: 0
+  std::vector<double> start_mm;   ///< of all axes when the layer starts; none: 0
   double spindle_counts_rev = 0;  ///< counts of the spindle's encoder in a turn; 0: it has none
 
   friend bool operator==(const Recorder&, const Recorder&) = default;

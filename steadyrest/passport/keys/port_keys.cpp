@@ -73,12 +73,13 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "has no output watchdog."},
       Key<Lines>{"watchdog_registers", &Lines::watchdog_registers, 0, kLastAddress,
                  "Modbus: registers that set that watchdog, address and value in turn. They are "
-                 "written at each connection and read back.",
+                 "written and read back before the first write of each connection.",
                  Need::optional, For::any, 32},
       Key<Lines>{"watchdog_reset", &Lines::watchdog_reset, 0, kLastAddress,
                  "Modbus: what clears an expired watchdog, address and value in turn, the same "
-                 "address more than once if need be. Written before `watchdog_registers` at each "
-                 "connection; a module that refuses it is not at fault.",
+                 "address more than once if need be. Written before `watchdog_registers`, and when "
+                 "the module answers a reading with exception 4; a module that refuses it is not "
+                 "at fault.",
                  Need::optional, For::any, 32},
   };
   return kKeys;
@@ -118,8 +119,8 @@ std::span<const Key<Recorder>> recorder_keys() noexcept {
                     "`0, 1` for counter0/count1.",
                     Need::optional, For::any, 18},
       Key<Recorder>{"start_mm", &Recorder::start_mm, -1e5, 1e5,
-                    "Positions of the axes, X first, when the layer starts; by default 0: start it "
-                    "with the machine at its reference point.",
+                    "Positions of the axes when the layer starts, one for each `[[axis]]`; by "
+                    "default 0: start it with the machine at its reference point.",
                     Need::optional, For::any, 8},
       Key<Recorder>{"spindle_counts_rev", &Recorder::spindle_counts_rev, 0, 1e7,
                     "Counts of the spindle's encoder in one turn, after ×4 decoding; 0: it has no "
