@@ -31,12 +31,11 @@ Result<Reading> read(Wires& wires) {
   return out;
 }
 
+/// A mask that is on; empty: none.
 std::string mask_on(const Lines& lines, const Levels& outputs) {
-  if (lines.wiring != Wiring::through) {
-    for (const std::uint32_t mask : {lines.feed.mask, lines.spindle.mask}) {
-      if (mask < kMostLines && outputs[mask]) {
-        return fmt::format("output {}, a mask, is on: a layer acts on this module", mask);
-      }
+  for (const std::uint32_t mask : {lines.feed.mask, lines.spindle.mask}) {
+    if (lines.wiring != Wiring::through && mask < kMostLines && outputs[mask]) {
+      return fmt::format("output {}, a mask, is on: a layer acts on this module", mask);
     }
   }
   return {};
@@ -45,33 +44,37 @@ std::string mask_on(const Lines& lines, const Levels& outputs) {
 }  // namespace
 
 Result<std::string> other_client(Wires& wires, const Lines& lines) {
-  const auto first = read(wires);
-  if (!first) {
-    return std::unexpected(first.error());
+  auto before = read(wires);
+  if (!before) {
+    return std::unexpected(before.error());
   }
-  const double until_s = wires.now_s() + std::max(kLeast_s, kCycles * lines.cycle_s);
-  std::string seen = mask_on(lines, first->outputs);
-  while (seen.empty() && wires.now_s() < until_s) {
+  const bool beats = lines.heartbeat != kernel::machine::kNoLine;
+  const bool waits = !beats && !mask_on(lines, before->outputs).empty();
+  const double watch_s = std::max(kLeast_s, kCycles * lines.cycle_s);
+  const double until_s =
+      wires.now_s() + (waits ? std::max(watch_s, 2.0 * lines.watchdog_s) : watch_s);
+  const auto ours = output_lines(lines);
+  while (wires.now_s() < until_s) {
     kernel::link::Event().wait(kPause_s);
     const auto now = read(wires);
     if (!now) {
       return std::unexpected(now.error());
     }
-    if (lines.wiring == Wiring::through && now->inputs != first->inputs) {
-      break;  // who passes the panel on changes the outputs with it
+    if (lines.wiring == Wiring::through && now->inputs != before->inputs) {
+      return {};  // who passes the panel on changes the outputs with it
     }
-    seen = mask_on(lines, now->outputs);
-    const Levels changed = now->outputs ^ first->outputs;
-    for (const std::uint32_t line : output_lines(lines)) {
-      if (seen.empty() && changed[line]) {
-        seen = fmt::format(
-            "output {} changes though this program writes nothing: a layer acts on "
-            "this module",
-            line);
-      }
+    const Levels changed = now->outputs ^ before->outputs;
+    const auto line = std::ranges::find_if(ours, [&](auto one) { return changed[one]; });
+    const bool dropped = std::ranges::none_of(ours, [&](auto one) { return now->outputs[one]; });
+    if (line != ours.end() && !dropped) {
+      return fmt::format(
+          "output {} changes though this program writes nothing: a layer acts on "
+          "this module",
+          *line);
     }
+    before = now;
   }
-  return seen;
+  return beats ? std::string() : mask_on(lines, before->outputs);
 }
 
 }  // namespace steadyrest::adapters::lines

@@ -67,9 +67,27 @@ TEST(OtherClient, OutputsOfOthersOnTheSameModuleDoNotCount) {
   EXPECT_EQ(seen(Wiring::plc, [](auto& wires) { wires.outputs.flip(9); }), "");
 }
 
-TEST(OtherClient, AMaskIsALayer) {
-  EXPECT_EQ(seen(Wiring::relay, [](auto& wires) { wires.outputs.set(3); }),
+TEST(OtherClient, AMaskThatStaysIsALayerWhereNoHeartbeatTells) {
+  const auto mask = [](auto& wires) { wires.outputs.set(3); };
+  EXPECT_EQ(seen(Wiring::relay, mask), "") << "its heartbeat stands still";
+  SharedWires wires(mask);
+  Lines lines = watched_lines(Wiring::relay);
+  lines.heartbeat = kernel::machine::kNoLine;
+  EXPECT_EQ(other_client(wires, lines).value(),
             "output 3, a mask, is on: a layer acts on this module");
+}
+
+// A service starts the layer again at once after it has died.
+TEST(OtherClient, AModulesWatchdogIsWaitedFor) {
+  for (const double died_s : {0.0, 0.8}) {
+    for (const bool beats : {true, false}) {
+      SharedWires wires([&](auto& of) { of.outputs = Levels(of.now < died_s ? 0b11101 : 0); });
+      Lines lines = watched_lines(Wiring::relay);
+      lines.heartbeat = beats ? lines.heartbeat : kernel::machine::kNoLine;
+      lines.watchdog_s = 0.5;
+      EXPECT_EQ(other_client(wires, lines).value(), "") << died_s;
+    }
+  }
 }
 
 TEST(OtherClient, AHeartbeatOfFourCyclesIsSeen) {
