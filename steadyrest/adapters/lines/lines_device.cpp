@@ -20,7 +20,8 @@ constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
 constexpr int kMostDisputes = 3;
 constexpr double kDispute_s = 60.0;
-constexpr double kTimeTolerance = 1e-9;
+/// Of the scan: the cycle's jitter.
+constexpr double kTimeTolerance = 0.1;
 
 Levels outputs_set(const Lines& lines) {
   Levels all;
@@ -52,7 +53,7 @@ LinesDevice::~LinesDevice() {
 }
 
 bool LinesDevice::settled(const OverrideLine& line) const noexcept {
-  return parts_.wires->now_s() - since_s_ >= line.table().scan_period_s() - kTimeTolerance;
+  return parts_.wires->now_s() - since_s_ >= (1.0 - kTimeTolerance) * line.table().scan_period_s();
 }
 
 void LinesDevice::release(Levels& outputs) noexcept {
@@ -64,12 +65,17 @@ void LinesDevice::release(Levels& outputs) noexcept {
 }
 
 Result<void> LinesDevice::send(const Levels& outputs) {
-  if (((outputs ^ on_wires_) & words_).any()) {
-    since_s_ = parts_.wires->now_s();
-  }
+  const bool changed = ((outputs ^ on_wires_) & words_).any();
   on_wires_ = outputs;
+  const double begin_s = parts_.wires->now_s();
   auto written = parts_.wires->write(outputs);
+  const double took_s = parts_.wires->now_s() - begin_s;
   sent_ = written.has_value();
+  fastest_s_ = sent_ ? std::min(fastest_s_, took_s) : fastest_s_;
+  if (changed) {
+    // A slow write counts from its end, less what the next one takes at least.
+    since_s_ = begin_s + std::max(0.0, took_s - fastest_s_);
+  }
   return written;
 }
 
@@ -85,8 +91,11 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 
 Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const double now_s = parts_.wires->now_s();
-  disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
-  dispute_s_ = now_s;
+  const bool dropped = (outputs & ours_).none();  // by a watchdog
+  if (!dropped) {
+    disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
+    dispute_s_ = now_s;
+  }
   sent_ = false;
   const std::size_t line = differ._Find_first();
   const std::string what = fmt::format("output {} of the module is {}, but {} was written", line,
@@ -94,7 +103,7 @@ Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const char* const why =
       "its watchdog has dropped the outputs, the line is stuck, or another "
       "client writes: steadyrest lines test";
-  if (disputes_ < kMostDisputes) {
+  if (dropped || disputes_ < kMostDisputes) {
     parts_.wires->disconnect();  // a watchdog that has expired is cleared at a connection
     return unavailable(what, why);
   }
@@ -116,10 +125,13 @@ Result<void> LinesDevice::pass_on() {
   if (!ends && (acting_ || lines_.wiring != Wiring::through)) {
     return {};
   }
-  acting_ = false;
   Levels outputs = on_wires_;
   release(outputs);
-  return send(outputs);
+  auto sent = send(outputs);
+  acting_ = acting_ && !sent;  // tried again
+  // Nobody writes from here on, and a watchdog may drop the outputs.
+  sent_ = sent_ && lines_.wiring == Wiring::through;
+  return sent;
 }
 
 Result<void> LinesDevice::read_lines(LineSample& sample) {
@@ -137,10 +149,11 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
     return as_written;
   }
   if (!sent_ || let_go_) {
+    since_s_ = on_wires_ == outputs ? since_s_ : parts_.wires->now_s();
     on_wires_ = outputs;
     for (auto* line : {&parts_.feed, &parts_.spindle}) {
       if (*line) {
-        (*line)->forget();
+        (*line)->adopt(outputs);
       }
     }
   }

@@ -72,6 +72,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   bool acting_ = false;
   int silent_ = 0;                                  ///< readings since the last order
   int differing_ = 0;                               ///< readings with other outputs
+  double fastest_s_ = 1e9;                          ///< a write takes at least
   double since_s_ = 0;                              ///< when the words on the wires were written
   int disputes_ = 0;                                ///< lost links by other outputs
   double dispute_s_ = 0;                            ///< the last one

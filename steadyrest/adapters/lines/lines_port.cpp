@@ -68,8 +68,15 @@ Result<std::unique_ptr<EncoderSource>> open_encoders(const Recorder& recorder, d
 }
 
 std::string name_of(const kernel::machine::Lines& lines) {
-  const bool network = lines.kind == kernel::machine::LinesKind::modbus_tcp;
-  return "the module " + (network ? lines.address : lines.device);
+  using kernel::machine::LinesKind;
+  switch (lines.kind) {
+    case LinesKind::modbus_tcp:
+      return "the module " + lines.address;
+    case LinesKind::modbus_rtu:
+      return "the module at " + lines.device;
+    default:
+      return lines.device;
+  }
 }
 
 bool is_on(const Levels& inputs, std::uint32_t line) noexcept {

@@ -250,7 +250,11 @@ Result<void> ModbusWires::get_all(Levels& inputs, Levels& outputs) {
     return connected;
   }
   auto got = get(true, inputs);
-  return got ? get(false, outputs) : got;
+  if (got) {
+    got = get(false, outputs);
+  }
+  expired_ = expired_ && !got;
+  return got;
 }
 
 /// Some modules answer nothing more once their watchdog has expired.

@@ -53,6 +53,11 @@ bool OverrideLine::operator_has_it(std::size_t step) const noexcept {
          (above && !table_.layer_may_exceed_panel());
 }
 
+void OverrideLine::adopt(const Levels& outputs) noexcept {
+  step_ = table_.step_of_code(word_of(outputs, config_.wires.out, config_.wires.out_inverted));
+  mask_on_ = config_.wires.mask != kNoLine && outputs[config_.wires.mask];
+}
+
 std::size_t OverrideLine::walk(std::size_t step, bool step_time) noexcept {
   if (step_ && *step_ != step && !table_.latched_word() &&
       !kernel::override::change_is_safe(table_, *step_, step)) {

@@ -58,11 +58,8 @@ class OverrideLine {
   /// Its outputs while the layer does not act. With `through` the word rises to the panel's by safe
   /// steps, as put() changes it; the operator's lower or unknown word is there at once.
   void release(bool step_time, Levels& outputs) noexcept;
-  /// The outputs may be others than those that were put.
-  void forget() noexcept {
-    step_.reset();
-    mask_on_ = false;
-  }
+  /// The outputs may be others than those that were put: goes on from what they are.
+  void adopt(const Levels& outputs) noexcept;
 
   [[nodiscard]] const kernel::override::Table& table() const noexcept { return table_; }
   [[nodiscard]] const Config& config() const noexcept { return config_; }

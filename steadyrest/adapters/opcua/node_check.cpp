@@ -13,12 +13,17 @@
 namespace steadyrest::adapters::opcua {
 namespace {
 
+using kernel::machine::Quantity;
 using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 
 constexpr std::array<std::string_view, 11> kNumeric = {"Boolean", "SByte", "Byte",   "Int16",
                                                        "UInt16",  "Int32", "UInt32", "Int64",
                                                        "UInt64",  "Float", "Double"};
+
+std::string_view word_of(Quantity quantity) {
+  return kernel::machine::kQuantityWords[static_cast<std::size_t>(quantity)];
+}
 
 bool numeric(const std::string& type) {
   return std::ranges::find(kNumeric, type) != kNumeric.end();
@@ -102,42 +107,48 @@ std::vector<Refusal> node_faults(const Answer& answer, const NodePlan& plan,
   return out;
 }
 
-std::vector<Refusal> value_faults(const Reading& reading, const kernel::machine::Machine& machine) {
-  using kernel::machine::OverrideTable;
-  using kernel::machine::Quantity;
-  std::vector<Refusal> out;
-  const auto check = [&](Quantity quantity, const std::string& of, double shown, double least,
-                         double most) {
-    if (shown < least || shown > most) {
-      out.push_back(
-          bad_input(machine.opcua.mapping,
-                    fmt::format("{}{} is {:g} now; it can be {:g} … {:g}",
-                                kernel::machine::kQuantityWords[static_cast<std::size_t>(quantity)],
-                                of, shown, least, most),
-                    "correct its node, scale or offset in the mapping"));
-    }
-  };
-  const auto most_percent = [](const OverrideTable& table) {
+std::vector<Refusal> override_faults(const Reading& reading,
+                                     const kernel::machine::Machine& machine) {
+  const auto most = [](const kernel::machine::OverrideTable& table) {
     constexpr double kMost = 2.0;
     return 100.0 * (table.ratio.empty() ? kMost : std::max(kMost, table.ratio.back()));
   };
-  const std::array<std::pair<Quantity, const OverrideTable*>, 6> overrides = {
+  const std::array<std::pair<Quantity, const kernel::machine::OverrideTable*>, 6> overrides = {
       {{Quantity::feed_panel_percent, &machine.feed_override},
        {Quantity::feed_effective_percent, &machine.feed_override},
        {Quantity::rapid_panel_percent, &machine.rapid_override},
        {Quantity::rapid_effective_percent, &machine.rapid_override},
        {Quantity::spindle_panel_percent, &machine.spindle_override},
        {Quantity::spindle_effective_percent, &machine.spindle_override}}};
+  std::vector<Refusal> out;
   for (const auto& [quantity, table] : overrides) {
-    check(quantity, "", reading[quantity], 0.0, most_percent(*table));
+    const double shown = reading[quantity];
+    if (shown < 0.0 || shown > most(*table)) {
+      out.push_back(bad_input(
+          machine.opcua.mapping,
+          fmt::format("{} is {:g} now; allowed: 0 … {:g}", word_of(quantity), shown, most(*table)),
+          "correct its node, scale or offset in the mapping"));
+    }
   }
+  return out;
+}
+
+std::vector<Refusal> position_faults(const Reading& reading,
+                                     const kernel::machine::Machine& machine) {
   constexpr double kBeyond_mm = 1.0;
+  std::vector<Refusal> out;
   for (std::size_t i = 0; i < machine.axes.size(); ++i) {
     const auto& axis = machine.axes[i];
-    if (axis.present && !axis.rotary) {
-      for (const Quantity quantity : {Quantity::command_mm, Quantity::actual_mm}) {
-        check(quantity, " of " + axis.name, reading(quantity, i), axis.min_au - kBeyond_mm,
-              axis.max_au + kBeyond_mm);
+    for (const Quantity quantity : {Quantity::command_mm, Quantity::actual_mm}) {
+      const double shown = reading(quantity, i);
+      if (axis.present && !axis.rotary &&
+          (shown < axis.min_au - kBeyond_mm || shown > axis.max_au + kBeyond_mm)) {
+        out.push_back(bad_input(
+            machine.opcua.mapping,
+            fmt::format("{} of {} is {:g} now, beyond its travel of {:g} … {:g}", word_of(quantity),
+                        axis.name, shown, axis.min_au, axis.max_au),
+            "reference the axis; else correct node, scale or offset in the mapping: they must be "
+            "those of the machine's own coordinates, in mm"));
       }
     }
   }

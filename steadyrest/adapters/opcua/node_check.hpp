@@ -16,9 +16,13 @@ namespace steadyrest::adapters::opcua {
 [[nodiscard]] std::vector<kernel::outcome::Refusal> node_faults(
     const Answer& answer, const NodePlan& plan, const kernel::machine::OpcUa& config);
 
-/// Shown values that cannot be: a wrong node, unit or scale. Overrides lie within 0 … 200 % (or
-/// what the machine's table has), positions within the travel and 1 mm.
-[[nodiscard]] std::vector<kernel::outcome::Refusal> value_faults(
+/// Shown overrides that cannot be, by a wrong node or scale: all lie within 0 … 200 %, or what the
+/// machine's table has.
+[[nodiscard]] std::vector<kernel::outcome::Refusal> override_faults(
+    const Reading& reading, const kernel::machine::Machine& machine);
+/// Positions more than 1 mm beyond the travel, in another unit or of an axis that is not
+/// referenced.
+[[nodiscard]] std::vector<kernel::outcome::Refusal> position_faults(
     const Reading& reading, const kernel::machine::Machine& machine);
 
 }  // namespace steadyrest::adapters::opcua

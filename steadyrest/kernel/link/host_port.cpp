@@ -21,7 +21,7 @@ bool is_name(std::string_view host) noexcept {
 /// A zone (`%eth0`) may follow.
 bool is_ipv6(std::string_view host) noexcept {
   return host.find(':') != std::string_view::npos && std::ranges::all_of(host, [](char c) {
-           return is_letter_or_digit(c) || c == ':' || c == '.' || c == '%';
+           return is_letter_or_digit(c) || c == ':' || c == '.' || c == '%' || c == '-' || c == '_';
          });
 }
 

@@ -275,6 +275,9 @@ class MappingReader {
       faults_.add(0, "the mapping writes, but has no heartbeat",
                   "add a [[write]] for it: the control's dead man needs it");
     }
+    if (has(out_.writes, Quantity::heartbeat) && has(out_.writes, Quantity::heartbeat_byte)) {
+      faults_.add(0, "the mapping writes both heartbeat and heartbeat_byte", "keep one of them");
+    }
     gaps();
     twice();
     if (has(out_.reads, Quantity::program_state) && out_.states[2].empty()) {

@@ -68,8 +68,8 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   // What a second layer meets while the first one acts.
   Finished beside;
   std::string seen_beside;
-  std::jthread second([&] {
-    while (machine->seen().obeyed_cycles == 0) {
+  std::jthread second([&](const std::stop_token& stop) {
+    while (machine->seen().obeyed_cycles == 0 && !stop.stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     seen_beside = run_line("doctor" + of).out;
@@ -77,6 +77,7 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   });
   const Finished acted = run_line("run --json --for-s 12 --mode act" + of + socket);
   EXPECT_EQ(acted.code, 0) << acted.err;
+  second.request_stop();
   second.join();
   EXPECT_EQ(beside.code, 1);
   EXPECT_THAT(beside.err, HasSubstr("another layer acts on this control"));

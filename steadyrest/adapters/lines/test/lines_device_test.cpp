@@ -251,27 +251,95 @@ TEST(LinesDevice, ThroughPassesThePanelOnAfterItHasLetGo) {
   EXPECT_EQ(scene.held.outputs & Levels(7), Levels(3));
 }
 
-// 1 … 6 is one of the changes in which other positions may be read.
+// From 1 to 6 the bits in between may read as other positions.
 TEST(LinesDevice, ThroughRisesToThePanelByWholeSteps) {
-  DeviceScene scene(Wiring::through, false);
-  scene.held.inputs = Levels(6);
-  scene.reads(2);
-  for (int i = 0; i < 4; ++i) {
+  for (const bool has_let_go : {false, true}) {
+    DeviceScene scene(Wiring::through, false);
+    scene.held.inputs = Levels(6);
+    scene.reads(2);
+    for (int i = 0; i < 4; ++i) {
+      ASSERT_TRUE(scene.read());
+      ASSERT_TRUE(scene.device->write({.feed = {.code = 1, .masks = true}, .spindle = {}}));
+    }
+    ASSERT_EQ(scene.held.outputs & Levels(7), Levels(1));
+    if (has_let_go) {
+      scene.held.stuck_on = Levels(1U << 4U);
+      for (int i = 0;
+           i < 100 && scene.device->write({.feed = {.code = 1, .masks = true}, .spindle = {}});
+           ++i) {
+        static_cast<void>(scene.read());
+      }
+    }
+    for (int i = 0; i < 8; ++i) {
+      static_cast<void>(scene.read());
+    }
+    EXPECT_EQ(scene.held.outputs & Levels(7), Levels(6));
+    Levels before = scene.held.written.front();
+    for (const Levels& written : scene.held.written) {
+      EXPECT_LE(((written ^ before) & Levels(7)).count(), 1U) << "one wire at a time";
+      before = written;
+    }
+  }
+}
+
+TEST(LinesDevice, AnAnswerThatIsLostLeavesMaskAndWordWhereTheyAre) {
+  for (const Wiring wiring : {Wiring::plc, Wiring::relay}) {
+    DeviceScene scene(wiring, false);
+    scene.acts(6);
+    ASSERT_TRUE(scene.masks());
+    ASSERT_EQ(scene.held.outputs & Levels(7), Levels(3));
+    scene.held.cut = true;
+    ASSERT_FALSE(scene.read());
+    ++scene.held.connections;
+    scene.held.cut = false;
+    for (int i = 0; i < 5; ++i) {
+      scene.acts(1);
+      EXPECT_TRUE(scene.masks());
+      EXPECT_EQ(scene.held.outputs & Levels(7), Levels(3));
+    }
+  }
+}
+
+TEST(LinesDevice, AReleaseThatIsLostIsTriedAgain) {
+  DeviceScene scene(Wiring::plc);
+  scene.acts(3);
+  ASSERT_TRUE(scene.masks());
+  scene.reads(3);
+  scene.held.write_fails = true;
+  EXPECT_FALSE(scene.read());
+  EXPECT_TRUE(scene.masks());
+  scene.held.write_fails = false;
+  scene.reads(1);
+  EXPECT_FALSE(scene.masks());
+}
+
+TEST(LinesDevice, AWatchdogThatDropsWhatNobodyWritesAnyMoreIsNoFault) {
+  DeviceScene scene(Wiring::relay);
+  for (int i = 0; i < 5; ++i) {
+    scene.acts(3);
+    scene.reads(5);  // observe
+    scene.held.outputs = {};
+    scene.reads(5);
+  }
+}
+
+TEST(LinesDevice, OutputsThatAWatchdogDropsAgainAndAgainAreNobodyElses) {
+  DeviceScene scene(Wiring::plc);
+  for (int i = 0; i < 5; ++i) {
+    scene.acts(3);
+    scene.held.outputs = {};
     ASSERT_TRUE(scene.read());
-    ASSERT_TRUE(scene.device->write({.feed = {.code = 1, .masks = true}, .spindle = {}}));
+    EXPECT_FALSE(scene.read());
   }
-  ASSERT_EQ(scene.held.outputs & Levels(7), Levels(1));
-  for (const unsigned code : {1U, 1U, 1U, 3U, 2U, 6U}) {
-    scene.reads(1);
-    EXPECT_EQ(scene.held.outputs & Levels(7), Levels(code));
-  }
+  scene.acts(3);
+  EXPECT_TRUE(scene.masks());
 }
 
 TEST(LinesDevice, FaultsThatAreFarApartAreLostLinksEach) {
   DeviceScene scene(Wiring::plc);
   for (int i = 0; i < 5; ++i) {
     scene.acts(2);
-    scene.held.outputs = {};
+    scene.held.outputs = Levels(6);
     ASSERT_TRUE(scene.read());
     ASSERT_FALSE(scene.read());
     scene.held.now_s += 61.0;

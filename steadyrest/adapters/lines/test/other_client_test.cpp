@@ -54,7 +54,7 @@ Lines watched_lines(Wiring wiring) {
 
 std::string seen(Wiring wiring, std::function<void(SharedWires&)> each) {
   SharedWires wires(std::move(each));
-  return other_client(wires, watched_lines(wiring)).value();
+  return other_client(wires, watched_lines(wiring), [] {}).value();
 }
 
 TEST(OtherClient, NobodyIsSeenOnQuietOutputs) {
@@ -73,7 +73,7 @@ TEST(OtherClient, AMaskThatStaysIsALayerWhereNoHeartbeatTells) {
   SharedWires wires(mask);
   Lines lines = watched_lines(Wiring::relay);
   lines.heartbeat = kernel::machine::kNoLine;
-  EXPECT_EQ(other_client(wires, lines).value(),
+  EXPECT_EQ(other_client(wires, lines, [] {}).value(),
             "output 3, a mask, is on: a layer acts on this module");
 }
 
@@ -81,11 +81,13 @@ TEST(OtherClient, AMaskThatStaysIsALayerWhereNoHeartbeatTells) {
 TEST(OtherClient, AModulesWatchdogIsWaitedFor) {
   for (const double died_s : {0.0, 0.8}) {
     for (const bool beats : {true, false}) {
-      SharedWires wires([&](auto& of) { of.outputs = Levels(of.now < died_s ? 0b11101 : 0); });
+      // The word stays, the mask drops: as modules with safe values do.
+      SharedWires wires(
+          [&](auto& of) { of.outputs = Levels(of.now < died_s ? 0b11101 : 0b00111); });
       Lines lines = watched_lines(Wiring::relay);
       lines.heartbeat = beats ? lines.heartbeat : kernel::machine::kNoLine;
       lines.watchdog_s = 0.5;
-      EXPECT_EQ(other_client(wires, lines).value(), "") << died_s;
+      EXPECT_EQ(other_client(wires, lines, [] {}).value(), "") << died_s;
     }
   }
 }
@@ -97,13 +99,19 @@ TEST(OtherClient, AHeartbeatOfFourCyclesIsSeen) {
   EXPECT_NE(seen(Wiring::through, beats), "");
 }
 
+TEST(OtherClient, WithoutAHeartbeatAnyOutputTells) {
+  SharedWires wires([](auto& of) { of.outputs = Levels(of.now > 0.2 ? 0b011 : 0b001); });
+  Lines lines = watched_lines(Wiring::relay);
+  lines.heartbeat = kernel::machine::kNoLine;
+  EXPECT_EQ(other_client(wires, lines, [] {}).value(),
+            "output 1 changes though this program writes nothing: a layer acts on this module");
+}
+
 TEST(OtherClient, WithThroughAPanelThatTurnsExcusesTheWord) {
-  EXPECT_EQ(seen(Wiring::through,
-                 [](auto& wires) {
-                   wires.inputs = Levels(wires.now > 0.2 ? 3 : 1);
-                   wires.outputs = Levels(wires.now > 0.21 ? 3 : 1);
-                 }),
-            "");
+  SharedWires wires([](auto& of) { of.inputs = of.outputs = Levels(of.now > 0.2 ? 3 : 1); });
+  Lines lines = watched_lines(Wiring::through);
+  lines.heartbeat = kernel::machine::kNoLine;
+  EXPECT_EQ(other_client(wires, lines, [] {}).value(), "");
 }
 
 TEST(OtherClient, ALinkThatIsLostIsRefused) {
@@ -116,7 +124,7 @@ TEST(OtherClient, ALinkThatIsLostIsRefused) {
     [[nodiscard]] std::uint64_t connections() const noexcept override { return 0; }
   };
   Lost wires;
-  const auto refused = other_client(wires, watched_lines(Wiring::plc));
+  const auto refused = other_client(wires, watched_lines(Wiring::plc), [] {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().what, "the link is cut");
 }

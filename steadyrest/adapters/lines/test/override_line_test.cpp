@@ -103,7 +103,9 @@ TEST(OverrideLine, ThePlcsMaskComesOnceThePanelsWordHasBeenThereForAScan) {
   EXPECT_EQ(scene.out(), sinumerik_code(k100 - 1)) << "a safe step with it";
   scene.panel(0);  // an open cable: the PLC keeps the operator's last word by itself
   EXPECT_TRUE(scene.put(k50, true));
-  scene.line.forget();
+  scene.line.adopt(scene.outputs);
+  EXPECT_TRUE(scene.put(k50, true)) << "goes on from what the outputs are";
+  scene.line.adopt(Levels());
   EXPECT_FALSE(scene.put(k50, true)) << "no mask begins at an unknown panel";
 }
 

@@ -15,6 +15,7 @@ struct Held {
   std::vector<Levels> written;
   Levels stuck_on;  ///< outputs that stay on
   bool cut = false;
+  bool write_fails = false;
   std::uint64_t connections = 1;
   int disconnected = 0;  ///< times
   static constexpr double kCycle_s = 0.02;
@@ -35,7 +36,7 @@ class HeldWires final : public Wires {
     return {};
   }
   kernel::outcome::Result<void> write(const Levels& outputs) override {
-    if (held_.cut) {
+    if (held_.cut || held_.write_fails) {
       return kernel::outcome::unavailable("the link is cut", "mend it");
     }
     held_.outputs = outputs | held_.stuck_on;

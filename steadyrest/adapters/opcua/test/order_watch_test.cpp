@@ -55,6 +55,51 @@ TEST(OrderWatch, AnotherLayersOrdersAreSeenWhateverItsCount) {
   }
 }
 
+// The control took none for so long that the heartbeats have gone round.
+TEST(OrderWatch, AStallOfAnyLengthIsNobodyElse) {
+  for (std::uint32_t stall = 1; stall < 3 * kPeriod; ++stall) {
+    OrderWatch watch(kPeriod);
+    std::uint32_t sent = 1;
+    for (int cycle = 0; cycle < 40; ++cycle, ++sent) {
+      watch.sent(beat(sent));
+      watch.seen(beat(sent > 5 ? sent - 5 : 0));
+    }
+    const std::uint32_t taken = sent - 6;
+    for (const std::uint32_t end = sent + stall; sent < end; ++sent) {
+      watch.sent(beat(sent));
+      watch.seen(beat(taken));
+    }
+    for (int cycle = 0; cycle < 40; ++cycle, ++sent) {
+      watch.sent(beat(sent));
+      watch.seen(beat(sent - 5));
+      ASSERT_FALSE(watch.other()) << stall;
+    }
+  }
+}
+
+TEST(OrderWatch, AnOrderThatComesLateNowAndThenIsNobodyElse) {
+  OrderWatch watch(kPeriod);
+  for (std::uint32_t sent = 300; sent < 2000; ++sent) {
+    watch.sent(beat(sent));
+    watch.seen(beat(sent % 60 == 0 ? sent - 20 : sent - 1));
+  }
+  EXPECT_FALSE(watch.other());
+}
+
+TEST(OrderWatch, AfterAPauseItBeginsAnew) {
+  OrderWatch watch(kPeriod);
+  watch.sent(beat(7));
+  for (int i = 0; i < 100; ++i) {
+    watch.seen(beat(7));
+  }
+  // The layer's count goes on while it sends nothing.
+  for (std::uint32_t sent = 240; sent < 400; ++sent) {
+    watch.sent(beat(sent));
+    watch.seen(beat(sent < 243 ? 7 : sent - 3));
+    ASSERT_FALSE(watch.other()) << sent;
+  }
+}
+
 TEST(OrderWatch, NumbersThatAreNoHeartbeatsAreSomebodyElses) {
   OrderWatch watch(kPeriod);
   for (const double number : {2.0, -1.0, 251.0, 1e300}) {

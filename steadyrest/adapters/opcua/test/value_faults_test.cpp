@@ -27,8 +27,11 @@ class ValueFaults : public testing::Test {
   }
   [[nodiscard]] std::string faults() const {
     std::string out;
-    for (const auto& fault : value_faults(reading_, machine_)) {
-      out += fault.file + ": " + fault.what + "\n";
+    for (const auto& all :
+         {override_faults(reading_, machine_), position_faults(reading_, machine_)}) {
+      for (const auto& fault : all) {
+        out += fault.file + ": " + fault.what + "\n";
+      }
     }
     return out;
   }
@@ -49,8 +52,8 @@ TEST_F(ValueFaults, ANegativeScaleAndAWrongUnitAreNamed) {
   show(Quantity::feed_panel_percent, -100.0);
   show_x(250000.0);
   EXPECT_EQ(faults(),
-            "map.toml: feed_panel_percent is -100 now; it can be 0 … 200\n"
-            "map.toml: command_mm of X is 250000 now; it can be -101 … 401\n");
+            "map.toml: feed_panel_percent is -100 now; allowed: 0 … 200\n"
+            "map.toml: command_mm of X is 250000 now, beyond its travel of -100 … 400\n");
 }
 
 }  // namespace

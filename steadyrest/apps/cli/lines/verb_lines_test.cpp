@@ -128,7 +128,7 @@ void pause(double seconds) {
 
 /// Nobody may walk the word under a layer that acts.
 std::expected<void, Refusals> check_alone(const Machine& machine, adapter::Wires& wires) {
-  const auto other = adapter::other_client(wires, machine.lines);
+  const auto other = adapter::other_client(wires, machine.lines, [] { pause(kPanelPause_s); });
   if (!other) {
     return refused(other.error());
   }

@@ -87,7 +87,9 @@ std::string text_of(const LoopFigures& figures, const Json& json) {
                         figures.last_fault);
   }
   if (!figures.handed_back) {
-    text += "ended before all was handed back: the machine's watchdog takes over what was left\n";
+    text +=
+        "ended before all was handed back: the machine's watchdog takes over what is left, if "
+        "any\n";
   }
   return text;
 }

@@ -35,6 +35,7 @@ using steadyrest::live::LoadedProgram;
 using steadyrest::live::ProgramWatch;
 
 constexpr const char* kLinesCheck = "lines";
+constexpr std::chrono::milliseconds kBetweenReadings(5);
 
 /// Estimates of commanded positions are good to some hundredths of a millimetre at a turn.
 constexpr double kNear_mm = 0.1;
@@ -60,7 +61,8 @@ void check_panel(const char* name, const OverrideWires& wires, const OverrideSta
 /// Before the port has the lines: a card gives them to one at a time.
 std::vector<Finding> alone_findings(const Machine& machine) {
   auto wires = adapters::lines::open_wires(machine.lines);
-  const auto other = wires ? adapters::lines::other_client(**wires, machine.lines)
+  const auto pause = [] { std::this_thread::sleep_for(kBetweenReadings); };
+  const auto other = wires ? adapters::lines::other_client(**wires, machine.lines, pause)
                            : std::unexpected(std::move(wires.error()));
   if (!other) {
     return {error_of(kLinesCheck, other.error())};

@@ -89,29 +89,22 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
     out.longest_s =
         std::max(out.longest_s, std::chrono::duration<double>(Clock::now() - before).count());
     const double seen = reading[Quantity::heartbeat_seen];
-    out.other_layer = out.other_layer || (i > 0 && seen != heartbeat && !std::isnan(heartbeat));
-    heartbeat = seen;
+    if (std::isfinite(seen)) {
+      out.other_layer = out.other_layer || (std::isfinite(heartbeat) && seen != heartbeat);
+      heartbeat = seen;
+    }
     std::this_thread::sleep_for(kBetweenSamples);
   }
   out.other_layer = out.other_layer || reading[Quantity::layer_alive] > 0.0;
   return out;
 }
 
-/// Of the control's program what the operator names; its state is the control's own. While it
-/// stands the control shows the name of what was selected, later that of a subprogram too.
+/// Of the control's program what the operator names; its state is the control's own.
 ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
   return [program = std::move(program), &port, seen = std::optional<bool>()](
              double wait_s) mutable -> Result<std::optional<LoadedProgram>> {
-    const auto now = port.program();
-    const bool stopped = now.state == kernel::signal::ProgramState::stopped;
-    const std::string_view name = now.name.data();
-    if (stopped && !name.empty() && !adapter::same_program(name, program.file)) {
-      seen.reset();
-      std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
-      return kernel::outcome::refuse(program.file,
-                                     fmt::format("is not what the control has selected: {}", name),
-                                     "select it there, or start the layer with that program");
-    }
+    const auto state = port.program().state;
+    const bool stopped = state == kernel::signal::ProgramState::stopped;
     if (seen == stopped) {
       std::this_thread::sleep_for(std::chrono::duration<double>(wait_s));
       return std::nullopt;
@@ -120,6 +113,23 @@ ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
     program.stopped = stopped;
     return program;
   };
+}
+
+/// Names may differ all the same: it is a warning. While the program runs the control may show the
+/// name of a subprogram.
+void check_program(const Machine& machine, const adapter::Reading& shown,
+                   std::vector<Finding>& out) {
+  const std::string_view name = shown.program.data();
+  const auto& stopped = machine.opcua.states.front();
+  const bool stands =
+      std::ranges::find(stopped, shown[kernel::machine::Quantity::program_state]) != stopped.end();
+  if (!machine.opcua.program.empty() && stands && !name.empty() &&
+      !adapter::same_program(name, machine.opcua.program)) {
+    out.push_back({Severity::warning, kOpcUaCheck,
+                   fmt::format("the control has selected {}, which is not the name of {}", name,
+                               machine.opcua.program),
+                   "select the program that the layer has, or give the file its name"});
+  }
 }
 
 }  // namespace
@@ -176,9 +186,13 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
                                  1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
                      "set cycle_ms above that, and dead_man_ms to three times as much"});
     }
-    for (const Refusal& fault : adapter::value_faults(watched->last, machine)) {
+    for (const Refusal& fault : adapter::override_faults(watched->last, machine)) {
       out.push_back(error_of(kOpcUaCheck, fault));
     }
+    for (const Refusal& fault : adapter::position_faults(watched->last, machine)) {
+      out.push_back({Severity::warning, kOpcUaCheck, fault.what, fault.to_do});
+    }
+    check_program(machine, watched->last, out);
     if (watched->other_layer) {
       out.push_back(other_layer("another layer acts on this control",
                                 "stop it: two layers would disturb each other"));
@@ -195,7 +209,9 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
     return std::unexpected(std::move(there.error()));
   }
   LivePort out;
-  out.findings = opcua_findings(machine);
+  Machine with_program = machine;
+  with_program.opcua.program = options.file;
+  out.findings = opcua_findings(with_program);
   if (auto errors = errors_of(machine, out.findings); !errors.empty()) {
     return std::unexpected(std::move(errors));
   }

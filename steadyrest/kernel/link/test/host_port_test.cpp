@@ -15,6 +15,7 @@ TEST(HostPort, NamesAndNumbersWithAndWithoutAPort) {
   EXPECT_EQ(shown("10.0.0.5"), "10.0.0.5 502");
   EXPECT_EQ(shown("io-module_1.shop.example:1502"), "io-module_1.shop.example 1502");
   EXPECT_EQ(shown("[fe80::1%eth0]"), "fe80::1%eth0 502");
+  EXPECT_EQ(shown("[fe80::1%br-lan]"), "fe80::1%br-lan 502");
   EXPECT_EQ(shown("[::1]:65535"), "::1 65535");
 }
 

@@ -235,6 +235,9 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
                       "[[write]]\nquantity = \"feed_percent\"\nnode = \"s=/W\"\nindex = 2\n"
                       "length = 3\n[program_state]"),
               HasSubstr("feed_percent has the place of heartbeat: s=/W entry 2"));
+  EXPECT_THAT(mapping("[program_state]",
+                      "[[write]]\nquantity = \"heartbeat_byte\"\nnode = \"s=/B\"\n[program_state]"),
+              HasSubstr("both heartbeat and heartbeat_byte"));
   EXPECT_THAT(mapping("step = 2\n", ""), HasSubstr("each axis needs a place of its own"));
   EXPECT_THAT(mapping("stopped = [0]", "stopped = [0, 2]"),
               HasSubstr("program_state 2 is both stopped and running"));

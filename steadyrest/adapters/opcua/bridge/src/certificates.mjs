@@ -55,7 +55,12 @@ export class Certificates {
   }
 
   /** Makes key and certificate where there are none; keeps them otherwise. */
-  async own() {
+  own() {
+    this.making ??= this.#own().finally(() => (this.making = null));
+    return this.making;
+  }
+
+  async #own() {
     try {
       for (const below of ["own", "controls", "refused"]) {
         fs.mkdirSync(path.join(this.folder, below), { recursive: true, mode: 0o700 });

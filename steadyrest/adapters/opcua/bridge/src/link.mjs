@@ -19,7 +19,7 @@ const kNumeric = new Set([
   DataType.Float, DataType.Double,
 ]);
 /** Faults that no waiting mends: it is tried again, but slowly. */
-const kStubborn = /certificate|password|user_refused|security|endpoint/;
+const kStubborn = /certificate|password|user|key|security|endpoint/;
 
 function within(promise, ms, what) {
   let timer;
