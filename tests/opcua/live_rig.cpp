@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
+#include <vector>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <tests/opcua/live_rig.hpp>
 
@@ -41,12 +44,32 @@ Machine with_endpoint(Machine machine, const std::string& endpoint) {
   return machine;
 }
 
+/// Gone when the process ends.
+class StateFolders {
+ public:
+  StateFolders() = default;
+  StateFolders(const StateFolders&) = delete;
+  StateFolders& operator=(const StateFolders&) = delete;
+  ~StateFolders() {
+    for (const auto& folder : all_) {
+      std::error_code error;
+      std::filesystem::remove_all(folder, error);
+    }
+  }
+  std::filesystem::path next() {
+    const auto name = fmt::format("opcua-{}-{}", ::getpid(), all_.size());
+    return all_.emplace_back(std::filesystem::path(testing::TempDir()) / name);
+  }
+
+ private:
+  std::vector<std::filesystem::path> all_;
+};
+
 }  // namespace
 
 void give_state_folder(Machine& machine) {
-  static int number = 0;
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      ("opcua-" + std::to_string(::getpid()) + "-" + std::to_string(++number));
+  static StateFolders folders;
+  const auto folder = folders.next();
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder / "server");
   const auto password = folder / "password";

@@ -112,7 +112,7 @@ Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
                 .error();
   silent_ = kSilentReadings;
   on_wires_ = outputs;
-  static_cast<void>(pass_on());
+  [[maybe_unused]] const auto released = pass_on();  // tried again at each reading
   return std::unexpected(*let_go_);
 }
 

@@ -165,39 +165,44 @@ class MappingReader {
                   "give the array's length, by #N] in the node or by length");
       return;
     }
-    const auto axis = of_axis ? present_[rank] : std::uint8_t{0};
-    const auto same_place = std::ranges::find_if(out, [&](const OpcUaPlace& other) {
-      return other.node == node && other.index == static_cast<std::uint32_t>(index);
+    add({.quantity = quantity,
+         .axis = of_axis ? present_[rank] : std::uint8_t{0},
+         .node = std::move(node),
+         .index = static_cast<std::uint32_t>(index),
+         .length = length,
+         .scale = read.scale,
+         .offset = read.offset},
+        given, out);
+  }
+
+  /// What is written, and what is read of an axis, has a place of its own. Two other quantities may
+  /// be read at one place.
+  void add(OpcUaPlace place, const Given& given, std::vector<OpcUaPlace>& out) {
+    const bool of_axis = kernel::machine::is_of_axis(place.quantity);
+    const bool written = kernel::machine::is_written(place.quantity);
+    const auto word = [](const OpcUaPlace& of) {
+      return kQuantityWords[static_cast<std::size_t>(of.quantity)];
+    };
+    const auto taken = std::ranges::find_if(out, [&](const OpcUaPlace& other) {
+      return other.node == place.node && other.index == place.index &&
+             (other.quantity != place.quantity || other.axis != place.axis) &&
+             (written || (of_axis && kernel::machine::is_of_axis(other.quantity)));
     });
-    // Two quantities of the control may be read at one place; of axes that is a forgotten step.
-    const bool alone =
-        kernel::machine::is_written(quantity) ||
-        (of_axis && same_place != out.end() && kernel::machine::is_of_axis(same_place->quantity));
-    if (alone && same_place != out.end() &&
-        (same_place->quantity != quantity || same_place->axis != axis)) {
+    if (taken != out.end()) {
       faults_.add(given.at({"index", "node"}),
-                  fmt::format("{} has the place of {}: {} entry {}", read.quantity,
-                              kQuantityWords[static_cast<std::size_t>(same_place->quantity)],
-                              cut(node), index),
+                  fmt::format("{} has the place of {}: {} entry {}", word(place), word(*taken),
+                              cut(place.node), place.index),
                   of_axis
                       ? "each axis needs a place of its own: {axis} in the node, or index and step"
                       : "what is written needs a place of its own");
-      return;
-    }
-    if (std::ranges::any_of(out, [&](const OpcUaPlace& other) {
-          return other.quantity == quantity && other.axis == axis;
-        })) {
-      faults_.add(given.at({"quantity"}), fmt::format("{} is mapped twice", read.quantity),
+    } else if (std::ranges::any_of(out, [&](const OpcUaPlace& other) {
+                 return other.quantity == place.quantity && other.axis == place.axis;
+               })) {
+      faults_.add(given.at({"quantity"}), fmt::format("{} is mapped twice", word(place)),
                   "keep one of them");
-      return;
+    } else {
+      out.push_back(std::move(place));
     }
-    out.push_back({.quantity = quantity,
-                   .axis = axis,
-                   .node = std::move(node),
-                   .index = static_cast<std::uint32_t>(index),
-                   .length = length,
-                   .scale = read.scale,
-                   .offset = read.offset});
   }
 
   void states(const toml::table& root) {

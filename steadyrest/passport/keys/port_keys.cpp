@@ -76,10 +76,9 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "written and read back before the first write of each connection.",
                  Need::optional, For::any, 32},
       Key<Lines>{"watchdog_reset", &Lines::watchdog_reset, 0, kLastAddress,
-                 "Modbus: what clears an expired watchdog, address and value in turn, the same "
-                 "address more than once if need be. Written before `watchdog_registers`, and when "
-                 "the module answers a reading with exception 4; a module that refuses it is not "
-                 "at fault.",
+                 "Modbus: what clears an expired watchdog, address and value in turn, also "
+                 "repeatedly. Written before `watchdog_registers`, and when a reading is answered "
+                 "with exception 4; a module that refuses it is not at fault.",
                  Need::optional, For::any, 32},
   };
   return kKeys;
