@@ -121,8 +121,11 @@ class Connection final : public Waiting,
       write(std::move(*refused));
       return;
     }
-    asio::post(traffic_.answers, [self = this->shared_from_this(), stream,
-                                  request = std::move(request)] { self->answer(request, stream); });
+    asio::post(traffic_.answers,
+               [self = this->shared_from_this(), stream, request = std::move(request)]() mutable {
+                 self->answer(request, stream);
+                 leave(std::move(self));
+               });
   }
 
   void unreadable(beast::error_code fault) {
@@ -203,14 +206,24 @@ class Connection final : public Waiting,
     }
     SlowAnswers& makes = response.minutes ? traffic_.slowest : traffic_.slow;
     const bool taken =
-        makes.take([self = this->shared_from_this(), later = std::move(response.later)](
-                       const std::stop_token& stop) { self->deliver(later(stop)); });
+        makes.take([self = this->shared_from_this(),
+                    later = std::move(response.later)](const std::stop_token& stop) mutable {
+          self->deliver(later(stop));
+          leave(std::move(self));
+        });
     if (!taken) {
       Response busy = error(503, "busy", "other long answers are being made",
                             "wait for them, or ask again later");
       busy.head.emplace_back("Retry-After", "5");
       deliver(std::move(busy));
     }
+  }
+
+  /// The last that holds a connection must be in the traffic's thread: its end changes what all
+  /// connections share.
+  static void leave(std::shared_ptr<Connection> self) {
+    asio::io_context& io = self->traffic_.io;
+    asio::post(io, [self = std::move(self)] {});
   }
 
   /// From any thread.
