@@ -34,8 +34,10 @@ using Dice = std::mt19937;
 /// Any panel, any outputs read back, no answer, a new connection.
 class LyingWires final : public adapters::lines::Wires {
  public:
-  LyingWires(const Machine& machine, unsigned seed)
+  /// `beats`: it lies about the heartbeat too, as if another layer acted.
+  LyingWires(const Machine& machine, unsigned seed, bool beats)
       : dice_(seed),
+        beats_(beats),
         lines_(machine.lines),
         table_(kernel::override::Table::make(machine.feed_override).value()) {}
 
@@ -53,6 +55,9 @@ class LyingWires final : public adapters::lines::Wires {
     }
     honest_ = dice_() % 3 != 0;
     outputs = honest_ ? written_ : Levels(dice_());
+    if (!beats_) {
+      outputs[lines_.heartbeat] = written_[lines_.heartbeat];
+    }
     return {};
   }
   Result<void> write(const Levels& outputs) override {
@@ -77,6 +82,7 @@ class LyingWires final : public adapters::lines::Wires {
 
  private:
   Dice dice_;
+  bool beats_;
   kernel::machine::Lines lines_;
   kernel::override::Table table_;
   Levels written_;
@@ -90,6 +96,10 @@ class LyingWires final : public adapters::lines::Wires {
 
 bool has_let_go(const kernel::outcome::Refusal& refusal) {
   return refusal.what.find("has let go of the outputs") != std::string::npos;
+}
+
+bool acts_beside(const Result<void>& written) {
+  return !written && written.error().what.find("another one acts") != std::string::npos;
 }
 
 /// The module stays while one layer after the other is started on it.
@@ -110,11 +120,14 @@ class OfAll final : public adapters::lines::Wires {
 };
 
 TEST(HostileLines, AMillionReadingsBringNoWordOutsideOfTheTable) {
-  for (const auto wiring : {kernel::machine::Wiring::plc, kernel::machine::Wiring::relay}) {
+  using kernel::machine::Wiring;
+  for (const auto& [wiring, beats] :
+       {std::pair(Wiring::plc, false), std::pair(Wiring::relay, false),
+        std::pair(Wiring::plc, true)}) {
     Machine machine = wired_840d(0.040);
     machine.feed_override.latched_word = false;
     machine.lines.wiring = wiring;
-    LyingWires module(machine, 5);
+    LyingWires module(machine, 5, beats);
     const auto begin = [&] {
       LinesDevice::Parts parts;
       parts.wires = std::make_unique<OfAll>(module);
@@ -135,14 +148,19 @@ TEST(HostileLines, AMillionReadingsBringNoWordOutsideOfTheTable) {
       }
       if (dice() % 4 != 0) {
         const int before = module.tries();
-        static_cast<void>(device->write(
+        const auto written = device->write(
             {.feed = {.code = static_cast<std::uint32_t>(dice() % 64), .masks = dice() % 2 == 0},
-             .spindle = {}}));
-        // After a reading that differs nothing may be written; after any other the order goes out.
-        ASSERT_TRUE(!module.honest() || module.tries() == before + 1) << "reading " << i;
+             .spindle = {}});
+        // After a reading that differs nothing may be written, and nothing is begun beside another
+        // layer; else the order goes out.
+        ASSERT_TRUE(!module.honest() || module.tries() == before + 1 || acts_beside(written))
+            << "reading " << i;
       }
     }
     EXPECT_EQ(module.wrong(), 0);
+    if (beats) {
+      continue;
+    }
     EXPECT_GT(let_go, 1000) << "a module that lies for good is let go of, and started on again";
     // Three readings of four have an order, and at least two of three of those before it show the
     // outputs as they were written, so that it goes out; 3 % of all calls fail.
@@ -205,7 +223,7 @@ class LyingEncoders final : public EncoderSource {
 
 TEST(HostileLines, TheWholeLayerGoesOn) {
   Machine machine = wired_840d(0.040);
-  LyingWires module(machine, 11);
+  LyingWires module(machine, 11, false);
   int faults = 0;
   int layers = 0;
   for (int i = 0; i < 30000; ++layers) {

@@ -143,6 +143,9 @@ TEST_F(Access, FaultsOfTheLayersOwnCertificateAreNamed) {
   EXPECT_THAT(why_not(of), Says("others may read the private key of the layer's certificate"));
   std::filesystem::permissions(key, std::filesystem::perms::others_read,
                                std::filesystem::perm_options::remove);
+  std::filesystem::rename(key, key + ".lost");
+  EXPECT_THAT(why_not(of), Says("private_key.pem is missing"));
+  std::filesystem::rename(key + ".lost", key);
   std::filesystem::resize_file(key, 100);
   EXPECT_THAT(why_not(of), Says("the layer's own certificate or its key is damaged"));
   std::filesystem::remove_all(of.opcua.certificates);

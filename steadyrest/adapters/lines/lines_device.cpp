@@ -20,6 +20,7 @@ constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
 constexpr int kMostDisputes = 3;
 constexpr double kDispute_s = 60.0;
+constexpr double kBeats_s = 1.0;  ///< another layer's heartbeat is heard for so long
 /// Of the scan: the cycle's jitter.
 constexpr double kTimeTolerance = 0.1;
 
@@ -66,6 +67,7 @@ void LinesDevice::release(Levels& outputs) noexcept {
 
 Result<void> LinesDevice::send(const Levels& outputs) {
   const bool changed = ((outputs ^ on_wires_) & words_).any();
+  adopted_ = false;
   on_wires_ = outputs;
   const double begin_s = parts_.wires->now_s();
   auto written = parts_.wires->write(outputs);
@@ -82,6 +84,7 @@ Result<void> LinesDevice::send(const Levels& outputs) {
 Result<void> LinesDevice::check_outputs(const Levels& outputs) {
   const Levels differ = sent_ ? (outputs ^ on_wires_) & ours_ : Levels();
   differing_ = differ.any() ? differing_ + 1 : 0;
+  taken_ = taken_ || (sent_ && differ.none());
   if (differing_ < kDifferingReadings) {
     return {};
   }
@@ -91,7 +94,7 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 
 Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const double now_s = parts_.wires->now_s();
-  const bool dropped = (outputs & ours_).none();  // by a watchdog
+  const bool dropped = taken_ && (outputs & ours_).none();  // by a watchdog
   if (!dropped) {
     disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
     dispute_s_ = now_s;
@@ -134,6 +137,25 @@ Result<void> LinesDevice::pass_on() {
   return sent;
 }
 
+/// Goes on from outputs that are not known to be its own.
+void LinesDevice::adopt(const Levels& outputs) noexcept {
+  const Levels changed = outputs ^ on_wires_;
+  const double now_s = parts_.wires->now_s();
+  since_s_ = changed.none() ? since_s_ : now_s;
+  const bool beats = lines_.heartbeat != kNoLine && changed[lines_.heartbeat];
+  if (beats && adopted_ && (outputs & ours_).any()) {
+    beaten_s_ = now_s;
+  }
+  adopted_ = true;
+  taken_ = false;
+  on_wires_ = outputs;
+  for (auto* line : {&parts_.feed, &parts_.spindle}) {
+    if (*line) {
+      (*line)->adopt(outputs);
+    }
+  }
+}
+
 Result<void> LinesDevice::read_lines(LineSample& sample) {
   Levels outputs;
   if (auto got = parts_.wires->read(sample.inputs, outputs); !got) {
@@ -149,13 +171,7 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
     return as_written;
   }
   if (!sent_ || let_go_) {
-    since_s_ = on_wires_ == outputs ? since_s_ : parts_.wires->now_s();
-    on_wires_ = outputs;
-    for (auto* line : {&parts_.feed, &parts_.spindle}) {
-      if (*line) {
-        (*line)->adopt(outputs);
-      }
-    }
+    adopt(outputs);
   }
   if (parts_.feed) {
     sample.feed = parts_.feed->see(sample.inputs, outputs);
@@ -188,6 +204,12 @@ Result<void> LinesDevice::read(LineSample& sample) {
 Result<void> LinesDevice::write(const LineOrder& order) {
   if (let_go_) {
     return std::unexpected(*let_go_);
+  }
+  if (!acting_ && parts_.wires->now_s() - beaten_s_ < kBeats_s) {
+    return unavailable(fmt::format("output {}, the heartbeat, changes though this layer does not "
+                                   "act: another one acts on this module",
+                                   lines_.heartbeat),
+                       "stop the other one");
   }
   acting_ = true;
   silent_ = 0;

@@ -37,6 +37,7 @@ struct LineOrder {
 /// written in two readings one after the other are a fault of the link: the module's watchdog has
 /// dropped them, a line is stuck, or another client writes. Three such faults, each within a minute
 /// of the one before, and the layer lets go for good: two that write would flip the word for ever.
+/// While another one's heartbeat beats it does not begin to act.
 class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
  public:
   struct Parts {
@@ -60,6 +61,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   kernel::outcome::Result<void> pass_on();
   kernel::outcome::Result<void> send(const Levels& outputs);
   void release(Levels& outputs) noexcept;
+  void adopt(const Levels& outputs) noexcept;
   [[nodiscard]] bool settled(const OverrideLine& line) const noexcept;
 
   kernel::machine::Lines lines_;
@@ -70,12 +72,15 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   std::uint64_t connection_ = 0;
   bool sent_ = false;  ///< `on_wires_` is what was written on this connection
   bool acting_ = false;
-  int silent_ = 0;                                  ///< readings since the last order
-  int differing_ = 0;                               ///< readings with other outputs
-  double fastest_s_ = 1e9;                          ///< a write takes at least
-  double since_s_ = 0;                              ///< when the words on the wires were written
-  int disputes_ = 0;                                ///< lost links by other outputs
-  double dispute_s_ = 0;                            ///< the last one
+  int silent_ = 0;          ///< readings since the last order
+  int differing_ = 0;       ///< readings with other outputs
+  bool taken_ = false;      ///< a reading has shown outputs as they were written
+  bool adopted_ = false;    ///< `on_wires_` is what a reading has shown
+  double beaten_s_ = -1e9;  ///< when the heartbeat changed and nobody here had written it
+  double fastest_s_ = 1e9;  ///< a write takes at least
+  double since_s_ = 0;      ///< when the words on the wires were written
+  int disputes_ = 0;        ///< lost links by other outputs
+  double dispute_s_ = 0;    ///< the last one
   std::optional<kernel::outcome::Refusal> let_go_;  ///< why the layer does not act any more
 };
 

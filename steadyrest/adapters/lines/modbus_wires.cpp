@@ -143,7 +143,8 @@ Result<void> ModbusWires::connect() {
     return {};
   }
   if (modbus_connect(link_.get()) != 0) {
-    const int fault = errno;
+    // A connection that nobody has answered is under way still.
+    const int fault = errno == EINPROGRESS ? ETIMEDOUT : errno;
     const std::string unknown = unknown_host(lines_);
     return unavailable(fmt::format("the module {} cannot be reached: {}", name(),
                                    unknown.empty() ? modbus_strerror(fault) : unknown),

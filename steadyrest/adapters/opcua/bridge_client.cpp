@@ -127,7 +127,9 @@ Result<void> BridgeClient::start(double until_s) {
                        "see whether this Node runs it: node --version must be 18 or newer");
   }
   if (!said_hello_) {
-    return unavailable("the OPC UA bridge starts", "wait a second");
+    return unavailable("the OPC UA bridge says nothing",
+                       "wait a second; if it stays so, see whether Node runs: node --version must "
+                       "be 18 or newer");
   }
   return {};
 }

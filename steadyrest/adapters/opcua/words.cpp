@@ -15,7 +15,7 @@ struct Words {
   std::string_view to_do;
 };
 
-constexpr std::array<Words, 29> kWords = {{
+constexpr std::array<Words, 30> kWords = {{
     {"certificate_not_trusted", "the control's certificate is not trusted",
      "compare its fingerprint with the one on the control and trust it: steadyrest opcua trust"},
     {"certificate_changed", "the control shows another certificate than the trusted one",
@@ -29,6 +29,8 @@ constexpr std::array<Words, 29> kWords = {{
      "trust it on the control (docs/opcua.md, Certificates)"},
     {"own_certificate_not_made", "the layer's own certificate cannot be made",
      "let this user write the folder, or name another one: certificates in [opcua]"},
+    {"certificates_not_written", "the folder of certificates cannot be written",
+     "let this user write it, or name another one: certificates in [opcua]"},
     {"own_certificate_damaged", "the layer's own certificate or its key is damaged",
      "remove the folder own, and trust the new certificate on the control"},
     {"own_key_open", "others may read the private key of the layer's certificate", "chmod 600 it"},

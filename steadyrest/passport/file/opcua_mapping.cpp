@@ -161,7 +161,9 @@ class MappingReader {
     }
     if (index < 0 || (index > 0 && index > last)) {
       faults_.add(given.at({"index", "step"}),
-                  fmt::format("index {} is beyond the {} values of {}", index, length, cut(node)),
+                  length == 0 ? fmt::format("index {} of {}, a single value", index, cut(node))
+                              : fmt::format("index {} is beyond the {} values of {}", index, length,
+                                            cut(node)),
                   "give the array's length, by #N] in the node or by length");
       return;
     }

@@ -29,10 +29,12 @@ void check_access(const OpcUa& config, const Given& given, Faults& faults) {
   constexpr std::string_view kScheme = "opc.tcp://";
   const std::string_view rest =
       std::string_view(config.endpoint).substr(std::min(kScheme.size(), config.endpoint.size()));
-  if (!config.endpoint.starts_with(kScheme) ||
-      !kernel::link::host_and_port(rest.substr(0, rest.find('/')), "4840")) {
+  const auto at = kernel::link::host_and_port(rest.substr(0, rest.find('/')), "4840");
+  // The bridge's library takes no IPv6 number.
+  if (!config.endpoint.starts_with(kScheme) || !at || at->host.find(':') != std::string::npos) {
     faults.add(given.at({"endpoint"}), fmt::format("endpoint = \"{}\"", config.endpoint),
-               "write opc.tcp://HOST:PORT, e.g. opc.tcp://192.168.214.241:4840");
+               "write opc.tcp://HOST:PORT with a name or an IPv4 number, e.g. "
+               "opc.tcp://192.168.214.241:4840");
   }
   const bool password = !config.password_file.empty() || !config.password_variable.empty();
   if (!config.user.empty() && !password) {
@@ -59,8 +61,13 @@ void check_times(const OpcUa& config, const Given& given, Faults& faults) {
 }
 
 /// Names of the control in its texts: two of one name would move one axis twice.
-void check_names(const OpcUa& config, std::size_t axes, const Given& given, Faults& faults) {
-  std::istringstream text(config.machine_axes);
+void check_names(const Machine& machine, std::size_t axes, const Given& given, Faults& faults) {
+  const OpcUa& config = machine.opcua;
+  std::string all = config.machine_axes;
+  for (const auto& axis : machine.axes) {
+    all += !given.has("machine_axes") && axis.present ? axis.name + "1 " : "";
+  }
+  std::istringstream text(all);
   std::vector<std::string> names;
   for (std::string name; text >> name;) {
     if (std::ranges::find(names, name) != names.end() || name == config.spindle) {
@@ -166,7 +173,7 @@ void read_opcua(const toml::table& root, Machine& out, Faults& faults) {
       static_cast<std::size_t>(std::ranges::count_if(out.axes, &kernel::machine::Axis::present));
   check_access(out.opcua, given, faults);
   check_times(out.opcua, given, faults);
-  check_names(out.opcua, axes, given, faults);
+  check_names(out, axes, given, faults);
   check_blocks(out.opcua, axes, given, faults);
   if (faults.list.size() == before) {
     read_mapping_file(out, given, out.opcua, faults);

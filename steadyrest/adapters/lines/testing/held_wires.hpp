@@ -16,6 +16,7 @@ struct Held {
   Levels stuck_on;  ///< outputs that stay on
   bool cut = false;
   bool write_fails = false;
+  bool reads_back_nothing = false;  ///< outputs are read elsewhere
   std::uint64_t connections = 1;
   int disconnected = 0;  ///< times
   static constexpr double kCycle_s = 0.02;
@@ -32,7 +33,7 @@ class HeldWires final : public Wires {
     }
     held_.now_s += Held::kCycle_s;
     inputs = held_.inputs;
-    outputs = held_.outputs;
+    outputs = held_.reads_back_nothing ? Levels() : held_.outputs;
     return {};
   }
   kernel::outcome::Result<void> write(const Levels& outputs) override {

@@ -236,7 +236,9 @@ Result<std::unique_ptr<RunRecord>> start_record(const Options& options, const Pr
 Answer answer_of(const LoopFigures& figures, const Prepared& of,
                  const steadyrest::live::RealTime& real_time, RunRecord* record) {
   Answer answer;
-  answer.exit_code = figures.ended_in_fault || !figures.handed_back ? kFailed : kDone;
+  const bool mostly_faulty = 2 * figures.port_faults > figures.cycles;
+  answer.exit_code =
+      figures.ended_in_fault || mostly_faulty || !figures.handed_back ? kFailed : kDone;
   answer.json = steadyrest::live::figures_json(figures);
   answer.json["machine"] = of.machine.name;
   answer.json["port"] = passport::word(of.machine.port);

@@ -13,6 +13,7 @@
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
 #include <steadyrest/apps/cli/ports/lines_live.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
+#include <steadyrest/apps/cli/ports/program_place.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/live/realtime.hpp>
 #include <steadyrest/passport/file/consistency.hpp>
@@ -150,6 +151,9 @@ Outcome run(const std::string& path, Progress& progress) {
   }
   if (machine->port == kernel::machine::PortKind::opcua) {
     std::ranges::move(live::opcua_findings(*machine), std::back_inserter(measured.findings));
+    if (const auto there = live::check_program_file(machine->opcua.program); !there) {
+      measured.findings.push_back(error_of("opcua", there.error().front()));
+    }
   }
   return report(*machine, measured, examine(*machine, measured.findings));
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <expected>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,34 +23,58 @@ namespace opcua_texts {
 namespace {
 
 constexpr std::string_view kMark = "Written by: steadyrest opcua texts";
-constexpr std::size_t kHead = 1000;  ///< bytes in which the mark is
+constexpr const char* kPlcBlock = "STEADYREST.SCL";
 
 struct Options {
   std::string machine;
   std::string folder;
 };
 
-/// A machine has its own PROG_EVENT.SPF; a copy of it may be in that folder.
-std::expected<void, Refusals> check_ours(const std::vector<kernel::file::FileText>& files) {
+/// Empty: there is none, or it cannot be read.
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool is_there(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::exists(file, error);
+}
+
+/// A machine has its own PROG_EVENT.SPF, a copy of which may be in that folder; and a text of
+/// another mapping must not be loaded beside these.
+std::expected<void, Refusals> check_folder(const std::string& folder,
+                                           const std::vector<kernel::file::FileText>& files) {
   Refusals out;
-  for (const auto& file : files) {
-    std::error_code error;
-    if (!std::filesystem::exists(file.file, error)) {
-      continue;
-    }
-    std::ifstream in(file.file, std::ios::binary);
-    std::string head(kHead, '\0');
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(in.gcount()));
-    if (head.find(kMark) == std::string::npos) {
-      out.push_back(bad_input(file.file, "is there already, and is not of this program",
+  for (const auto& [file, text] : files) {
+    if (is_there(file) && text_of(file).find(kMark) == std::string::npos) {
+      out.push_back(bad_input(file, "is there already, and is not of this program",
                               "name another folder, or move it away"));
     }
+  }
+  const std::string block = folder + "/" + kPlcBlock;
+  if (is_there(block) &&
+      std::ranges::find(files, block, &kernel::file::FileText::file) == files.end()) {
+    out.push_back(bad_input(block,
+                            "is of another mapping: it must not be loaded beside STEADYREST.SPF",
+                            "remove it, or name another folder"));
   }
   if (out.empty()) {
     return {};
   }
   return std::unexpected(std::move(out));
+}
+
+/// What was there and is another text stays beside, with `.old` behind its name: somebody may have
+/// changed it.
+void keep_old(std::vector<kernel::file::FileText>& files, Answer& answer) {
+  const std::size_t count = files.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (std::string before = text_of(files[i].file); !before.empty() && before != files[i].text) {
+      answer.text += fmt::format("the former {} is {}.old now\n", files[i].file, files[i].file);
+      files.push_back({.file = files[i].file + ".old", .text = std::move(before)});
+    }
+  }
 }
 
 Outcome run(const Options& options) {
@@ -74,9 +100,10 @@ Outcome run(const Options& options) {
     answer.json["files"].push_back(files.back().file);
     answer.text += files.back().file + "\n";
   }
-  if (auto ours = check_ours(files); !ours) {
-    return std::unexpected(std::move(ours.error()));
+  if (auto free = check_folder(options.folder, files); !free) {
+    return std::unexpected(std::move(free.error()));
   }
+  keep_old(files, answer);
   if (const auto written = kernel::file::write_files(files); !written) {
     return refused(written.error());
   }

@@ -118,6 +118,12 @@ std::vector<Finding> lines_findings(const Machine& machine) {
   if (!out.empty() && out.front().severity == Severity::error) {
     return out;
   }
+  if (!machine.lines.watchdog_registers.empty()) {
+    out.push_back({Severity::note, kLinesCheck,
+                   "nothing was written to the module: whether it keeps watchdog_registers is not "
+                   "known",
+                   "steadyrest lines test sets and reads them back"});
+  }
   const auto port = LinesPort::open(machine);
   std::ranges::move(port ? panel_findings(machine, (*port)->read())
                          : std::vector<Finding>{error_of(kLinesCheck, port.error())},

@@ -196,7 +196,11 @@ TEST_F(OpcUaSection, WhatDoesNotFitIsRefusedWithItsPlace) {
     EXPECT_THAT(faults("opc.tcp://control:4840", endpoint),
                 HasSubstr(std::string("machine.toml:19: endpoint = \"") + endpoint));
   }
-  EXPECT_EQ(faults("opc.tcp://control:4840", "opc.tcp://[fe80::1]/server"), "");
+  EXPECT_THAT(faults("opc.tcp://control:4840", "opc.tcp://[fe80::1]/server"),
+              HasSubstr("with a name or an IPv4 number"));
+  EXPECT_EQ(faults("opc.tcp://control:4840", "opc.tcp://control/server"), "");
+  EXPECT_THAT(faults("spindle = \"S2\"\nmachine_axes = \"MX MZ\"", "spindle = \"X1\""),
+              HasSubstr("X1 is the name of two axes"));
   EXPECT_THAT(faults("MX MZ", "MX MZ MX"), HasSubstr("MX is the name of two axes"));
   EXPECT_THAT(faults("MX MZ", "MX S2"), HasSubstr("S2 is the name of two axes"));
   EXPECT_THAT(faults("MX MZ", "MX"), HasSubstr("machine_axes has 1 names; the machine has 2 axes"));

@@ -43,7 +43,12 @@ function holds(file, bytes) {
 function replaceFile(file, bytes) {
   const beside = `${file}.${process.pid}.new`;
   fs.writeFileSync(beside, bytes, { mode: 0o600 });
-  fs.renameSync(beside, file);
+  try {
+    fs.renameSync(beside, file);
+  } catch (error) {
+    fs.rmSync(beside, { force: true });
+    throw error;
+  }
 }
 
 export class Certificates {
@@ -67,6 +72,7 @@ export class Certificates {
       }
       await this.#make();
     } catch (error) {
+      if (error instanceof Fault) throw error;
       throw new Fault("own_certificate_not_made", textOf(error));
     }
     this.#check();
@@ -87,7 +93,12 @@ export class Certificates {
   }
 
   async #make() {
-    if (fs.existsSync(this.file) && fs.existsSync(this.keyFile)) return;
+    const [certificate, key] = [fs.existsSync(this.file), fs.existsSync(this.keyFile)];
+    if (certificate && key) return;
+    if (certificate || key) {
+      // A new one would be strange to the controls that trust the former.
+      throw new Fault("own_certificate_damaged", `${certificate ? this.keyFile : this.file} is missing`);
+    }
     const manager = new OPCUACertificateManager({ rootFolder: this.folder });
     await manager.initialize();
     await manager.createSelfSignedCertificate({
@@ -145,6 +156,14 @@ export class Certificates {
     if (fingerprint.toLowerCase().replace(/[^0-9a-f]/g, "") !== shown) {
       throw new Fault("certificate_other", `the control shows SHA-256 ${shown}`);
     }
+    try {
+      this.#keep(endpoint, shown, der);
+    } catch (error) {
+      throw new Fault("certificates_not_written", textOf(error));
+    }
+  }
+
+  #keep(endpoint, shown, der) {
     replaceFile(path.join(this.folder, "controls", `${shown}.der`), der);
     fs.rmSync(path.join(this.folder, "refused", `${shown}.der`), { force: true });
     const before = this.#seen()[endpoint];
