@@ -16,6 +16,9 @@ using kernel::machine::Quantity;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
+constexpr double kHeeds_s = 1.0;
+constexpr double kDeadMen = 3.0;
+
 bool writes(const OpcUa& config, Quantity quantity) noexcept {
   return std::ranges::any_of(config.writes,
                              [=](const auto& place) { return place.quantity == quantity; });
@@ -92,6 +95,16 @@ Result<void> OpcUaPort::check_alone() const noexcept {
       "stop the other one, then start this one again");
 }
 
+Result<void> OpcUaPort::check_heeded() const noexcept {
+  if (unheeded_s_ < kHeeds_s + kDeadMen * machine_.opcua.dead_man_s) {
+    return {};
+  }
+  return kernel::outcome::unavailable(
+      "the control takes none of the layer's orders",
+      "see node, index and scale of each [[write]] in the mapping, and load the texts that "
+      "steadyrest opcua texts makes of this very machine file");
+}
+
 Result<kernel::signal::Frame> OpcUaPort::read() noexcept {
   auto taken = exchange_.read();
   if (!taken) {
@@ -111,6 +124,13 @@ Result<kernel::signal::Frame> OpcUaPort::read() noexcept {
   frame.cycle = ++cycle_;
   const double alive = reading[Quantity::layer_alive];
   in_force_.store(std::isfinite(alive) ? (alive > 0.0 ? 1 : 0) : -1);
+  // A mapping without it shows nothing.
+  const bool heeded = !std::isfinite(alive) || alive > 0.0;
+  if (heeded) {
+    unheeded_s_ = 0.0;
+  } else if (std::exchange(ordered_, false)) {
+    unheeded_s_ += machine_.opcua.cycle_s;
+  }
   program_.store({.name = reading.program, .state = frame.program});
   return frame;
 }
@@ -129,7 +149,11 @@ Result<void> OpcUaPort::write(const kernel::signal::Command& command) noexcept {
   order.has_offsets = order.has_offsets && capability_.axis_offset;
   orders_.sent(writes(machine_.opcua, Quantity::heartbeat_byte) ? heartbeat_byte(order.heartbeat)
                                                                 : order.heartbeat);
-  return exchange_.write(order);
+  ordered_ = true;
+  if (auto written = exchange_.write(order); !written) {
+    return written;
+  }
+  return check_heeded();
 }
 
 std::optional<bool> OpcUaPort::in_force() const noexcept {

@@ -31,7 +31,9 @@ struct ShownProgram {
 /// control's own (`time_s` of the mapping) where it shows one, else the server's time stamp; where
 /// it goes back (the control was started again), it continues from the last frame. write() leaves
 /// an order with a new heartbeat and returns. Once the control has shown that it takes another
-/// layer's orders, this one has let go for good: both are refused.
+/// layer's orders, this one has let go for good: both are refused. Orders that the control's side
+/// does not take (it shows that it is not alive for a second and three dead men) go out all the
+/// same, and write() says so.
 class OpcUaPort final : public kernel::port::Port {
  public:
   using Device = kernel::link::Device<Reading, Order>;
@@ -53,6 +55,7 @@ class OpcUaPort final : public kernel::port::Port {
             std::optional<kernel::override::Table> feed_table, std::unique_ptr<Device> device);
   [[nodiscard]] double time_of(const Reading& reading) noexcept;
   [[nodiscard]] kernel::outcome::Result<void> check_alone() const noexcept;
+  [[nodiscard]] kernel::outcome::Result<void> check_heeded() const noexcept;
 
   kernel::machine::Machine machine_;
   Mapped mapped_;
@@ -63,6 +66,8 @@ class OpcUaPort final : public kernel::port::Port {
   double shift_s_ = 0.0;           ///< frame's time less the control's
   std::uint32_t first_heartbeat_;  ///< by chance: two layers that begin together differ
   OrderWatch orders_;
+  bool ordered_ = false;     ///< since the last reading
+  double unheeded_s_ = 0.0;  ///< the control has not been alive for so long, in spite of orders
   std::atomic<int> in_force_{-1};
   kernel::rt::Snapshot<ShownProgram> program_;
   kernel::link::Exchange<Reading, Order> exchange_;  ///< last: its thread ends first

@@ -252,6 +252,30 @@ class MappingReader {
     }
   }
 
+  /// A panel's override that is read where the layer's own shows would sink with it.
+  void panels() {
+    for (const OpcUaPlace& place : out_.reads) {
+      if (place.quantity != Quantity::feed_panel_percent &&
+          place.quantity != Quantity::spindle_panel_percent) {
+        continue;
+      }
+      const auto same = [&](const OpcUaPlace& other) {
+        return other.node == place.node && other.index == place.index &&
+               (kernel::machine::is_written(other.quantity) ||
+                other.quantity == Quantity::feed_effective_percent ||
+                other.quantity == Quantity::spindle_effective_percent);
+      };
+      if (std::ranges::any_of(out_.reads, same) || std::ranges::any_of(out_.writes, same)) {
+        faults_.add(0,
+                    fmt::format("{} is read at {} entry {}, where the override in force or an "
+                                "order is",
+                                kQuantityWords[static_cast<std::size_t>(place.quantity)],
+                                cut(place.node), place.index),
+                    "read what the operator's switch shows");
+      }
+    }
+  }
+
   /// A state that is two.
   void twice() {
     constexpr std::array<std::string_view, 3> kNames = {"stopped", "paused", "running"};
@@ -285,6 +309,7 @@ class MappingReader {
     if (has(out_.writes, Quantity::heartbeat) && has(out_.writes, Quantity::heartbeat_byte)) {
       faults_.add(0, "the mapping writes both heartbeat and heartbeat_byte", "keep one of them");
     }
+    panels();
     gaps();
     twice();
     if (has(out_.reads, Quantity::program_state) && out_.states[2].empty()) {

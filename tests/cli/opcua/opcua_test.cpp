@@ -2,10 +2,12 @@
 // A control with an OPC UA server, as a user meets it: its certificate, `doctor`, a run that
 // observes and one that acts. The server is node-opcua, the bridge the shipped one.
 #include <chrono>
+#include <csignal>
 #include <memory>
 #include <string>
 #include <thread>
 
+#include "process.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
 #include <gmock/gmock.h>
@@ -65,23 +67,21 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   EXPECT_EQ(machine->seen().obeyed_cycles, 0U);
   EXPECT_EQ(machine->seen().least_feed_ratio, 1.0);
 
-  // What a second layer meets while the first one acts.
-  Finished beside;
-  std::string seen_beside;
-  std::jthread second([&](const std::stop_token& stop) {
-    while (machine->seen().obeyed_cycles == 0 && !stop.stop_requested()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    seen_beside = run_line("doctor" + of).out;
-    beside = run_line("run --for-s 0.1 --mode act" + of + " --socket " + scratch.at("t"));
-  });
-  const Finished acted = run_line("run --json --for-s 12 --mode act" + of + socket);
-  EXPECT_EQ(acted.code, 0) << acted.err;
-  second.request_stop();
-  second.join();
+  Process acting(
+      {"run", "--mode", "act", "--machine", machine->machine_file(), "--socket", scratch.at("s")},
+      scratch.at("."));
+  for (int i = 0; i < 3000 && machine->seen().obeyed_cycles < 200; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  // What a second layer meets.
+  EXPECT_THAT(run_line("doctor" + of).out,
+              HasSubstr("warning: another layer acts on this control"));
+  const Finished beside =
+      run_line("run --for-s 0.1 --mode act" + of + " --socket " + scratch.at("t"));
   EXPECT_EQ(beside.code, 1);
   EXPECT_THAT(beside.err, HasSubstr("another layer acts on this control"));
-  EXPECT_THAT(seen_beside, HasSubstr("warning: another layer acts on this control"));
+  acting.send(SIGTERM);
+  EXPECT_EQ(acting.wait(), 0) << acting.err();
   const auto seen = machine->seen();
   EXPECT_GT(seen.obeyed_cycles, 100U);
   EXPECT_LT(seen.least_feed_ratio, 0.9);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@ class TakingDevice final : public OpcUaPort::Device {
     std::uint32_t taken = 0;  ///< heartbeat of this layer's last order
     std::uint32_t other = 0;  ///< of another layer's, which comes after each; 0: none
     int orders = 0;
+    double alive = std::nan("");  ///< what it shows of itself
   };
   TakingDevice(Shared& shared, bool bytes) : shared_(shared), bytes_(bytes) {}
 
@@ -30,6 +32,7 @@ class TakingDevice final : public OpcUaPort::Device {
     const std::uint32_t heartbeat = other ? shared_.other : shared_.taken;
     reading.value[static_cast<std::size_t>(Quantity::heartbeat_seen)] =
         bytes_ ? heartbeat_byte(heartbeat) : heartbeat;
+    reading.value[static_cast<std::size_t>(Quantity::layer_alive)] = shared_.alive;
     reading.value[static_cast<std::size_t>(Quantity::time_s)] = time_s_ += 0.02;
     return {};
   }
@@ -60,7 +63,8 @@ class OneLayer : public testing::TestWithParam<bool> {
   /// One reading and one order. False: the reading is refused.
   bool cycle() {
     const auto frame = port_->read();
-    static_cast<void>(port_->write({.write = true, .heartbeat = ++heartbeat_}));
+    const auto written = port_->write({.write = true, .heartbeat = ++heartbeat_});
+    unwritten_ = written ? "" : written.error().what;
     words_ = frame ? "" : frame.error().what;
     return frame.has_value();
   }
@@ -69,6 +73,7 @@ class OneLayer : public testing::TestWithParam<bool> {
   std::unique_ptr<OpcUaPort> port_;
   std::uint64_t heartbeat_ = 0;
   std::string words_;
+  std::string unwritten_;
 };
 
 TEST_P(OneLayer, GoesOnForEver) {
@@ -93,6 +98,33 @@ TEST_P(OneLayer, LetsGoForGoodWhereAnotherOnesOrdersAreTaken) {
     EXPECT_FALSE(cycle());
   }
   EXPECT_EQ(shared_.orders, orders);
+}
+
+TEST_P(OneLayer, OrdersThatTheControlDoesNotTakeAreAFault) {
+  shared_.alive = 0.0;
+  int cycles = 0;
+  while (cycle() && unwritten_.empty()) {
+    ASSERT_LT(++cycles, 200);
+  }
+  EXPECT_EQ(unwritten_, "the control takes none of the layer's orders");
+  EXPECT_GE(cycles, 50 + 30) << "a second and three dead men of 0.2 s";
+  const int orders = shared_.orders;
+  cycle();
+  cycle();
+  EXPECT_GT(shared_.orders, orders) << "they go out all the same";
+  shared_.alive = 1.0;
+  cycle();
+  cycle();
+  EXPECT_EQ(unwritten_, "");
+}
+
+TEST_P(OneLayer, WhileItOrdersNothingTheControlNeedNotBeAlive) {
+  shared_.alive = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(port_->read());
+  }
+  cycle();
+  EXPECT_EQ(unwritten_, "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Mappings, OneLayer, testing::Bool(),

@@ -42,6 +42,7 @@ constexpr double kConnect_s = 20.0;
 constexpr std::chrono::milliseconds kBetweenSamples(20);
 constexpr int kSamples = 10;
 constexpr double kDeadMen = 1.5;  ///< times of the dead man
+constexpr double kClock = 10.0;   ///< faster or slower than this computer's, at most
 constexpr const char* kOpcUaCheck = "opcua";
 
 std::string beside_program() {
@@ -63,8 +64,9 @@ std::string state_folder() {
 
 /// What the control's side shows before this layer has sent anything.
 struct Watched {
-  double longest_s = 0.0;    ///< that a reading took
-  bool other_layer = false;  ///< the control takes orders, or obeys somebody
+  double longest_s = 0.0;       ///< that a reading took
+  bool other_layer = false;     ///< the control takes orders, or obeys somebody
+  double clock = std::nan("");  ///< the control's by this computer's
   adapter::Reading last;
 };
 
@@ -78,6 +80,7 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
   Watched out;
   adapter::Reading& reading = out.last;
   double heartbeat = std::nan("");
+  double first_s = std::nan("");
   // A layer that has just ended is still obeyed for the dead man's time.
   const auto least = std::chrono::duration<double>(kDeadMen * config.dead_man_s);
   const auto begin = Clock::now();
@@ -88,6 +91,7 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
     }
     out.longest_s =
         std::max(out.longest_s, std::chrono::duration<double>(Clock::now() - before).count());
+    first_s = i == 0 ? reading[Quantity::time_s] : first_s;
     const double seen = reading[Quantity::heartbeat_seen];
     if (std::isfinite(seen)) {
       out.other_layer = out.other_layer || (std::isfinite(heartbeat) && seen != heartbeat);
@@ -95,6 +99,8 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
     }
     std::this_thread::sleep_for(kBetweenSamples);
   }
+  out.clock = (reading[Quantity::time_s] - first_s) /
+              std::chrono::duration<double>(Clock::now() - begin).count();
   out.other_layer = out.other_layer || reading[Quantity::layer_alive] > 0.0;
   return out;
 }
@@ -185,6 +191,13 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
                                  "cycle_ms = {:g}",
                                  1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
                      "set cycle_ms above that, and dead_man_ms to three times as much"});
+    }
+    // A busy computer is late; a wrong unit is wrong by 60 and more.
+    if (watched->clock < 1.0 / kClock || watched->clock > kClock) {
+      out.push_back({Severity::error, kOpcUaCheck,
+                     fmt::format("the control's clock goes {:.3g} times as fast as this computer's",
+                                 watched->clock),
+                     "correct scale of time_s in the mapping: seconds"});
     }
     for (const Refusal& fault : adapter::override_faults(watched->last, machine)) {
       out.push_back(error_of(kOpcUaCheck, fault));

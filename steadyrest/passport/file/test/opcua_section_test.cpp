@@ -242,6 +242,8 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
   EXPECT_THAT(mapping("[program_state]",
                       "[[write]]\nquantity = \"heartbeat_byte\"\nnode = \"s=/B\"\n[program_state]"),
               HasSubstr("both heartbeat and heartbeat_byte"));
+  EXPECT_THAT(mapping("s=/Ch{channel}/panel\"", "s=/W\"\nindex = 2\nlength = 3"),
+              HasSubstr("feed_panel_percent is read at s=/W entry 2, where the override in force"));
   EXPECT_THAT(mapping("step = 2\n", ""), HasSubstr("each axis needs a place of its own"));
   EXPECT_THAT(mapping("stopped = [0]", "stopped = [0, 2]"),
               HasSubstr("program_state 2 is both stopped and running"));

@@ -195,7 +195,7 @@ export function passwordOf({ password_file: file, password_variable: variable })
     if ((state.mode & 0o077) !== 0) {
       throw new Fault("password_open", `${file} has mode ${(state.mode & 0o777).toString(8)}`);
     }
-    const password = fs.readFileSync(handle, "utf8").replace(/\r?\n$/, "");
+    const password = fs.readFileSync(handle, "utf8").replace(/^\uFEFF/, "").replace(/\r?\n$/, "");
     if (password === "") throw new Fault("password_missing", `${file} is empty`);
     return password;
   } finally {
