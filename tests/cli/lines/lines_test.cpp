@@ -125,7 +125,7 @@ TEST_F(Mill, WhereAnotherClientWritesTheLayerLetsGoAndSaysSo) {
       std::this_thread::sleep_for(std::chrono::milliseconds(3));
     }
   });
-  const Finished acted = run_line("run --json --for-s 4 --machine " + machine_ +
+  const Finished acted = run_line("run --json --for-s 2 --machine " + machine_ +
                                   " --mode act --socket " + scratch_.at("s"));
   EXPECT_EQ(acted.code, 1) << acted.err;
   const json answer = json::parse(acted.out);

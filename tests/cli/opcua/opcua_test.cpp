@@ -74,8 +74,6 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   // What a second layer meets.
-  EXPECT_THAT(run_line("doctor" + of).out,
-              HasSubstr("warning: another layer acts on this control"));
   const Finished beside =
       run_line("run --for-s 0.1 --mode act" + of + " --socket " + scratch.at("t"));
   EXPECT_EQ(beside.code, 1);

@@ -138,6 +138,41 @@ void check_program(const Machine& machine, const adapter::Reading& shown,
   }
 }
 
+/// What the control shows, before this layer has sent anything.
+void check_samples(const Machine& machine, std::vector<Finding>& out) {
+  BridgeDevice device(opcua_client(machine));
+  const auto watched = watch_samples(device, machine.opcua);
+  if (!watched) {
+    out.push_back(error_of(kOpcUaCheck, watched.error()));
+    return;
+  }
+  if (watched->longest_s > machine.opcua.cycle_s) {
+    out.push_back({Severity::warning, kOpcUaCheck,
+                   fmt::format("the control takes up to {:.0f} ms for a reading, more than "
+                               "cycle_ms = {:g}",
+                               1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
+                   "set cycle_ms above that, and dead_man_ms to three times as much"});
+  }
+  // A busy computer is late; a wrong unit is wrong by 60 and more.
+  if (watched->clock < 1.0 / kClock || watched->clock > kClock) {
+    out.push_back({Severity::error, kOpcUaCheck,
+                   fmt::format("the control's clock goes {:.3g} times as fast as this computer's",
+                               watched->clock),
+                   "correct scale of time_s in the mapping: seconds"});
+  }
+  for (const Refusal& fault : adapter::override_faults(watched->last, machine)) {
+    out.push_back(error_of(kOpcUaCheck, fault));
+  }
+  for (const Refusal& fault : adapter::position_faults(watched->last, machine)) {
+    out.push_back({Severity::warning, kOpcUaCheck, fault.what, fault.to_do});
+  }
+  check_program(machine, watched->last, out);
+  if (watched->other_layer) {
+    out.push_back(other_layer("another layer acts on this control",
+                              "stop it: two layers would disturb each other"));
+  }
+}
+
 }  // namespace
 
 BridgeClient::Config opcua_client(const Machine& machine) {
@@ -179,37 +214,7 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
   }
   if (std::ranges::none_of(out,
                            [](const Finding& one) { return one.severity == Severity::error; })) {
-    BridgeDevice device(opcua_client(machine));
-    const auto watched = watch_samples(device, machine.opcua);
-    if (!watched) {
-      out.push_back(error_of(kOpcUaCheck, watched.error()));
-      return out;
-    }
-    if (watched->longest_s > machine.opcua.cycle_s) {
-      out.push_back({Severity::warning, kOpcUaCheck,
-                     fmt::format("the control takes up to {:.0f} ms for a reading, more than "
-                                 "cycle_ms = {:g}",
-                                 1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
-                     "set cycle_ms above that, and dead_man_ms to three times as much"});
-    }
-    // A busy computer is late; a wrong unit is wrong by 60 and more.
-    if (watched->clock < 1.0 / kClock || watched->clock > kClock) {
-      out.push_back({Severity::error, kOpcUaCheck,
-                     fmt::format("the control's clock goes {:.3g} times as fast as this computer's",
-                                 watched->clock),
-                     "correct scale of time_s in the mapping: seconds"});
-    }
-    for (const Refusal& fault : adapter::override_faults(watched->last, machine)) {
-      out.push_back(error_of(kOpcUaCheck, fault));
-    }
-    for (const Refusal& fault : adapter::position_faults(watched->last, machine)) {
-      out.push_back({Severity::warning, kOpcUaCheck, fault.what, fault.to_do});
-    }
-    check_program(machine, watched->last, out);
-    if (watched->other_layer) {
-      out.push_back(other_layer("another layer acts on this control",
-                                "stop it: two layers would disturb each other"));
-    }
+    check_samples(machine, out);
   }
   return out;
 }
