@@ -52,7 +52,8 @@ OpcUaPort::OpcUaPort(const Machine& machine, std::optional<kernel::override::Tab
       mapped_(mapped(machine.opcua)),
       feed_table_(std::move(feed_table)),
       first_heartbeat_(std::random_device()() % kHeartbeats),
-      orders_(writes(machine.opcua, Quantity::heartbeat_byte) ? kHeartbeatBytes : kHeartbeats),
+      beats_in_bytes_(writes(machine.opcua, Quantity::heartbeat_byte)),
+      orders_(beats_in_bytes_ ? kHeartbeatBytes : kHeartbeats),
       exchange_("the control's OPC UA server", std::move(device), machine.opcua.reply_s) {
   const OpcUa& config = machine_.opcua;
   capability_ = {.feed_override = writes(config, Quantity::feed_percent) ||
@@ -147,8 +148,7 @@ Result<void> OpcUaPort::write(const kernel::signal::Command& command) noexcept {
   order.masks_feed = order.masks_feed && capability_.feed_override;
   order.masks_spindle = order.masks_spindle && capability_.spindle_override;
   order.has_offsets = order.has_offsets && capability_.axis_offset;
-  orders_.sent(writes(machine_.opcua, Quantity::heartbeat_byte) ? heartbeat_byte(order.heartbeat)
-                                                                : order.heartbeat);
+  orders_.sent(beats_in_bytes_ ? heartbeat_byte(order.heartbeat) : order.heartbeat);
   ordered_ = true;
   if (auto written = exchange_.write(order); !written) {
     return written;

@@ -65,6 +65,7 @@ class OpcUaPort final : public kernel::port::Port {
   double last_s_ = 0.0;            ///< of the last frame
   double shift_s_ = 0.0;           ///< frame's time less the control's
   std::uint32_t first_heartbeat_;  ///< by chance: two layers that begin together differ
+  bool beats_in_bytes_;            ///< the control takes heartbeats as a PLC's byte
   OrderWatch orders_;
   bool ordered_ = false;     ///< since the last reading
   double unheeded_s_ = 0.0;  ///< the control has not been alive for so long, in spite of orders

@@ -177,8 +177,8 @@ class MappingReader {
         given, out);
   }
 
-  /// What is written, and what is read of an axis, has a place of its own. Two other quantities may
-  /// be read at one place.
+  /// Quantities that are written, and those of axes, must not share a place; others may be read
+  /// from the same place.
   void add(OpcUaPlace place, const Given& given, std::vector<OpcUaPlace>& out) {
     const bool of_axis = kernel::machine::is_of_axis(place.quantity);
     const bool written = kernel::machine::is_written(place.quantity);
@@ -194,9 +194,8 @@ class MappingReader {
       faults_.add(given.at({"index", "node"}),
                   fmt::format("{} has the place of {}: {} entry {}", word(place), word(*taken),
                               cut(place.node), place.index),
-                  of_axis
-                      ? "each axis needs a place of its own: {axis} in the node, or index and step"
-                      : "what is written needs a place of its own");
+                  of_axis ? "give each axis a separate place: {axis} in the node, or index and step"
+                          : "give each written quantity a separate place");
     } else if (std::ranges::any_of(out, [&](const OpcUaPlace& other) {
                  return other.quantity == place.quantity && other.axis == place.axis;
                })) {

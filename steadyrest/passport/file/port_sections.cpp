@@ -298,7 +298,7 @@ void place_start(Machine& machine, const Given& given, Faults& faults) {
       faults.add(given.at({"start_mm"}),
                  fmt::format("start_mm: {} = {:g} is outside of its travel, {:g} … {:g}", axis.name,
                              start_mm, axis.min_au, axis.max_au),
-                 "give where the axes stand when the layer starts, in machine coordinates");
+                 "give the positions of the axes when the layer starts, in machine coordinates");
     }
     machine.recorder.start_mm.push_back(start_mm);
   }

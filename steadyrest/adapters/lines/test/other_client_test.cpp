@@ -69,7 +69,7 @@ TEST(OtherClient, OutputsOfOthersOnTheSameModuleDoNotCount) {
 
 TEST(OtherClient, AMaskThatStaysIsALayerWhereNoHeartbeatTells) {
   const auto mask = [](auto& wires) { wires.outputs.set(3); };
-  EXPECT_EQ(seen(Wiring::relay, mask), "") << "its heartbeat stands still";
+  EXPECT_EQ(seen(Wiring::relay, mask), "") << "its heartbeat does not change";
   SharedWires wires(mask);
   Lines lines = watched_lines(Wiring::relay);
   lines.heartbeat = kernel::machine::kNoLine;

@@ -127,9 +127,9 @@ void check_program(const Machine& machine, const adapter::Reading& shown,
                    std::vector<Finding>& out) {
   const std::string_view name = shown.program.data();
   const auto& stopped = machine.opcua.states.front();
-  const bool stands =
+  const bool is_stopped =
       std::ranges::find(stopped, shown[kernel::machine::Quantity::program_state]) != stopped.end();
-  if (!machine.opcua.program.empty() && stands && !name.empty() &&
+  if (!machine.opcua.program.empty() && is_stopped && !name.empty() &&
       !adapter::same_program(name, machine.opcua.program)) {
     out.push_back({Severity::warning, kOpcUaCheck,
                    fmt::format("the control has selected {}, which is not the name of {}", name,

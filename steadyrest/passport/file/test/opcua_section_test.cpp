@@ -244,7 +244,7 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
               HasSubstr("both heartbeat and heartbeat_byte"));
   EXPECT_THAT(mapping("s=/Ch{channel}/panel\"", "s=/W\"\nindex = 2\nlength = 3"),
               HasSubstr("feed_panel_percent is read at s=/W entry 2, where the override in force"));
-  EXPECT_THAT(mapping("step = 2\n", ""), HasSubstr("each axis needs a place of its own"));
+  EXPECT_THAT(mapping("step = 2\n", ""), HasSubstr("give each axis a separate place"));
   EXPECT_THAT(mapping("stopped = [0]", "stopped = [0, 2]"),
               HasSubstr("program_state 2 is both stopped and running"));
   EXPECT_THAT(mapping("\"actual_mm\"", "\"offset_mm\""), HasSubstr("the mapping has no actual_mm"));
