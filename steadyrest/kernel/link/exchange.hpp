@@ -87,10 +87,12 @@ class Exchange {
 
   /// Refused: the device did not take an earlier order. This one is on its way all the same.
   outcome::Result<void> write(const Order& order) noexcept {
+    // Looked at first: the thread may refuse this order before write() has returned.
+    const bool earlier_refused = unwritten_.exchange(false);
     order_.store(order);
     ordered_.store(true);
     wake_.post();
-    if (!unwritten_.exchange(false)) {
+    if (!earlier_refused) {
       return {};
     }
     const std::scoped_lock lock(telling_);

@@ -106,6 +106,19 @@ TEST(Exchange, FaultsAreToldInTheDevicesWordsAndEnd) {
   EXPECT_TRUE(exchange.write(4));
 }
 
+TEST(Exchange, NoOrderIsRefusedForItself) {
+  Mirror mirror;
+  auto exchange = exchange_of(mirror, kPatient_s);
+  for (int i = 0; i < 2000; ++i) {
+    mirror.fails = true;
+    ASSERT_TRUE(exchange.write(i));
+    ASSERT_FALSE(exchange.read());
+    mirror.fails = false;
+    ASSERT_FALSE(exchange.write(i));
+    ASSERT_TRUE(exchange.read());
+  }
+}
+
 TEST(Exchange, AllocatesNothing) {
   Mirror mirror;
   auto exchange = exchange_of(mirror, kPatient_s);
