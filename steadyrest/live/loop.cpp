@@ -87,7 +87,8 @@ void Loop::succeed() noexcept {
   if (config_.on_reload) {
     config_.on_reload(next->text);
   }
-  taken_.fetch_add(1);  // last: what was before may go from here on
+  status_.store(now_);
+  taken_.fetch_add(1);  // last: what was before may go from here on, and the status shows it
 }
 
 bool Loop::note(std::string_view words) {

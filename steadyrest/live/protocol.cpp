@@ -57,10 +57,12 @@ std::string answer(const Asked& of, std::string_view line) {
   }
   const Json ask = request.value("ask", Json());
   if (ask == "status") {
+    // Read first: a reload that is told as taken shows in the loop's status.
+    const Json reload = of.reloader != nullptr ? reload_json(of.reloader->status()) : Json();
     Json status = status_json(of.loop.status());
     status["mode_wanted"] = word(of.loop.mode_wanted());  // asked for since the last cycle
     status["port"] = of.port;
-    status["reload"] = of.reloader != nullptr ? reload_json(of.reloader->status()) : Json();
+    status["reload"] = reload;
     if (of.more_keys) {
       status.update(of.more_keys());
     }

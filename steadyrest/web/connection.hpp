@@ -208,8 +208,10 @@ class Connection final : public Waiting,
     const bool taken =
         makes.take([self = this->shared_from_this(),
                     later = std::move(response.later)](const std::stop_token& stop) mutable {
-          self->deliver(later(stop));
-          leave(std::move(self));
+          return [self = std::move(self), made = later(stop)]() mutable {
+            self->deliver(std::move(made));
+            leave(std::move(self));
+          };
         });
     if (!taken) {
       Response busy = error(503, "busy", "other long answers are being made",

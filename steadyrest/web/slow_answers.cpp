@@ -28,15 +28,16 @@ bool SlowAnswers::take(Work work) {
   }
   boost::asio::post(pool_, [this, work = std::move(work)] {
     lower_priority();
-    work(stop_.get_token());
+    const auto deliver = work(stop_.get_token());
     taken_.fetch_sub(1);
+    deliver();
   });
   return true;
 }
 
 void SlowAnswers::end() {
+  pool_.stop();  // first: none that waits is begun any more
   stop_.request_stop();
-  pool_.stop();
   pool_.join();
 }
 

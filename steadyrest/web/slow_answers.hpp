@@ -14,7 +14,9 @@ namespace steadyrest::web {
 /// wait for them.
 class SlowAnswers {
  public:
-  using Work = std::function<void(std::stop_token)>;
+  /// Makes an answer and returns its delivery, which is called once this has room again: whoever
+  /// has the answer may ask for another.
+  using Work = std::function<std::function<void()>(std::stop_token)>;
 
   /// At most `most` are being made or wait.
   SlowAnswers(std::size_t threads, std::size_t most) : most_(most), pool_(threads) {}

@@ -21,13 +21,14 @@ using adapters::opcua::BridgeClient;
 using adapters::opcua::NodePlan;
 using kernel::machine::Machine;
 
-constexpr double kPatience_s = 15.0;
+constexpr double kPatience_s = 60.0;
 
 /// One server for all of them: it takes seconds to start. Its orders are read-only.
 class Access : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     of_ = new Machine(machine());
+    of_->opcua.reply_s = 10.0;  // a busy computer's
     give_state_folder(*of_);
     control_ = new ControlSide({.machine = *of_, .path = circles(*of_)});
     server_ = new Server(*of_, *control_, {{"orders_read_only", true}});

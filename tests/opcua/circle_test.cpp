@@ -61,7 +61,7 @@ Figures cut(Rig& rig, const std::shared_ptr<const nc::plan::PlannedPath>& path) 
     EXPECT_TRUE(frame) << kernel::outcome::text(frame.error());
     const auto command = layer.update(frame ? *frame : kernel::signal::Frame());
     if (command.write) {
-      out.undelivered += rig.write(command) ? 0 : 1;
+      out.undelivered += rig.write(command, 30.0) ? 0 : 1;
     }
   }
   out.time_s = rig.control.time_s();
@@ -80,6 +80,7 @@ TEST_P(Circle, KeepsItsLimitWithinTenPercentOfTheClairvoyant) {
   const auto [dead_ms, cycle_ms] = GetParam();
   Machine of = machine();
   of.opcua.cycle_s = 1e-3 * cycle_ms;
+  of.opcua.reply_s = 10.0;  // a busy computer's
   of.feed_override.dead_time_s = 1e-3 * dead_ms;
   give_state_folder(of);
   const auto path = circle_r10(of);

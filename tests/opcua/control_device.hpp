@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -19,7 +20,7 @@ class ControlDevice final
     : public kernel::link::Device<adapters::opcua::Reading, adapters::opcua::Order> {
  public:
   ControlDevice(const kernel::machine::Machine& machine, std::shared_ptr<ControlSide> control,
-                std::shared_ptr<bool> lost)
+                std::shared_ptr<std::atomic<bool>> lost)
       : plan_(machine.opcua),
         periods_(static_cast<int>(
             std::lround(machine.opcua.cycle_s / machine.control.interpolator_period_s))),
@@ -57,7 +58,7 @@ class ControlDevice final
   adapters::opcua::NodePlan plan_;
   int periods_;
   std::shared_ptr<ControlSide> control_;
-  std::shared_ptr<bool> lost_;
+  std::shared_ptr<std::atomic<bool>> lost_;
 };
 
 }  // namespace steadyrest::opcua

@@ -53,6 +53,22 @@ TEST(ControlText, PlcBlockHasThisMachinesCodes) {
   EXPECT_NE(text.find("    19: DB21.DB4 := B#16#1A;   // 100 %"), std::string::npos);
 }
 
+TEST(ControlText, PlcBlockIsOfTheChannel) {
+  auto of = by_plc();
+  of.opcua.channel = 3;
+  const std::string text = adapters::opcua::control_texts(of).value()[2].text;
+  EXPECT_NE(text.find("CASE WORD_TO_INT(BYTE_TO_WORD(DB23.DB4)) OF"), std::string::npos);
+  EXPECT_EQ(text.find("DB21"), std::string::npos);
+}
+
+// 10 % at 200 %/s, and 22 positions of them, with two cycles of OB1.
+TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
+  const auto of = by_plc();
+  const std::string text = adapters::opcua::control_texts(of).value()[2].text;
+  EXPECT_NE(text.find("step := wait >= 50;"), std::string::npos);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 0.2 + 24 * 0.05, 1e-9);
+}
+
 // The control writes 5EX-5; 5e-05 is an error there.
 TEST(ControlText, SmallNumbersHaveNoExponent) {
   auto of = machine();

@@ -25,7 +25,7 @@ constexpr double kInForce = 1e-6;
 
 kernel::machine::Machine scene() {
   auto of = machine();
-  of.opcua.reply_s = 0.3;
+  of.opcua.reply_s = 5.0;  // a busy computer's pause is no cut
   give_state_folder(of);
   return of;
 }

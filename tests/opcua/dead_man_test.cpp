@@ -10,6 +10,7 @@
 #include <tests/opcua/scene.hpp>
 
 #include <steadyrest/adapters/opcua/control_text.hpp>
+#include <steadyrest/adapters/opcua/frame.hpp>
 #include <steadyrest/adapters/opcua/node_plan.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 
@@ -148,10 +149,72 @@ TEST_F(DeadMan, ATornOrAForeignOrderIsNotTaken) {
   EXPECT_NEAR(control.feed_in_force(), 0.5, 1e-9);
 }
 
+// 1.11 / 0.01 is a little more than 111.
+TEST_F(DeadMan, EveryValueOfTheEnvelopeIsTaken) {
+  for (int percent = 1; percent <= 200; ++percent) {
+    auto wide = machine();
+    wide.envelope.max_feed_ratio = percent / 100.0;
+    wide.envelope.min_spindle_ratio = wide.envelope.max_feed_ratio;
+    wide.envelope.max_spindle_ratio = wide.envelope.max_feed_ratio;
+    ControlSide one({.machine = wide, .path = circles(wide)});
+    kernel::signal::Command command;
+    command.feed_masks_panel = command.spindle_masks_panel = true;
+    command.feed_ratio = command.spindle_ratio = percent / 100.0;
+    command.offset_mm[0] = wide.envelope.max_offset_mm;
+    Layer(one, wide).write(adapters::opcua::order_of(command, wide));
+    one.step();
+    ASSERT_TRUE(one.obeys()) << percent;
+  }
+}
+
+TEST_F(DeadMan, AnOffsetBeyondTheEnvelopeIsNotTaken) {
+  Order order;
+  order.has_offsets = true;
+  for (const double offset : {5.0, -5.0, 1e300}) {
+    order.offset_mm[1] = offset;
+    layer.write(order);
+    control.step();
+    ASSERT_FALSE(control.obeys()) << offset;
+    ASSERT_EQ(control.offset_mm(1), 0.0);
+  }
+}
+
+TEST_F(DeadMan, DeletedParametersDoNotStopTheSpindle) {
+  Order order;
+  order.masks_spindle = true;
+  order.spindle_percent = 100.0 * of.envelope.min_spindle_ratio;
+  layer.write(order);
+  control.step();
+  for (std::size_t i = 0; i < kernel::machine::work_count(3); ++i) {
+    control.r(static_cast<int>(of.opcua.first_work + i)) = 0.0;
+  }
+  control.step();
+  EXPECT_GE(control.read("$AA_TOTAL_OVR[S1]"), order.spindle_percent - 1e-6);
+}
+
+TEST_F(DeadMan, TheFeedReturnsNoFasterThanTheSpindle) {
+  auto slow = machine();
+  slow.envelope.spindle_slew_1_s = 0.5;
+  ControlSide one({.machine = slow, .path = circles(slow)});
+  Layer dying(one, slow);
+  Order order;
+  order.masks_feed = order.masks_spindle = true;
+  order.feed_percent = order.spindle_percent = 80.0;
+  dying.write(order);
+  const double most_s = adapters::opcua::neutral_after_s(slow, 0.8);
+  EXPECT_NEAR(most_s, 0.2 + 0.2 / 0.5 + 2.0 * slow.control.interpolator_period_s, 1e-9);
+  const double from_s = one.time_s();
+  do {
+    one.step();
+    ASSERT_LE(100.0 * one.feed_in_force(), one.read("$AA_TOTAL_OVR[S1]") + 1e-6);
+    ASSERT_LE(one.time_s() - from_s, most_s + 1e-6);
+  } while (one.feed_in_force() < 1.0 - 1e-9);
+}
+
 TEST_F(DeadMan, OffsetsMoveSlowlyFreezeInTheCutAndGoWhenTheProgramHasEnded) {
   Order order;
   order.has_offsets = true;
-  order.offset_mm[1] = 5.0;  // beyond the envelope
+  order.offset_mm[1] = of.envelope.max_offset_mm;
   double before = 0.0;
   const double step = of.envelope.offset_slew_mm_s * of.control.interpolator_period_s;
   for (int i = 0; i < 1500; ++i) {

@@ -18,13 +18,17 @@ namespace {
 /// The file's text with the server's endpoint and the test's user.
 std::string changed(std::string text, const std::string& endpoint,
                     const kernel::machine::OpcUa& config) {
-  const auto put = [&](const std::string& key, const std::string& value) {
+  const auto set = [&](const std::string& key, const std::string& value) {
     const std::size_t at = text.find("\n" + key + " = ");
     if (at != std::string::npos) {
       text.erase(at + 1, text.find('\n', at + 1) - at);
     }
-    text.insert(text.find("[opcua]\n") + 8, key + " = \"" + value + "\"\n");
+    text.insert(text.find("[opcua]\n") + 8, key + " = " + value + "\n");
   };
+  const auto put = [&](const std::string& key, const std::string& value) {
+    set(key, "\"" + value + "\"");
+  };
+  set("reply_ms", "10000");  // a busy computer's
   put("endpoint", endpoint);
   put("password_file", config.password_file);
   put("certificates", config.certificates);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace steadyrest::ports {
 Subject on_opcua(const std::vector<Turn>& turns) {
   Subject subject;
   subject.machine = opcua::machine();
+  subject.machine.opcua.reply_s = 20.0;  // a busy computer's
   const auto table = kernel::override::Table::make(subject.machine.feed_override).value();
   std::vector<sim::OperatorAction> actions;
   for (const Turn& turn : turns) {
@@ -25,7 +27,7 @@ Subject on_opcua(const std::vector<Turn>& turns) {
       opcua::ControlSide::Config{.machine = subject.machine,
                                  .path = opcua::circles(subject.machine),
                                  .operator_actions = std::move(actions)});
-  const auto lost = std::make_shared<bool>(false);
+  const auto lost = std::make_shared<std::atomic<bool>>(false);
   subject.port =
       adapters::opcua::OpcUaPort::make(
           subject.machine, std::make_unique<opcua::ControlDevice>(subject.machine, control, lost))

@@ -23,6 +23,8 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr std::uint32_t kLastAction = 255;
+/// Added to the limits of an order (%, mm): 1.11 / 0.01 is a little more than 111.
+constexpr double kRounding = 1e-6;
 constexpr std::string_view kWithout = "; not on this machine: ";
 
 using Fields = std::map<std::string, std::string, std::less<>>;
@@ -76,6 +78,27 @@ bool has_plc_block(const Machine& machine) {
   });
 }
 
+/// Rate of the way back (1/s). The feed does not return faster than the spindle: feed per tooth
+/// would rise.
+double hand_back_1_s(const Machine& machine) {
+  return std::min(machine.opcua.hand_back_1_s, machine.envelope.spindle_slew_1_s);
+}
+
+/// One position of the switch in the PLC's way back: the widest one takes so long at that rate.
+double position_s(const Machine& machine) {
+  double widest = 0.0;
+  for (const auto* const table : {&machine.feed_override, &machine.spindle_override}) {
+    for (std::size_t i = 1; i < table->ratio.size(); ++i) {
+      widest = std::max(widest, table->ratio[i] - table->ratio[i - 1]);
+    }
+  }
+  return std::max(0.02, std::ceil(1e3 * widest / hand_back_1_s(machine) - 1e-6) * 1e-3);
+}
+
+int gray(const kernel::machine::OverrideTable& table) {
+  return table.coding == kernel::machine::Coding::gray ? 1 : 0;
+}
+
 std::string scl_cases(const kernel::machine::OverrideTable& table, bool to_position,
                       std::string_view place) {
   std::string out;
@@ -104,14 +127,14 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"IPO_S", number(ipo_s)},
       {"DEAD_MS", number(1e3 * config.dead_man_s)},
       {"DEAD_CYCLES", number(dead_cycles)},
-      {"RISE", number(100.0 * config.hand_back_1_s * ipo_s)},
-      {"RISE_PERCENT_S", number(100.0 * config.hand_back_1_s)},
+      {"RISE", number(100.0 * hand_back_1_s(machine) * ipo_s)},
+      {"RISE_PERCENT_S", number(100.0 * hand_back_1_s(machine))},
       {"SPINDLE_RISE", number(100.0 * envelope.spindle_slew_1_s * ipo_s)},
-      {"FEED_MAX", number(100.0 * envelope.max_feed_ratio)},
-      {"SPINDLE_MIN", number(100.0 * std::min(1.0, envelope.min_spindle_ratio))},
-      {"SPINDLE_MAX", number(100.0 * std::max(1.0, envelope.max_spindle_ratio))},
+      {"FEED_MAX", number(100.0 * envelope.max_feed_ratio + kRounding)},
+      {"SPINDLE_MIN", number(100.0 * std::min(1.0, envelope.min_spindle_ratio) - kRounding)},
+      {"SPINDLE_MAX", number(100.0 * std::max(1.0, envelope.max_spindle_ratio) + kRounding)},
       {"SPINDLE", config.spindle},
-      {"OFFSET_MAX", number(envelope.max_offset_mm)},
+      {"OFFSET_MOST", number(envelope.max_offset_mm + kRounding)},
       {"OFFSET_STEP", number(envelope.offset_slew_mm_s * ipo_s)},
       {"R_NEEDED",
        std::to_string(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
@@ -127,10 +150,13 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"DB", std::to_string(config.plc_block)},
       {"IDB", std::to_string(config.plc_block + 1)},
       {"AXIS_DB", std::to_string(spindle_db)},
-      {"GRAY", machine.feed_override.coding == kernel::machine::Coding::gray ? "1" : "0"},
-      {"STEP_MS", number(std::max(20.0, std::round(1e3 * 0.05 / config.hand_back_1_s)))},
+      {"GRAY", std::to_string(gray(machine.feed_override))},
+      {"SPINDLE_GRAY", std::to_string(gray(machine.spindle_override))},
+      {"STEP_MS", number(std::round(1e3 * position_s(machine)))},
+      {"CHANNEL_DB", std::to_string(config.channel_db())},
       {"FEED_TO_POSITION", scl_cases(machine.feed_override, true, "")},
-      {"POSITION_TO_FEED", scl_cases(machine.feed_override, false, "DB21.DB4")},
+      {"POSITION_TO_FEED",
+       scl_cases(machine.feed_override, false, fmt::format("DB{}.DB4", config.channel_db()))},
       {"SPINDLE_TO_POSITION", scl_cases(machine.spindle_override, true, "")},
       {"POSITION_TO_SPINDLE",
        scl_cases(machine.spindle_override, false, fmt::format("DB{}.DB19", spindle_db))},
@@ -260,8 +286,14 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
 }
 
 double neutral_after_s(const Machine& machine, double from_ratio, double panel_ratio) noexcept {
+  if (has_plc_block(machine)) {
+    const auto positions = std::ranges::count_if(machine.feed_override.ratio, [&](double ratio) {
+      return ratio > from_ratio && ratio <= panel_ratio;
+    });
+    return machine.opcua.dead_man_s + static_cast<double>(positions + 2) * position_s(machine);
+  }
   return machine.opcua.dead_man_s +
-         std::max(0.0, panel_ratio - from_ratio) / machine.opcua.hand_back_1_s +
+         std::max(0.0, panel_ratio - from_ratio) / hand_back_1_s(machine) +
          2.0 * machine.control.interpolator_period_s;
 }
 

@@ -25,13 +25,14 @@ bool has(const OpcUa& config, Quantity quantity) noexcept {
 }
 
 /// G codes of group 1 by their number there, as the control counts them: G0 is 1, G33 is 10, G34
-/// and G35 are 16 and 17. Of the others only that they are feed matters.
+/// and G35 are 16 and 17, G335 and G336 20 and 21. Of the others only that they are feed matters.
+/// NaN: no such number; a control that does not tell the group shows 0.
 double code_of_number(double number) noexcept {
-  constexpr std::array<double, 18> kCodes = {0, 0,  1,   2,   3, 1, 1, 1,  1,
-                                             1, 33, 331, 332, 1, 1, 1, 34, 35};
+  constexpr std::array<double, kGroup1Codes + 1> kCodes = {NAN, 0,   1, 2, 3, 1,  1,  1, 1, 1,  33,
+                                                           331, 332, 1, 1, 1, 34, 35, 1, 1, 33, 33};
   return number >= 1.0 && number < static_cast<double>(kCodes.size())
              ? kCodes[static_cast<std::size_t>(number)]
-             : 1.0;
+             : NAN;
 }
 
 Motion motion_of_code(double code) noexcept {
@@ -42,17 +43,6 @@ Motion motion_of_code(double code) noexcept {
     return Motion::thread;
   }
   return code == 63.0 || code == 331.0 || code == 332.0 ? Motion::tap : Motion::feed;
-}
-
-ProgramState state_of(double shown, const OpcUa& config) noexcept {
-  constexpr std::array<ProgramState, 3> kStates = {ProgramState::stopped, ProgramState::paused,
-                                                   ProgramState::running};
-  for (std::size_t i = 0; i < kStates.size(); ++i) {
-    if (std::ranges::find(config.states[i], shown) != config.states[i].end()) {
-      return kStates[i];
-    }
-  }
-  return ProgramState::unknown;
 }
 
 OverrideState override_of(double panel_percent, double effective_percent) noexcept {
@@ -103,6 +93,18 @@ Mapped mapped(const OpcUa& config) noexcept {
           .spindle_speeds = has(config, Quantity::spindle_command_rpm)};
 }
 
+ProgramState program_state(const Reading& reading, const OpcUa& config) noexcept {
+  const double shown = reading[Quantity::program_state];
+  constexpr std::array<ProgramState, 3> kStates = {ProgramState::stopped, ProgramState::paused,
+                                                   ProgramState::running};
+  for (std::size_t i = 0; i < kStates.size(); ++i) {
+    if (std::ranges::find(config.states[i], shown) != config.states[i].end()) {
+      return kStates[i];
+    }
+  }
+  return ProgramState::unknown;
+}
+
 Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& machine,
                const kernel::override::Table* feed_table) noexcept {
   Frame frame;
@@ -125,8 +127,7 @@ Frame frame_of(const Reading& reading, const Mapped& mapped, const Machine& mach
     frame.spindle = override_of(spindle, std::isfinite(effective) ? effective : spindle);
   }
   const auto& config = machine.opcua;
-  frame.program = mapped.program_state ? state_of(reading[Quantity::program_state], config)
-                                       : ProgramState::unknown;
+  frame.program = mapped.program_state ? program_state(reading, config) : ProgramState::unknown;
   const double code = std::isfinite(reading[Quantity::motion_g])
                           ? reading[Quantity::motion_g]
                           : code_of_number(reading[Quantity::motion_number]);

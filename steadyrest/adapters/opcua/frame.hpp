@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <steadyrest/adapters/opcua/reading.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/override/table.hpp>
@@ -8,6 +10,9 @@
 #include <steadyrest/kernel/signal/frame.hpp>
 
 namespace steadyrest::adapters::opcua {
+
+/// G codes of group 1: `motion_number` is 1 to this.
+constexpr std::size_t kGroup1Codes = 21;
 
 /// Which optional quantities the mapping has; a missing one gets what is stated.
 struct Mapped {
@@ -21,6 +26,10 @@ struct Mapped {
   bool spindle_speeds = false;   ///< else 0
 };
 [[nodiscard]] Mapped mapped(const kernel::machine::OpcUa& config) noexcept;
+
+/// By the words of the mapping.
+[[nodiscard]] kernel::signal::ProgramState program_state(
+    const Reading& reading, const kernel::machine::OpcUa& config) noexcept;
 
 /// Everything but time, age and cycle. What is mapped and not known stays NaN: the supervisor
 /// answers with neutral requests.

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/adapters/opcua/frame.hpp>
 #include <steadyrest/adapters/opcua/node_check.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
@@ -153,6 +154,19 @@ std::vector<Refusal> position_faults(const Reading& reading,
     }
   }
   return out;
+}
+
+std::optional<Refusal> motion_fault(const Reading& reading, const kernel::machine::OpcUa& config) {
+  const double shown = reading[Quantity::motion_number];
+  if (!(shown < 1.0 || shown > static_cast<double>(kGroup1Codes))) {
+    return std::nullopt;
+  }
+  return bad_input(config.mapping,
+                   fmt::format("{} is {:g} now; allowed: 1 … {}. The layer takes every motion for "
+                               "a thread and changes no override",
+                               word_of(Quantity::motion_number), shown, kGroup1Codes),
+                   "name G group 1 in MD22510 (MD22512 for programs in ISO language); else correct "
+                   "its node in the mapping");
 }
 
 }  // namespace steadyrest::adapters::opcua

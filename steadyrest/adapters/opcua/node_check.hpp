@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <steadyrest/adapters/opcua/node_plan.hpp>
@@ -24,5 +25,9 @@ namespace steadyrest::adapters::opcua {
 /// referenced.
 [[nodiscard]] std::vector<kernel::outcome::Refusal> position_faults(
     const Reading& reading, const kernel::machine::Machine& machine);
+
+/// A number of the G code that G group 1 does not have: the control does not tell the group.
+[[nodiscard]] std::optional<kernel::outcome::Refusal> motion_fault(
+    const Reading& reading, const kernel::machine::OpcUa& config);
 
 }  // namespace steadyrest::adapters::opcua

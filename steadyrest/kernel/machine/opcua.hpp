@@ -149,6 +149,8 @@ struct OpcUa {
   double cycle_s = 0.02;     ///< the layer reads and writes this often
   double reply_s = 0.5;      ///< longest wait for the control's answer
   std::uint32_t channel = 1;
+  /// The channel's data block in the PLC.
+  [[nodiscard]] std::uint32_t channel_db() const noexcept { return 20 + channel; }
   std::uint32_t first_sample = 700;  ///< R parameters that the control's side fills
   std::uint32_t first_order = 760;   ///< R parameters that the layer writes
   std::uint32_t first_work = 780;    ///< R parameters that the control's side works with

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/core.h>
 
@@ -178,6 +179,32 @@ void lines(const Machine& machine, List& out) {
   }
 }
 
+/// The spindle's override acts in threads, too; the feed's is held there by the control itself.
+void threads(const Machine& machine, List& out) {
+  using kernel::machine::PortKind;
+  using kernel::machine::Quantity;
+  const auto has = [](const auto& places, std::initializer_list<Quantity> any_of) {
+    return std::ranges::any_of(places, [&](const auto& place) {
+      return std::ranges::find(any_of, place.quantity) != any_of.end();
+    });
+  };
+  const bool blind_lines = machine.port == PortKind::lines && !machine.lines.spindle.out.empty() &&
+                           machine.lines.locked == kernel::machine::kNoLine;
+  const bool blind_mapping =
+      machine.port == PortKind::opcua &&
+      has(machine.opcua.writes, {Quantity::spindle_percent, Quantity::spindle_position}) &&
+      !has(machine.opcua.reads, {Quantity::motion_g, Quantity::motion_number});
+  if (blind_lines || blind_mapping) {
+    out.push_back({Severity::warning, "threads",
+                   "the layer changes the spindle's override and sees no threads: one that it "
+                   "meets is spoilt",
+                   blind_lines
+                       ? "wire an output of the control that is on in threads and taps, and "
+                         "name it locked in [lines]; else leave [lines.spindle] out"
+                       : "map motion_g or motion_number; else write no spindle override"});
+  }
+}
+
 /// Distance covered until an override acts is v·delay; only the look-ahead can act earlier.
 void tempo(const Machine& machine, List& out) {
   const double delay_s = machine.feed_override.scan_period_s + machine.feed_override.dead_time_s;
@@ -202,6 +229,7 @@ std::vector<Finding> findings(const Machine& machine) {
   chatter(machine, out);
   tempo(machine, out);
   lines(machine, out);
+  threads(machine, out);
   return out;
 }
 

@@ -139,8 +139,9 @@ class MappingReader {
     const bool of_axis = kernel::machine::is_of_axis(quantity);
     const std::size_t axes = present_.size();
     std::string node = read.node;
-    const std::array<std::pair<std::string_view, std::size_t>, 6> filled = {
+    const std::array<std::pair<std::string_view, std::size_t>, 7> filled = {
         {{"{channel}", out_.channel},
+         {"{channel_db}", out_.channel_db()},
          {"{axis}", rank + 1},
          {"{sample}", out_.first_sample},
          {"{sample_count}", kernel::machine::sample_count(axes)},

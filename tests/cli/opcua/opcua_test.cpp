@@ -70,14 +70,19 @@ TEST(OpcUaAsAUserMeetsIt, ACertificateIsTrustedOnceAndOrdersComeFromActModeAlone
   Process acting(
       {"run", "--mode", "act", "--machine", machine->machine_file(), "--socket", scratch.at("s")},
       scratch.at("."));
-  for (int i = 0; i < 3000 && machine->seen().obeyed_cycles < 200; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
+  const auto obeys_for = [&](std::size_t cycles) {
+    const std::size_t until = machine->seen().obeyed_cycles + cycles;
+    for (int i = 0; i < 3000 && machine->seen().obeyed_cycles < until; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  };
+  obeys_for(200);
   // What a second layer meets.
   const Finished beside =
       run_line("run --for-s 0.1 --mode act" + of + " --socket " + scratch.at("t"));
   EXPECT_EQ(beside.code, 1);
   EXPECT_THAT(beside.err, HasSubstr("another layer acts on this control"));
+  obeys_for(20);
   acting.send(SIGTERM);
   EXPECT_EQ(acting.wait(), 0) << acting.err();
   const auto seen = machine->seen();

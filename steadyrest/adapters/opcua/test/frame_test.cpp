@@ -25,11 +25,18 @@ TEST(Frame, ThreadsAndTapsAreKnownByTheirNumber) {
   for (const double feed : {2.0, 3.0, 4.0, 9.0, 15.0, 18.0}) {
     EXPECT_EQ(motion_by_number(feed), Motion::feed) << feed;
   }
-  for (const double thread : {10.0, 16.0, 17.0}) {
-    EXPECT_EQ(motion_by_number(thread), Motion::thread) << "G33, G34, G35: " << thread;
+  for (const double thread : {10.0, 16.0, 17.0, 20.0, 21.0}) {
+    EXPECT_EQ(motion_by_number(thread), Motion::thread) << "G33, G34, G35, G335, G336: " << thread;
   }
   EXPECT_EQ(motion_by_number(11), Motion::tap);
   EXPECT_EQ(motion_by_number(12), Motion::tap);
+}
+
+// A control that does not tell the group shows 0: it may be a thread.
+TEST(Frame, AnUnknownNumberHoldsTheOverrides) {
+  for (const double unknown : {0.0, 22.0, 255.0, -1.0}) {
+    EXPECT_EQ(motion_by_number(unknown), Motion::thread) << unknown;
+  }
 }
 
 }  // namespace

@@ -56,5 +56,19 @@ TEST_F(ValueFaults, ANegativeScaleAndAWrongUnitAreNamed) {
             "map.toml: command_mm of X is 250000 now, beyond its travel of -100 … 400\n");
 }
 
+TEST_F(ValueFaults, AGroupThatTheControlDoesNotTellIsNamed) {
+  EXPECT_FALSE(motion_fault(reading_, machine_.opcua)) << "not mapped";
+  for (const double number : {1.0, 10.0, 21.0}) {
+    show(Quantity::motion_number, number);
+    EXPECT_FALSE(motion_fault(reading_, machine_.opcua)) << number;
+  }
+  for (const double number : {0.0, 22.0, -1.0}) {
+    show(Quantity::motion_number, number);
+    const auto fault = motion_fault(reading_, machine_.opcua);
+    ASSERT_TRUE(fault) << number;
+    EXPECT_NE(fault->to_do.find("MD22510"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace steadyrest::adapters::opcua

@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/opcua/bridge_device.hpp>
+#include <steadyrest/adapters/opcua/frame.hpp>
 #include <steadyrest/adapters/opcua/node_check.hpp>
 #include <steadyrest/adapters/opcua/opcua_port.hpp>
 #include <steadyrest/adapters/opcua/program_name.hpp>
@@ -32,13 +33,16 @@ using adapter::BridgeClient;
 using adapter::BridgeDevice;
 using adapter::OpcUaPort;
 using kernel::machine::Machine;
+using kernel::signal::ProgramState;
 using passport::Finding;
 using passport::Severity;
 using steadyrest::live::FollowedPort;
 using steadyrest::live::LoadedProgram;
 using steadyrest::live::ProgramWatch;
 
+using Clock = std::chrono::steady_clock;
 constexpr double kConnect_s = 20.0;
+constexpr std::chrono::milliseconds kMoment(1000);
 constexpr std::chrono::milliseconds kBetweenSamples(20);
 constexpr int kSamples = 10;
 constexpr double kDeadMen = 1.5;  ///< times of the dead man
@@ -70,9 +74,18 @@ struct Watched {
   adapter::Reading last;
 };
 
+/// A busy control may show no new sample, or not answer, for a moment.
+Result<void> read_patiently(BridgeDevice& device, adapter::Reading& reading) {
+  const auto until = Clock::now() + kMoment;
+  auto read = device.read(reading);
+  while (!read && Clock::now() < until) {
+    read = device.read(reading);
+  }
+  return read;
+}
+
 /// The control's side shows another sample each time.
 Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa& config) {
-  using Clock = std::chrono::steady_clock;
   using kernel::machine::Quantity;
   if (auto connected = device.connect(kConnect_s); !connected) {
     return std::unexpected(std::move(connected.error()));
@@ -86,7 +99,7 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
   const auto begin = Clock::now();
   for (int i = 0; i < kSamples || Clock::now() - begin < least; ++i) {
     const auto before = Clock::now();
-    if (auto read = device.read(reading); !read) {
+    if (auto read = read_patiently(device, reading); !read) {
       return std::unexpected(std::move(read.error()));
     }
     out.longest_s =
@@ -126,10 +139,8 @@ ProgramWatch::Source shown(LoadedProgram program, OpcUaPort& port) {
 void check_program(const Machine& machine, const adapter::Reading& shown,
                    std::vector<Finding>& out) {
   const std::string_view name = shown.program.data();
-  const auto& stopped = machine.opcua.states.front();
-  const bool is_stopped =
-      std::ranges::find(stopped, shown[kernel::machine::Quantity::program_state]) != stopped.end();
-  if (!machine.opcua.program.empty() && is_stopped && !name.empty() &&
+  if (!machine.opcua.program.empty() &&
+      adapter::program_state(shown, machine.opcua) == ProgramState::stopped && !name.empty() &&
       !adapter::same_program(name, machine.opcua.program)) {
     out.push_back({Severity::warning, kOpcUaCheck,
                    fmt::format("the control has selected {}, which is not the name of {}", name,
@@ -165,6 +176,12 @@ void check_samples(const Machine& machine, std::vector<Finding>& out) {
   }
   for (const Refusal& fault : adapter::position_faults(watched->last, machine)) {
     out.push_back({Severity::warning, kOpcUaCheck, fault.what, fault.to_do});
+  }
+  if (const auto fault = adapter::motion_fault(watched->last, machine.opcua)) {
+    // Before its first block a control may show nothing yet.
+    const bool runs = adapter::program_state(watched->last, machine.opcua) == ProgramState::running;
+    out.push_back(
+        {runs ? Severity::error : Severity::warning, kOpcUaCheck, fault->what, fault->to_do});
   }
   check_program(machine, watched->last, out);
   if (watched->other_layer) {

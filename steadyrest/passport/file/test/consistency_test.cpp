@@ -30,6 +30,22 @@ struct Case {
 
 std::vector<Case> cases() {
   return {
+      {"threads_on_lines",
+       [](Machine& m) {
+         m.port = kernel::machine::PortKind::lines;
+         m.contour.enabled = false;
+         m.lines.watchdog_s = 0.5;
+         m.lines.programmed_rev_s = 20.0;
+         m.lines.spindle.out = {0};
+       },
+       "threads", Severity::warning},
+      {"threads_by_mapping",
+       [](Machine& m) {
+         m.port = kernel::machine::PortKind::opcua;
+         m.opcua.writes.push_back(
+             {.quantity = kernel::machine::Quantity::spindle_percent, .node = "s=S"});
+       },
+       "threads", Severity::warning},
       {"gains", [](Machine& m) { m.axes[1].servo_gain_1_s = 55; }, "servo_gain", Severity::warning},
       {"forward", [](Machine& m) { m.axes[0].feed_forward = 1; }, "feed_forward",
        Severity::warning},

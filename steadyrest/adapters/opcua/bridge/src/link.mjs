@@ -119,7 +119,8 @@ export class Link {
       keepSessionAlive: false,
       requestedSessionTimeout: 60000,
       defaultTransactionTimeout: this.#config.timeout_ms,
-      transportTimeout: this.#config.timeout_ms,
+      // Of a silent connection too: a layer that has just connected may not have read yet.
+      transportTimeout: Math.max(5000, this.#config.timeout_ms),
       certificateFile: this.#certificates.file,
       privateKeyFile: this.#certificates.keyFile,
       // Which certificate is trusted is decided before, by Certificates.demand(), on the bytes.

@@ -79,13 +79,8 @@ const kActs = {
       automaticallyAcceptUnknownCertificate: accepts,
     });
     await manager.initialize();
-    const probe = net.createServer();
-    const inner = await new Promise((resolve) => probe.listen(0, "127.0.0.1", () => {
-      const free = probe.address().port;
-      probe.close(() => resolve(free));
-    }));
     server = new OPCUAServer({
-      port: inner,
+      port: 0,
       host: "127.0.0.1",
       serverCertificateManager: manager,
       certificateFile: path.join(folder, "server.pem"),
@@ -102,7 +97,7 @@ const kActs = {
     const sinumerik = namespace.addFolder(space.rootFolder.objects, { browseName: "Sinumerik" });
     for (const variable of variables) addVariable(namespace, sinumerik, variable);
     await server.start();
-    return { port: await startRelay(inner, port), pid: process.pid };
+    return { port: await startRelay(server.endpoints[0].port, port), pid: process.pid };
   },
   set({ values }) {
     for (const [id, value] of Object.entries(values)) nodes.get(id).value = value;
