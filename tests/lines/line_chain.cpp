@@ -9,8 +9,8 @@
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
-// The exchange's thread and the test's take turns: whatever the layer's thread touches here is
-// touched only while the test waits in LinesPort::read().
+// The exchange's thread writes an order as soon as it can, beside the test. A lock makes them take
+// turns: that thread touches wires and encoders only while the test waits for a reading.
 namespace steadyrest::test::lines {
 
 using adapters::lines::CounterSample;
@@ -97,6 +97,7 @@ Machine wired_840d(double dead_time_s) {
 
 /// Wires and encoders of the layer's side, the machine behind them.
 struct LineChain::Side {
+  std::mutex turn;  ///< whose turn it is to touch the others
   std::unique_ptr<Link> link;
   Terminals terminals;
   RecorderSample sample;
@@ -106,10 +107,14 @@ struct LineChain::Side {
    public:
     explicit LinkWires(Side& side) : side_(side) {}
     Result<void> read(Levels& inputs, Levels& outputs) override {
+      const std::scoped_lock lock(side_.turn);
       now_s_ = side_.terminals.now_s;
       return side_.link->read(inputs, outputs);
     }
-    Result<void> write(const Levels& outputs) override { return side_.link->write(outputs); }
+    Result<void> write(const Levels& outputs) override {
+      const std::scoped_lock lock(side_.turn);
+      return side_.link->write(outputs);
+    }
     [[nodiscard]] std::uint64_t connections() const noexcept override {
       return side_.link->connections();
     }
@@ -124,6 +129,7 @@ struct LineChain::Side {
    public:
     explicit Encoders(Side& side) : side_(side) {}
     Result<EncoderReading> next() override {
+      const std::scoped_lock lock(side_.turn);
       if (side_.recorder_silent) {
         return kernel::outcome::unavailable("the recorder sends nothing", "see its cable");
       }
@@ -134,12 +140,40 @@ struct LineChain::Side {
     Side& side_;
     RecorderTrack track_;
   };
+
+  /// Gives the turn away while it reads, and when it ends.
+  class TurnPort final : public kernel::port::Port {
+   public:
+    TurnPort(std::unique_ptr<Port> port, std::unique_lock<std::mutex>& turn)
+        : port_(std::move(port)), turn_(turn) {}
+    TurnPort(const TurnPort&) = delete;
+    TurnPort& operator=(const TurnPort&) = delete;
+    ~TurnPort() override {
+      turn_.unlock();
+      port_.reset();
+      turn_.lock();
+    }
+    [[nodiscard]] kernel::port::Capability capability() const noexcept override {
+      return port_->capability();
+    }
+    Result<Frame> read() noexcept override {
+      turn_.unlock();
+      auto got = port_->read();
+      turn_.lock();
+      return got;
+    }
+    Result<void> write(const Command& command) noexcept override { return port_->write(command); }
+
+   private:
+    std::unique_ptr<Port> port_;
+    std::unique_lock<std::mutex>& turn_;
+  };
 };
 
 LineChain::LineChain(const Machine& machine,
                      const std::shared_ptr<const nc::plan::PlannedPath>& path,
                      std::unique_ptr<Link> link)
-    : machine_(machine), side_(std::make_unique<Side>()) {
+    : machine_(machine), side_(std::make_unique<Side>()), turn_(side_->turn) {
   side_->link = std::move(link);
   // The recorder counts from where the axes stand at the start.
   machine_.recorder.start_mm = {path->segments.front().start_mm.begin(),
@@ -157,7 +191,7 @@ void LineChain::begin() {
     ADD_FAILURE() << kernel::outcome::text(port.error());
     return;
   }
-  port_ = std::move(*port);
+  port_ = std::make_unique<Side::TurnPort>(std::move(*port), turn_);
   commanded_ = live::CommandedPort::make(*port_, machine_).value();
   followed_ = std::make_unique<live::FollowedPort>(
       *commanded_,

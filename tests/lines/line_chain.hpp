@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -38,8 +39,8 @@ class BareLink final : public Link {
   kernel::outcome::Result<void> write(const adapters::lines::Levels& outputs) override;
   [[nodiscard]] std::uint64_t connections() const noexcept override { return connections_; }
 
-  bool dead = false;        ///< the module has lost its supply: all outputs are off
-  bool cut = false;         ///< from any thread between two readings
+  bool dead = false;  ///< the module has lost its supply: all outputs are off
+  bool cut = false;
   double watchdog_s = 0.0;  ///< outputs drop when they were not written for so long; 0: never
 
  private:
@@ -58,7 +59,8 @@ class BareLink final : public Link {
 [[nodiscard]] kernel::machine::Machine wired_840d(double dead_time_s);
 
 /// A layer that reaches the simulated machine by nothing but wires and encoders, with the machine's
-/// PLC beyond them. One call is one cycle of the machine; the layer's comes every `cycle_s`.
+/// PLC beyond them. One call is one cycle of the machine; the layer's comes every `cycle_s`. Its
+/// orders are on the wires from its next reading on. Used by one thread.
 class LineChain {
  public:
   /// `machine` with port lines. The link belongs to the chain; a test failure says what was
@@ -96,7 +98,8 @@ class LineChain {
 
   kernel::machine::Machine machine_;
   std::unique_ptr<Side> side_;
-  std::unique_ptr<adapters::lines::LinesPort> port_;
+  std::unique_lock<std::mutex> turn_;  ///< of the test, but for readings
+  std::unique_ptr<kernel::port::Port> port_;
   std::shared_ptr<const nc::follow::Route> route_;
   std::unique_ptr<live::CommandedPort> commanded_;
   std::unique_ptr<live::FollowedPort> followed_;

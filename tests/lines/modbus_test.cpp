@@ -121,13 +121,14 @@ class SlowModule {
   [[nodiscard]] std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
 
  private:
-  /// One request for eight inputs.
+  /// One request for 1008 inputs.
   void run() const {
     const int link = ::accept(listens_, nullptr, nullptr);
     std::array<std::uint8_t, 12> request{};
     if (::recv(link, request.data(), request.size(), MSG_WAITALL) == 12) {
-      const std::array<std::uint8_t, 10> answer = {request[0], request[1], 0,          0, 0,
-                                                   4,          request[6], request[7], 1, 0};
+      constexpr std::uint8_t kBytes = 1008 / 8;
+      const std::array<std::uint8_t, 9 + kBytes> answer = {
+          request[0], request[1], 0, 0, 0, 3 + kBytes, request[6], request[7], kBytes};
       for (const std::uint8_t byte : answer) {
         ::poll(nullptr, 0, 50);
         if (::send(link, &byte, 1, MSG_NOSIGNAL) != 1) {
@@ -143,19 +144,20 @@ class SlowModule {
   std::thread thread_;
 };
 
-// `reply_s` is for the whole answer: else each byte might take another half second.
+// `reply_s` is for the whole answer: else each byte might take another half second. The answer
+// takes seven seconds, since bytes that are there already are read even when the time is up.
 TEST(Modbus, AnAnswerInPiecesHasNoMoreTimeThanAWholeOne) {
   const SlowModule module;
   Lines lines = lines_of(module.address());
   lines.reply_s = 0.1;
-  lines.feed.panel = {0, 7};
+  lines.feed.panel = {0, 1007};
   lines.running = kernel::machine::kNoLine;
   const auto wires = ModbusWires::make(lines).value();
   Levels inputs;
   Levels outputs;
   const auto read = wires->read(inputs, outputs);
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().what.find("inputs 0 … 7"), std::string::npos) << read.error().what;
+  EXPECT_NE(read.error().what.find("inputs 0 … 1007"), std::string::npos) << read.error().what;
 }
 
 /// Two serial lines with a wire between.

@@ -4,6 +4,7 @@
 
 cut_once.py PROGRAM LOG: beside LOG come the layer's answer (run.json), what it said (run.said) and its record.
 """
+import json
 import os
 import subprocess
 import sys
@@ -14,6 +15,13 @@ import linuxcnc
 from bring_up import bring_up
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+PROBE = os.path.join(HERE, "probe")
+
+
+def planned(socket):
+    """The layer is there and has planned the program."""
+    asked = subprocess.run([PROBE, "status", "--socket", socket, "--json"], capture_output=True, text=True)
+    return asked.returncode == 0 and (json.loads(asked.stdout).get("program") or {}).get("segments", 0) > 0
 
 
 def main():
@@ -22,15 +30,20 @@ def main():
     command, status = bring_up(program)
     open(log, "w").close()
     with open(os.path.join(folder, "run.json"), "w") as out, open(os.path.join(folder, "run.said"), "w") as said:
-        layer = subprocess.Popen([os.path.join(HERE, "probe"), "run", "--machine", os.path.join(HERE, "machine.toml"), "--mode", "act",
-                                  "--socket", os.path.join(folder, "s"), "--record", folder, "--json"], stdout=out, stderr=said)
-        time.sleep(1.5)  # the program is read and planned
+        socket = os.path.join(folder, "s")
+        layer = subprocess.Popen([PROBE, "run", "--machine", os.path.join(HERE, "machine.toml"), "--mode", "act",
+                                  "--socket", socket, "--record", folder, "--json"], stdout=out, stderr=said)
+        limit = time.monotonic() + 60
+        while layer.poll() is None and not planned(socket) and time.monotonic() < limit:
+            time.sleep(0.05)
         command.auto(linuxcnc.AUTO_RUN, 0)
-        time.sleep(0.5)
+        started = False
         limit = time.monotonic() + 300
         while layer.poll() is None and time.monotonic() < limit:
             status.poll()
-            if status.interp_state == linuxcnc.INTERP_IDLE and status.inpos:
+            busy = status.interp_state != linuxcnc.INTERP_IDLE
+            started = started or busy
+            if started and not busy and status.inpos:
                 break
             time.sleep(0.05)
         layer.terminate()

@@ -14,6 +14,10 @@ import linuxcnc
 from bring_up import bring_up
 
 
+def left_in_sampler():
+    return int(subprocess.run(["halcmd", "getp", "sampler.0.curr-depth"], capture_output=True, check=True).stdout)
+
+
 def main():
     program, log = sys.argv[1], sys.argv[2]
     errors = linuxcnc.error_channel()
@@ -37,7 +41,8 @@ def main():
             break
         time.sleep(0.01)
     subprocess.run(["halcmd", "setp", "sampler.0.enable", "0"], check=True)
-    time.sleep(0.3)
+    while left_in_sampler() > 0 and time.monotonic() < limit:
+        time.sleep(0.01)
     sampler.terminate()
     sampler.wait()
     moving = []

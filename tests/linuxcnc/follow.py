@@ -35,7 +35,7 @@ class Layer:
         asked = subprocess.run([PROBE, "status", "--socket", self.socket, "--json"], capture_output=True, text=True)
         return json.loads(asked.stdout).get("program", {}) if asked.returncode == 0 else {}
 
-    def until(self, holds, seconds=10.0):
+    def until(self, holds, seconds=60.0):
         """The first status that `holds`, else the last one."""
         end = time.monotonic() + seconds
         while True:
@@ -98,7 +98,7 @@ def main():
     said["kept"] = layer.until(told("#31"))
     opened(RELATIVE)
     layer.until(planned)
-    time.sleep(1.5)  # the position at which the axes rest is told every second
+    time.sleep(5.0)  # the position at which the axes rest is told every second
     command.auto(linuxcnc.AUTO_RUN, 0)
     said["relative"] = layer.until(lambda seen: seen.get("place") == "on_path")
     layer.end()

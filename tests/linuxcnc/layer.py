@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the layer on the LinuxCNC that is up while it cuts circles: observing, then acting. GPL-2.0+ modules are imported, not linked.
 
-layer.py PROGRAM LOG: beside LOG come the layer's answers (observe.json, act.json), what became of each changed machine file (reload1.json …), and
-the log of sampler channel 2 (LOG).
+layer.py PROGRAM LOG: beside LOG come the layer's answers (observe.json, reloads.json, act.json), what became of each changed machine file
+(reload1.json …), and the log of sampler channel 2 (LOG).
 """
 import json
 import os
@@ -50,24 +50,32 @@ def reload_changed_files(run, folder):
     with open(MACHINE, "w") as file:
         file.write(text)
 
+
+def end_after(run, folder, cycles):
+    while run.poll() is None and (status(folder) or {"cycles": 0})["cycles"] < cycles:
+        time.sleep(0.02)
+    run.terminate()
+    run.wait()
+
+
 def main():
     program, log = sys.argv[1], sys.argv[2]
     folder = os.path.dirname(log)
     command, _ = bring_up(program)
 
-    def layer(mode, seconds):
-        with open(os.path.join(folder, mode + ".json"), "w") as out, open(os.path.join(folder, mode + ".said"), "w") as said:
-            run = subprocess.Popen([os.path.join(HERE, "probe"), "run", "--machine", MACHINE, "--mode", mode, "--for-s", str(seconds),
-                                    "--socket", os.path.join(folder, "s"), "--record", folder, "--json"], stdout=out, stderr=said)
-            if mode == "observe":
-                reload_changed_files(run, folder)
-            run.wait()
+    def layer(name, mode, *until):
+        with open(os.path.join(folder, name + ".json"), "w") as out, open(os.path.join(folder, name + ".said"), "w") as said:
+            return subprocess.Popen([os.path.join(HERE, "probe"), "run", "--machine", MACHINE, "--mode", mode, *until,
+                                     "--socket", os.path.join(folder, "s"), "--record", folder, "--json"], stdout=out, stderr=said)
 
     sampler = subprocess.Popen(["halsampler", "-c", "2", "-t", log])
     command.auto(linuxcnc.AUTO_RUN, 0)
     time.sleep(2.0)
-    layer("observe", 3)
-    layer("act", 4)
+    layer("observe", "observe", "--for-s", "3").wait()
+    run = layer("reloads", "observe")
+    reload_changed_files(run, folder)
+    end_after(run, folder, 2500)
+    layer("act", "act", "--for-s", "4").wait()
     time.sleep(0.5)
     command.abort()
     time.sleep(0.2)

@@ -9,14 +9,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <tests/linuxcnc/measure.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 
 /// The built program on the mill of the examples, which a headless LinuxCNC plays.
 namespace steadyrest::linuxcnc_test {
-
-/// measure.sh: no LinuxCNC, or no namespaces.
-inline constexpr int kCannotRun = 77;
 
 inline int status_of(const std::string& command) {
   const int status = std::system(command.c_str());

@@ -4,14 +4,13 @@
 // k = 20 1/s, exact for a command that holds over a servo period of 1 ms.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <tests/linuxcnc/measure.hpp>
 
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
@@ -20,9 +19,12 @@
 namespace steadyrest {
 namespace {
 
+using linuxcnc_test::kCannotRun;
+using linuxcnc_test::Ran;
+using linuxcnc_test::run_planned;
+
 constexpr double kGain_1_s = 20.0;
 constexpr double kPeriod_s = 0.001;
-constexpr int kCannotRun = 77;  ///< measure.sh: no LinuxCNC, or no namespaces
 
 /// A tangent, three turns of a circle of 10 mm about the origin, a tangent.
 const std::string kCircle =
@@ -63,33 +65,6 @@ Measured measured(const std::string& log) {
   return out;
 }
 
-/// Runs the program on LinuxCNC; the exit status of measure.sh. Its task feeds the planner from
-/// user space, and a computer busy for long enough lets the queue run dry: the planner then stops
-/// on the way, which its own log shows as more periods than it needs. Such a run says nothing of
-/// the program and is repeated.
-struct Ran {
-  int status = kCannotRun;
-  double seconds = 0.0;  ///< from the first to the last period out of position
-};
-Ran run_on_linuxcnc(const std::string& program, const std::string& log, double seconds) {
-  constexpr int kTries = 8;
-  constexpr double kDry = 1.004;
-  Ran ran;
-  for (int i = 0; i < kTries; ++i) {
-    const std::string periods = log + ".periods";
-    const std::string command = "bash " STEADYREST_SOURCE_DIR "/tests/linuxcnc/measure.sh " +
-                                program + " " + log + " >" + periods;
-    ran.status = WEXITSTATUS(std::system(command.c_str()));
-    double count = 0.0;
-    std::ifstream(periods) >> count;
-    ran.seconds = count * kPeriod_s;
-    if (ran.status == kCannotRun || (ran.status == 0 && ran.seconds <= kDry * seconds)) {
-      break;
-    }
-  }
-  return ran;
-}
-
 TEST(PredistortOnLinuxCnc, CutsACircleInTheSameTimeWithoutItsError) {
   const kernel::file::testing::OwnFolder folder;
   const std::string original = folder.at("circle.ngc");
@@ -105,13 +80,13 @@ TEST(PredistortOnLinuxCnc, CutsACircleInTheSameTimeWithoutItsError) {
   std::ofstream(changed) << done->replaced.text;
 
   const std::string log = folder.at("log");
-  const Ran as_it_is = run_on_linuxcnc(original, log, done->seconds_before);
+  const Ran as_it_is = run_planned(original, log, done->seconds_before);
   if (as_it_is.status == kCannotRun) {
     GTEST_SKIP() << "LinuxCNC cannot run here";
   }
   ASSERT_EQ(as_it_is.status, 0);
   const Measured before = measured(log);
-  const Ran changed_run = run_on_linuxcnc(changed, log, done->seconds_after);
+  const Ran changed_run = run_planned(changed, log, done->seconds_after);
   ASSERT_EQ(changed_run.status, 0);
   const Measured after = measured(log);
   // The closed form: R·(1 − 1/√(1 + q²)) with q = v/(R·k) = 1/3.

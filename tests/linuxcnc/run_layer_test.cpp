@@ -102,7 +102,7 @@ TEST(RunOnLinuxCnc, SlowsTheCircleAndHandsBack) {
   const auto machine = passport::read(folder.at("machine.toml"));
   ASSERT_TRUE(machine.has_value());
   const std::vector<std::string> records = record::testing::run_records(folder.path());
-  EXPECT_EQ(records.size(), 2U);
+  EXPECT_EQ(records.size(), 3U);
   for (const std::string& record : records) {
     expect_replays(record, *machine);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include <tests/ports/subject.hpp>
 
 #include <steadyrest/adapters/linuxcnc/linuxcnc_port.hpp>
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/override/table.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -21,6 +21,7 @@
 namespace steadyrest::ports {
 namespace {
 
+using kernel::file::testing::OwnFolder;
 using kernel::machine::Machine;
 
 Machine machine_of(const std::string& name) {
@@ -56,21 +57,6 @@ std::unique_ptr<kernel::port::Port> simulation_of(const Machine& machine,
 double in_force_of(const Machine& machine) {
   return machine.feed_override.dead_time_s + machine.feed_override.scan_period_s +
          2.0 * machine.control.interpolator_period_s;
-}
-
-/// A folder for records that goes with the last copy of the pointer.
-std::shared_ptr<std::string> own_folder() {
-  static int number = 0;
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string("ports-") + test->test_suite_name() + "-" + test->name();
-  std::ranges::replace(name, '/', '-');
-  const auto path = std::filesystem::path(testing::TempDir()) / (name + std::to_string(++number));
-  std::filesystem::remove_all(path);
-  std::filesystem::create_directories(path);
-  return {new std::string(path.string()), [](const std::string* folder) {
-            std::filesystem::remove_all(*folder);
-            delete folder;
-          }};
 }
 
 Subject linuxcnc(const std::vector<Turn>& turns, bool offsets) {
@@ -110,8 +96,8 @@ Subject simulated_without_offsets(const std::vector<Turn>& turns) {
 
 Subject replayed(const std::vector<Turn>& turns) {
   Subject subject = simulated(turns);
-  const auto folder = own_folder();
-  const std::string file = *folder + "/run.sqlite";
+  const auto folder = std::make_shared<OwnFolder>();
+  const std::string file = folder->at("run.sqlite");
   {
     const auto writer = record::RecordWriter::make(
                             {.file = file,

@@ -66,7 +66,8 @@ class OnDesk : public ::testing::Test {
   [[nodiscard]] Reloader::Config config() {
     return {.running = desk.machine,
             .make = [this](const Machine& running) { return make(running); },
-            .utc_now = [] { return std::string("2026-11-26T12:00:00Z"); }};
+            .utc_now = [] { return std::string("2026-11-26T12:00:00Z"); },
+            .patience_s = 60.0};
   }
   void run_until_answered(const Reloader& reloader, std::uint64_t number) {
     finished = [&reloader, number] { return reloader.status().number >= number; };

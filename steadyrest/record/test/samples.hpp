@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/record_writer.hpp>
 #include <steadyrest/record/sample.hpp>
@@ -20,22 +20,11 @@ namespace steadyrest::record::test {
 /// A folder of the running test's own, removed with this object.
 class Folder {
  public:
-  Folder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("record-") + info->test_suite_name() + "-" + info->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { std::filesystem::remove_all(path_); }
-
-  [[nodiscard]] std::string path() const { return path_.string(); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string path() const { return own_.path().string(); }
+  [[nodiscard]] std::string file(const std::string& name) const { return own_.at(name); }
 
  private:
-  std::filesystem::path path_;
+  kernel::file::testing::OwnFolder own_;
 };
 
 using Random = std::mt19937_64;

@@ -58,11 +58,12 @@ class Mill : public ::testing::Test {
     const auto read = passport::read(machine_).value();
     const auto& feed = read.feed_override.code;
     const auto& spindle = read.spindle_override.code;
+    const auto stands = [&](std::size_t i) {
+      return wired(feed[std::min(i, feed.size() - 1)] | spindle[std::min(i, spindle.size() - 1)]
+                                                            << 5U);
+    };
+    module_->exchange(stands(0), 0.0);
     const std::jthread operator_of([&](const std::stop_token& stop) {
-      const auto stands = [&](std::size_t i) {
-        return wired(feed[std::min(i, feed.size() - 1)] | spindle[std::min(i, spindle.size() - 1)]
-                                                              << 5U);
-      };
       for (std::size_t i = 0; i < std::max(feed.size(), spindle.size()); ++i) {
         const std::uint64_t before = module_->exchange(stands(i), 0.0).reads;
         while (!stop.stop_requested() && module_->exchange(stands(i), 0.0).reads < before + 2) {

@@ -12,7 +12,10 @@
 #include "program.hpp"
 #include "scratch.hpp"
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
+
+#include <steadyrest/live/control_socket.hpp>
 
 namespace steadyrest::test {
 
@@ -56,14 +59,21 @@ class LiveLayer {
     scratch_.file("machine.toml", text);
   }
 
+  /// The status, which a busy computer may be slow to give.
+  [[nodiscard]] static nlohmann::json status(const std::string& socket = live::usual_socket()) {
+    const auto answer = live::ask(socket, R"({"version":1,"ask":"status"})", 60.0);
+    EXPECT_TRUE(answer.has_value()) << answer.error().what;
+    return answer ? nlohmann::json::parse(*answer)["status"] : nlohmann::json{};
+  }
+
   /// The status once `number` reloads have been done.
   [[nodiscard]] static nlohmann::json after_reload(int number) {
-    nlohmann::json status;
+    nlohmann::json now;
     EXPECT_TRUE(until([&] {
-      status = answer_of("status");
-      return status["reload"].is_object() && status["reload"]["number"] >= number;
+      now = status();
+      return now["reload"].is_object() && now["reload"]["number"] >= number;
     }));
-    return status;
+    return now;
   }
 
  private:

@@ -25,7 +25,7 @@ const std::string kLimit = "limit_um = 10\n";
 
 TEST(Reload, ASignalPutsTheNewFileInForceAndARefusedOneChangesNothing) {
   LiveLayer layer("act");
-  EXPECT_TRUE(answer_of("status")["reload"].is_null());
+  EXPECT_TRUE(LiveLayer::status()["reload"].is_null());
   layer.change(kLimit, "limit_um = 20\n");
   layer.process().send(SIGHUP);
   json status = LiveLayer::after_reload(1);
@@ -79,7 +79,7 @@ TEST(Reload, IsInTheRecordAndDecidedAgain) {
   EXPECT_EQ(status["reload"]["outcome"], "taken") << status["reload"]["words"];
   const auto cycles = status["cycles"].get<std::uint64_t>();
   EXPECT_TRUE(LiveLayer::until(
-      [&] { return answer_of("status")["cycles"].get<std::uint64_t>() > cycles + 100; }));
+      [&] { return LiveLayer::status()["cycles"].get<std::uint64_t>() > cycles + 100; }));
   layer.process().send(SIGTERM);
   EXPECT_EQ(layer.process().wait(), 0) << layer.process().err();
 
@@ -135,8 +135,7 @@ TEST(Reload, ATerminalThatHasGoneEndsTheRun) {
   const pid_t layer = on_terminal(master, socket);
   EXPECT_TRUE(LiveLayer::until([&] { return ::access(socket.c_str(), F_OK) == 0; }));
   ::kill(layer, SIGHUP);  // with its terminal there it is a reload
-  EXPECT_TRUE(LiveLayer::until(
-      [&] { return answer_of("status --socket " + socket)["reload"].is_object(); }));
+  EXPECT_TRUE(LiveLayer::until([&] { return LiveLayer::status(socket)["reload"].is_object(); }));
   ::close(master);
   int status = 0;
   EXPECT_EQ(::waitpid(layer, &status, 0), layer);

@@ -55,7 +55,7 @@ TEST(RunChatter, GoesOnListeningWithAnotherMachineFile) {
                   {"--process", project_file(kSlotProcess), "--depth-mm", "0.6", "--repeat",
                    "--record", "runs"},
                   kSlotProgram);
-  const auto chatter = [] { return answer_of("status")["chatter"]; };
+  const auto chatter = [] { return LiveLayer::status()["chatter"]; };
   EXPECT_TRUE(LiveLayer::until([&] { return !chatter()["before"].is_null(); }));
   EXPECT_THAT(run_line("status").out, HasSubstr("better step: 90 %"));
   layer.change("limit_um = 10\n", "limit_um = 20\n");
@@ -69,7 +69,7 @@ TEST(RunChatter, GoesOnListeningWithAnotherMachineFile) {
   status = LiveLayer::after_reload(2);
   EXPECT_EQ(status["reload"]["outcome"], "taken");
   EXPECT_EQ(status["chatter"]["better_spindle_percent"], 90.0);
-  EXPECT_TRUE(LiveLayer::until([&] { return answer_of("status")["cutting"] == true; }));
+  EXPECT_TRUE(LiveLayer::until([&] { return LiveLayer::status()["cutting"] == true; }));
   layer.process().send(SIGTERM);
   EXPECT_EQ(layer.process().wait(), 0) << layer.process().err();
   const json listed = answer_of("record list " + layer.at("runs"));

@@ -52,7 +52,7 @@ TEST(Service, TellsSystemdItsWholeLife) {
 // Both reach it while it is held, so that neither comes too late.
 TEST(Service, ASecondSignalEndsItWhicheverItIs) {
   LiveLayer layer("act");
-  ASSERT_TRUE(LiveLayer::until([] { return answer_of("status")["cycles"].get<int>() > 10; }));
+  ASSERT_TRUE(LiveLayer::until([] { return LiveLayer::status()["cycles"].get<int>() > 10; }));
   layer.process().send(SIGSTOP);
   layer.process().send(SIGTERM);
   layer.process().send(SIGINT);

@@ -46,7 +46,7 @@ struct Modulating {
     // The cycle after it has the rooms' figures.
     const auto cycles = status["cycles"].get<std::uint64_t>();
     EXPECT_TRUE(LiveLayer::until([&] {
-      status = answer_of("status");
+      status = LiveLayer::status();
       return status["cycles"].get<std::uint64_t>() > cycles + 2;
     }));
     return status;
@@ -67,9 +67,9 @@ TEST(Wish, AModulationIsInTheRecordOutlivesAReloadAndIsDecidedAgain) {
       << "the file's own modulation is the same";
   EXPECT_EQ(run.reload("12", kModulates + "law = \"square\"\n")["modulation"]["law"], "square");
   EXPECT_EQ(run.modulate("pulse")["modulation"]["law"], "pulse");
-  const auto cycles = answer_of("status")["cycles"].get<std::uint64_t>();
+  const auto cycles = LiveLayer::status()["cycles"].get<std::uint64_t>();
   EXPECT_TRUE(LiveLayer::until(
-      [&] { return answer_of("status")["cycles"].get<std::uint64_t>() > cycles + 100; }));
+      [&] { return LiveLayer::status()["cycles"].get<std::uint64_t>() > cycles + 100; }));
   run.layer.process().send(SIGTERM);
   EXPECT_EQ(run.layer.process().wait(), 0) << run.layer.process().err();
 

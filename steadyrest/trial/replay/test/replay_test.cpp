@@ -23,12 +23,8 @@ using kernel::machine::Machine;
 
 class Replay : public ::testing::Test {
  protected:
-  Replay() { std::filesystem::remove(file_); }
-  ~Replay() override { std::filesystem::remove(file_); }
-
-  const std::string file_ = ::testing::TempDir() + "replay-" +
-                            ::testing::UnitTest::GetInstance()->current_test_info()->name() +
-                            ".sqlite";
+  const kernel::file::testing::OwnFolder folder_;
+  const std::string file_ = folder_.at("run.sqlite");
 };
 
 constexpr std::uint64_t kAll = 1'000'000;
