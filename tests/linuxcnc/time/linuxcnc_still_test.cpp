@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/linuxcnc/measure.hpp>
-#include <tests/linuxcnc/timed_programs.hpp>
+#include <tests/linuxcnc/time/timed_programs.hpp>
 
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <tests/linuxcnc/timed_programs.hpp>
+#include <tests/linuxcnc/time/timed_programs.hpp>
 
 #include <steadyrest/kernel/file/testing/recorded.hpp>
 
