@@ -98,7 +98,7 @@ def main():
     said["kept"] = layer.until(told("#31"))
     opened(RELATIVE)
     layer.until(planned)
-    time.sleep(5.0)  # the position at which the axes rest is told every second
+    time.sleep(5.0)  # the position at which the axes rest is told every second, and shown nowhere
     command.auto(linuxcnc.AUTO_RUN, 0)
     said["relative"] = layer.until(lambda seen: seen.get("place") == "on_path")
     layer.end()

@@ -69,6 +69,24 @@ TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
   EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 0.2 + 24 * 0.05, 1e-9);
 }
 
+TEST(ControlText, TheStatedTimeIsThatOfTheSlowerOne) {
+  auto of = machine();
+  of.envelope.min_feed_ratio = 0.8;
+  of.envelope.min_spindle_ratio = 0.5;
+  const double cycles_s = 2.0 * of.control.interpolator_period_s;
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 0.7 / 2.0 + cycles_s, 1e-9);
+  of.spindle_override.ratio = {1.0};
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 0.4 / 2.0 + cycles_s, 1e-9);
+}
+
+TEST(ControlText, WithoutASpindleTheFeedHasItsOwnRate) {
+  auto of = machine();
+  of.envelope.spindle_slew_1_s = 0.5;
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 0.2 + 1.0 / 0.5 + 0.004, 0.02);
+  of.spindle_override.ratio = {1.0};
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 0.2 + 1.0 / 2.0 + 0.004, 0.02);
+}
+
 // The control writes 5EX-5; 5e-05 is an error there.
 TEST(ControlText, SmallNumbersHaveNoExponent) {
   auto of = machine();

@@ -179,14 +179,26 @@ TEST_F(DeadMan, AnOffsetBeyondTheEnvelopeIsNotTaken) {
   }
 }
 
+TEST_F(DeadMan, AForeignOffsetStaysWithinTheEnvelope) {
+  const int goal = static_cast<int>(of.opcua.first_work) + 12;
+  Order order;
+  for (int i = 0; i < 1500; ++i) {
+    layer.write(order);  // without offsets
+    control.r(goal) = 5.0;
+    control.step();
+    ASSERT_LE(control.offset_mm(0), of.envelope.max_offset_mm + 1e-5);
+  }
+}
+
 TEST_F(DeadMan, DeletedParametersDoNotStopTheSpindle) {
   Order order;
   order.masks_spindle = true;
   order.spindle_percent = 100.0 * of.envelope.min_spindle_ratio;
   layer.write(order);
   control.step();
-  for (std::size_t i = 0; i < kernel::machine::work_count(3); ++i) {
-    control.r(static_cast<int>(of.opcua.first_work + i)) = 0.0;
+  for (std::size_t i = of.opcua.first_sample;
+       i < of.opcua.first_work + kernel::machine::work_count(3); ++i) {
+    control.r(static_cast<int>(i)) = 0.0;
   }
   control.step();
   EXPECT_GE(control.read("$AA_TOTAL_OVR[S1]"), order.spindle_percent - 1e-6);

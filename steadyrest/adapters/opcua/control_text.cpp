@@ -19,6 +19,8 @@ namespace steadyrest::adapters::opcua {
 namespace {
 
 using kernel::machine::Machine;
+using kernel::machine::OverrideTable;
+using kernel::machine::Quantity;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
@@ -70,18 +72,26 @@ bool is_name(const std::string& text) {
   });
 }
 
-/// The PLC masks the switches; no action writes an override.
-bool has_plc_block(const Machine& machine) {
-  return std::ranges::any_of(machine.opcua.writes, [](const auto& place) {
-    return place.quantity == kernel::machine::Quantity::feed_position ||
-           place.quantity == kernel::machine::Quantity::spindle_position;
-  });
+bool writes(const Machine& machine, Quantity quantity) {
+  return std::ranges::find(machine.opcua.writes, quantity,
+                           &kernel::machine::OpcUaPlace::quantity) != machine.opcua.writes.end();
 }
 
-/// Rate of the way back (1/s). The feed does not return faster than the spindle: feed per tooth
-/// would rise.
+/// The PLC masks the switches; no action writes an override.
+bool has_plc_block(const Machine& machine) {
+  return writes(machine, Quantity::feed_position) || writes(machine, Quantity::spindle_position);
+}
+
+bool has_spindle(const Machine& machine) {
+  return machine.spindle_override.ratio.size() > 1;
+}
+
+/// Rate of the feed's way back (1/s). The actions do not bring it back faster than the spindle:
+/// feed per tooth would rise.
 double hand_back_1_s(const Machine& machine) {
-  return std::min(machine.opcua.hand_back_1_s, machine.envelope.spindle_slew_1_s);
+  return has_spindle(machine)
+             ? std::min(machine.opcua.hand_back_1_s, machine.envelope.spindle_slew_1_s)
+             : machine.opcua.hand_back_1_s;
 }
 
 /// One position of the switch in the PLC's way back: the widest one takes so long at that rate.
@@ -117,7 +127,7 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
   const auto& envelope = machine.envelope;
   const std::uint32_t spindle_db = 30 + config.spindle_axis;
   const bool plc = has_plc_block(machine);
-  const bool spindle = machine.spindle_override.ratio.size() > 1;
+  const bool spindle = has_spindle(machine);
   const auto unless = [](bool has) { return has ? std::string() : std::string(kWithout); };
   const auto dead_cycles = static_cast<int>(std::floor(config.dead_man_s / ipo_s + 1e-9));
   return {
@@ -143,7 +153,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"HAS_SPINDLE", unless(spindle)},
       {"BY_ACTIONS", unless(!plc)},
       {"SPINDLE_BY_ACTIONS", unless(spindle && !plc)},
-      {"HAS_OFFSETS", unless(envelope.max_offset_mm > 0.0)},
+      {"HAS_OFFSETS",
+       unless(envelope.max_offset_mm > 0.0 && writes(machine, Quantity::axis_offset_mm))},
       {"FEED_EXCEEDS", unless(!plc && machine.feed_override.layer_may_exceed_panel)},
       {"SPINDLE_EXCEEDS",
        unless(spindle && !plc && machine.spindle_override.layer_may_exceed_panel)},
@@ -246,6 +257,18 @@ class Filler {
   std::uint32_t next_action_;
 };
 
+/// From the last heartbeat until the panel is in force.
+double way_back_s(const Machine& machine, const OverrideTable& table, double rate_1_s,
+                  double from_ratio, double panel_ratio) noexcept {
+  if (has_plc_block(machine)) {
+    const auto positions = std::ranges::count_if(
+        table.ratio, [&](double ratio) { return ratio > from_ratio && ratio <= panel_ratio; });
+    return machine.opcua.dead_man_s + static_cast<double>(positions + 2) * position_s(machine);
+  }
+  return machine.opcua.dead_man_s + std::max(0.0, panel_ratio - from_ratio) / rate_1_s +
+         2.0 * machine.control.interpolator_period_s;
+}
+
 }  // namespace
 
 Result<std::vector<ControlText>> control_texts(const Machine& machine) {
@@ -286,15 +309,20 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
 }
 
 double neutral_after_s(const Machine& machine, double from_ratio, double panel_ratio) noexcept {
-  if (has_plc_block(machine)) {
-    const auto positions = std::ranges::count_if(machine.feed_override.ratio, [&](double ratio) {
-      return ratio > from_ratio && ratio <= panel_ratio;
-    });
-    return machine.opcua.dead_man_s + static_cast<double>(positions + 2) * position_s(machine);
-  }
-  return machine.opcua.dead_man_s +
-         std::max(0.0, panel_ratio - from_ratio) / hand_back_1_s(machine) +
-         2.0 * machine.control.interpolator_period_s;
+  return way_back_s(machine, machine.feed_override, hand_back_1_s(machine), from_ratio,
+                    panel_ratio);
+}
+
+double longest_hand_back_s(const Machine& machine) noexcept {
+  const auto top = [](const OverrideTable& table) {
+    return table.ratio.empty() ? 1.0 : std::max(1.0, table.ratio.back());
+  };
+  const double feed_s =
+      neutral_after_s(machine, machine.envelope.min_feed_ratio, top(machine.feed_override));
+  const double spindle_s =
+      way_back_s(machine, machine.spindle_override, machine.envelope.spindle_slew_1_s,
+                 std::min(1.0, machine.envelope.min_spindle_ratio), top(machine.spindle_override));
+  return has_spindle(machine) ? std::max(feed_s, spindle_s) : feed_s;
 }
 
 }  // namespace steadyrest::adapters::opcua

@@ -22,11 +22,14 @@ struct ControlText {
 [[nodiscard]] kernel::outcome::Result<std::vector<ControlText>> control_texts(
     const kernel::machine::Machine& machine);
 
-/// How long the control's side needs from the last heartbeat until the panel alone is in force, at
-/// most, when the layer held the feed at `from_ratio`: dead man + rise + two cycles. With the PLC
-/// block: dead man + positions of the switch, one each `STEP_MS`, + two cycles of OB1, which must
-/// not be longer than `STEP_MS`.
+/// How long the control's side needs from the last heartbeat until the panel's feed alone is in
+/// force, at most, when the layer held it at `from_ratio`: dead man + rise + two cycles. With the
+/// PLC block: dead man + positions of the switch, one each `STEP_MS`, + two cycles of OB1, which
+/// must not be longer than `STEP_MS`.
 [[nodiscard]] double neutral_after_s(const kernel::machine::Machine& machine, double from_ratio,
                                      double panel_ratio = 1.0) noexcept;
+
+/// The same from the envelope's lowest values to the switches' highest, feed and spindle.
+[[nodiscard]] double longest_hand_back_s(const kernel::machine::Machine& machine) noexcept;
 
 }  // namespace steadyrest::adapters::opcua

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -158,7 +159,8 @@ std::vector<Refusal> position_faults(const Reading& reading,
 
 std::optional<Refusal> motion_fault(const Reading& reading, const kernel::machine::OpcUa& config) {
   const double shown = reading[Quantity::motion_number];
-  if (!(shown < 1.0 || shown > static_cast<double>(kGroup1Codes))) {
+  const bool wrong = shown < 1.0 || shown > static_cast<double>(kGroup1Codes);
+  if (!wrong || std::isfinite(reading[Quantity::motion_g])) {
     return std::nullopt;
   }
   return bad_input(config.mapping,

@@ -31,6 +31,7 @@ void show_path(kernel::signal::Frame& frame) noexcept {
 
 using kernel::outcome::Result;
 using kernel::signal::Frame;
+using kernel::signal::Motion;
 using nc::follow::Place;
 
 Result<Frame> FollowedPort::read() noexcept {
@@ -48,6 +49,11 @@ Result<Frame> FollowedPort::read() noexcept {
     frame->path_position_mm = found.position_mm;
     if (estimated_) {
       show_path(*frame);
+    }
+    // A control may show a short thread late, or not at all.
+    const Motion planned = frame->path[found.index].motion;
+    if (is_locked(planned) && frame->motion != Motion::idle) {
+      frame->motion = planned;
     }
   }
   return frame;

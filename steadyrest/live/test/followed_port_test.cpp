@@ -73,6 +73,29 @@ TEST(FollowedPort, ShowsThePathThatTheMachineHides) {
   EXPECT_EQ(followed.place(), Place::no_program);
 }
 
+// The control tells its PLC of the G code once in a scan, and a thread may be over by then.
+TEST(FollowedPort, AThreadOfTheProgramIsOneThoughTheControlShowsAFeed) {
+  test::Desk desk;
+  Hidden hidden(*desk.port);
+  FollowedPort followed(hidden);
+  (void)hidden.read();
+  auto segments = std::vector(hidden.truth.path.begin(), hidden.truth.path.end());
+  for (auto& segment : segments) {
+    segment.motion = kernel::signal::Motion::thread;
+  }
+  followed.offer(std::make_shared<const Route>(std::move(segments)));
+  int threads = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto frame = followed.read();
+    ASSERT_TRUE(frame.has_value());
+    if (!frame->path.empty() && hidden.truth.motion != kernel::signal::Motion::idle) {
+      EXPECT_EQ(frame->motion, kernel::signal::Motion::thread) << i;
+      ++threads;
+    }
+  }
+  EXPECT_GT(threads, 100);
+}
+
 /// The share of cycles over the limit with a layer on `port`.
 double over_limit(test::Desk& desk, kernel::port::Port& port) {
   desk.layer->set_mode(kernel::machine::Mode::act);

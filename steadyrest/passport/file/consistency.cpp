@@ -194,10 +194,10 @@ void threads(const Machine& machine, List& out) {
       machine.port == PortKind::opcua &&
       has(machine.opcua.writes, {Quantity::spindle_percent, Quantity::spindle_position}) &&
       !has(machine.opcua.reads, {Quantity::motion_g, Quantity::motion_number});
-  if (blind_lines || blind_mapping) {
+  if (machine.spindle_override.ratio.size() > 1 && (blind_lines || blind_mapping)) {
     out.push_back({Severity::warning, "threads",
-                   "the layer changes the spindle's override and sees no threads: one that it "
-                   "meets is spoilt",
+                   "the layer changes the spindle's override, and sees threads only while it "
+                   "follows the program: another that it meets is spoilt",
                    blind_lines
                        ? "wire an output of the control that is on in threads and taps, and "
                          "name it locked in [lines]; else leave [lines.spindle] out"

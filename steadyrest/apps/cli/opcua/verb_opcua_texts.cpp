@@ -77,11 +77,6 @@ void keep_old(std::vector<kernel::file::FileText>& files, Answer& answer) {
   }
 }
 
-double highest_panel(const kernel::machine::Machine& machine) {
-  const auto& ratio = machine.feed_override.ratio;
-  return ratio.empty() ? 1.0 : std::ranges::max(ratio);
-}
-
 Outcome run(const Options& options) {
   auto machine = read_machine(options.machine);
   if (!machine) {
@@ -112,8 +107,7 @@ Outcome run(const Options& options) {
   if (const auto written = kernel::file::write_files(files); !written) {
     return refused(written.error());
   }
-  const double slowest_s = adapters::opcua::neutral_after_s(
-      *machine, machine->envelope.min_feed_ratio, std::max(1.0, highest_panel(*machine)));
+  const double slowest_s = adapters::opcua::longest_hand_back_s(*machine);
   answer.json["neutral_after_s"] = slowest_s;
   answer.text += fmt::format(
       "Without orders the control is neutral after {:.2f} s at most. How to load the files: "

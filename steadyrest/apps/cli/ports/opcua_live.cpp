@@ -74,14 +74,21 @@ struct Watched {
   adapter::Reading last;
 };
 
-/// A busy control may show no new sample, or not answer, for a moment.
-Result<void> read_patiently(BridgeDevice& device, adapter::Reading& reading) {
+/// How long the reading took (s). A busy control may show no new sample, or not answer, for a
+/// moment: it is asked again.
+Result<double> read_patiently(BridgeDevice& device, adapter::Reading& reading) {
   const auto until = Clock::now() + kMoment;
-  auto read = device.read(reading);
-  while (!read && Clock::now() < until) {
-    read = device.read(reading);
+  for (;;) {
+    const auto before = Clock::now();
+    const auto read = device.read(reading);
+    if (read) {
+      return std::chrono::duration<double>(Clock::now() - before).count();
+    }
+    if (Clock::now() > until) {
+      return std::unexpected(read.error());
+    }
+    std::this_thread::sleep_for(kBetweenSamples);
   }
-  return read;
 }
 
 /// The control's side shows another sample each time.
@@ -98,12 +105,11 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
   const auto least = std::chrono::duration<double>(kDeadMen * config.dead_man_s);
   const auto begin = Clock::now();
   for (int i = 0; i < kSamples || Clock::now() - begin < least; ++i) {
-    const auto before = Clock::now();
-    if (auto read = read_patiently(device, reading); !read) {
-      return std::unexpected(std::move(read.error()));
+    const auto took_s = read_patiently(device, reading);
+    if (!took_s) {
+      return std::unexpected(took_s.error());
     }
-    out.longest_s =
-        std::max(out.longest_s, std::chrono::duration<double>(Clock::now() - before).count());
+    out.longest_s = std::max(out.longest_s, *took_s);
     first_s = i == 0 ? reading[Quantity::time_s] : first_s;
     const double seen = reading[Quantity::heartbeat_seen];
     if (std::isfinite(seen)) {
@@ -178,10 +184,7 @@ void check_samples(const Machine& machine, std::vector<Finding>& out) {
     out.push_back({Severity::warning, kOpcUaCheck, fault.what, fault.to_do});
   }
   if (const auto fault = adapter::motion_fault(watched->last, machine.opcua)) {
-    // Before its first block a control may show nothing yet.
-    const bool runs = adapter::program_state(watched->last, machine.opcua) == ProgramState::running;
-    out.push_back(
-        {runs ? Severity::error : Severity::warning, kOpcUaCheck, fault->what, fault->to_do});
+    out.push_back({Severity::warning, kOpcUaCheck, fault->what, fault->to_do});
   }
   check_program(machine, watched->last, out);
   if (watched->other_layer) {

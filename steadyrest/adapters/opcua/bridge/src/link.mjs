@@ -119,7 +119,7 @@ export class Link {
       keepSessionAlive: false,
       requestedSessionTimeout: 60000,
       defaultTransactionTimeout: this.#config.timeout_ms,
-      // Of a silent connection too: a layer that has just connected may not have read yet.
+      // Also closes an idle connection; a layer that has just connected may not have read yet.
       transportTimeout: Math.max(5000, this.#config.timeout_ms),
       certificateFile: this.#certificates.file,
       privateKeyFile: this.#certificates.keyFile,
