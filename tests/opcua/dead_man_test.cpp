@@ -151,12 +151,13 @@ TEST_F(DeadMan, ATornOrAForeignOrderIsNotTaken) {
 
 // 1.11 / 0.01 is a little more than 111.
 TEST_F(DeadMan, EveryValueOfTheEnvelopeIsTaken) {
+  const auto path = circles(of);
   for (int percent = 1; percent <= 200; ++percent) {
-    auto wide = machine();
+    auto wide = of;
     wide.envelope.max_feed_ratio = percent / 100.0;
     wide.envelope.min_spindle_ratio = wide.envelope.max_feed_ratio;
     wide.envelope.max_spindle_ratio = wide.envelope.max_feed_ratio;
-    ControlSide one({.machine = wide, .path = circles(wide)});
+    ControlSide one({.machine = wide, .path = path});
     kernel::signal::Command command;
     command.feed_masks_panel = command.spindle_masks_panel = true;
     command.feed_ratio = command.spindle_ratio = percent / 100.0;

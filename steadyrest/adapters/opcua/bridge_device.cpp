@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/opcua/bridge_device.hpp>
+#include <steadyrest/adapters/opcua/node_check.hpp>
 #include <steadyrest/adapters/opcua/words.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
@@ -20,6 +21,14 @@ constexpr int kMostSame = 5;
 constexpr double kSamePause_s = 0.002;
 
 }  // namespace
+
+Result<std::vector<kernel::outcome::Refusal>> BridgeDevice::check() {
+  const auto answer = client_.check();
+  if (!answer) {
+    return std::unexpected(answer.error());
+  }
+  return node_faults(*answer, plan_, config_);
+}
 
 Result<void> BridgeDevice::read(Reading& sample) {
   auto connected = client_.connect(patience_s_);

@@ -29,6 +29,8 @@ class BridgeDevice final : public kernel::link::Device<Reading, Order> {
   [[nodiscard]] kernel::outcome::Result<void> connect(double patience_s) {
     return client_.connect(patience_s);
   }
+  /// What is wrong with the mapping's nodes on this control, which is connected: see node_faults().
+  [[nodiscard]] kernel::outcome::Result<std::vector<kernel::outcome::Refusal>> check();
   kernel::outcome::Result<void> read(Reading& sample) override;
   kernel::outcome::Result<void> write(const Order& order) override;
 

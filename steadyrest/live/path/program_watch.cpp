@@ -21,10 +21,12 @@ constexpr double kShortPlan_s = 0.02;
 
 }  // namespace
 
-ProgramWatch::ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source)
+ProgramWatch::ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source,
+                           Refused refused)
     : port_(port),
       machine_(std::move(machine)),
       source_(std::move(source)),
+      refused_(std::move(refused)),
       thread_([this] { watch(); }) {}
 
 ProgramWatch::~ProgramWatch() {
@@ -156,6 +158,7 @@ void ProgramWatch::plan(const LoadedProgram& loaded) {
   plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!path) {
     withdraw(loaded.file, kernel::outcome::text(path.error()));
+    refused_(path.error());
     return;
   }
   subprograms_ = std::move(path->subprograms);

@@ -44,7 +44,11 @@ class ProgramWatch {
     std::string words;         ///< why there is none; empty otherwise
   };
 
-  ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source);
+  /// Why a program cannot be planned; called in the watch's thread.
+  using Refused = std::function<void(const kernel::outcome::Refusal& why)>;
+
+  ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source,
+               Refused refused);
   ProgramWatch(const ProgramWatch&) = delete;
   ProgramWatch& operator=(const ProgramWatch&) = delete;
   ~ProgramWatch();
@@ -72,6 +76,7 @@ class ProgramWatch {
   FollowedPort& port_;
   kernel::machine::Machine machine_;
   Source source_;
+  Refused refused_;
   // Of the thread.
   LoadedProgram planned_;
   std::optional<Stamps> stamp_;           ///< of the texts that were planned, or refused

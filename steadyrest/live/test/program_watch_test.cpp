@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,7 +61,9 @@ class FakeControl {
 };
 
 struct Watched {
-  Watched() : watch(port, desk.machine, control.source()) {}
+  Watched()
+      : watch(port, desk.machine, control.source(),
+              [this](const kernel::outcome::Refusal& why) { refusals.push_back(why.what); }) {}
 
   LoadedProgram loaded(bool stopped = true) const {
     LoadedProgram program;
@@ -72,6 +75,7 @@ struct Watched {
   }
   void write(const std::string& text) const { std::ofstream(folder.at("part.mpf")) << text; }
 
+  std::vector<std::string> refusals;  ///< read after FakeControl::tell()
   OwnFolder folder;
   test::Desk desk;
   FollowedPort port{*desk.port};
@@ -100,6 +104,7 @@ TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
   watched.write("G0 X10\nG999\nM30\n");
   watched.control.tell(std::optional(watched.loaded()));
   EXPECT_THAT(watched.watch.status().words, HasSubstr("part.mpf:2"));
+  EXPECT_EQ(watched.refusals.size(), 2U) << "each is told once";
   EXPECT_EQ(watched.watch.status().segments, 0U);
   // Mended, it is read again.
   watched.write(kPart);

@@ -107,8 +107,8 @@ Result<std::shared_ptr<ProgramWatch>> watch_of(const Machine& machine,
   if (!start) {
     return std::unexpected(std::move(start.error()));
   }
-  return std::make_shared<ProgramWatch>(followed, machine,
-                                        told({.file = program.file, .start = std::move(*start)}));
+  return std::make_shared<ProgramWatch>(
+      followed, machine, told({.file = program.file, .start = std::move(*start)}), say_unplanned);
 }
 
 }  // namespace

@@ -94,9 +94,6 @@ Result<double> read_patiently(BridgeDevice& device, adapter::Reading& reading) {
 /// The control's side shows another sample each time.
 Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa& config) {
   using kernel::machine::Quantity;
-  if (auto connected = device.connect(kConnect_s); !connected) {
-    return std::unexpected(std::move(connected.error()));
-  }
   Watched out;
   adapter::Reading& reading = out.last;
   double heartbeat = std::nan("");
@@ -156,8 +153,7 @@ void check_program(const Machine& machine, const adapter::Reading& shown,
 }
 
 /// What the control shows, before this layer has sent anything.
-void check_samples(const Machine& machine, std::vector<Finding>& out) {
-  BridgeDevice device(opcua_client(machine));
+void check_samples(const Machine& machine, BridgeDevice& device, std::vector<Finding>& out) {
   const auto watched = watch_samples(device, machine.opcua);
   if (!watched) {
     out.push_back(error_of(kOpcUaCheck, watched.error()));
@@ -193,17 +189,8 @@ void check_samples(const Machine& machine, std::vector<Finding>& out) {
   }
 }
 
-}  // namespace
-
-BridgeClient::Config opcua_client(const Machine& machine) {
-  const char* const named = std::getenv("STEADYREST_OPCUA_BRIDGE");
-  return {.process = {.script = named != nullptr && *named != '\0' ? named : beside_program()},
-          .machine = machine.opcua,
-          .state_folder =
-              machine.opcua.certificates.empty() ? state_folder() : machine.opcua.certificates};
-}
-
-std::vector<Finding> opcua_findings(const Machine& machine) {
+/// The device is connected when there is no error among them.
+std::vector<Finding> findings_by(BridgeDevice& device, const Machine& machine) {
   std::vector<Finding> out;
   if (machine.opcua.security == kernel::machine::OpcUaSecurity::none) {
     out.push_back({Severity::warning, kOpcUaCheck,
@@ -215,28 +202,37 @@ std::vector<Finding> opcua_findings(const Machine& machine) {
                    "the mapping writes nothing: the layer can only observe",
                    "add [[write]] to the mapping if it shall act"});
   }
-  const adapter::NodePlan plan(machine.opcua);
-  {
-    BridgeClient client(opcua_client(machine), plan);
-    const auto connected = client.connect(kConnect_s);
-    if (!connected) {
-      out.push_back(error_of(kOpcUaCheck, connected.error()));
-      return out;
-    }
-    const auto checked = client.check();
-    if (!checked) {
-      out.push_back(error_of(kOpcUaCheck, checked.error()));
-      return out;
-    }
-    for (const Refusal& fault : adapter::node_faults(*checked, plan, machine.opcua)) {
-      out.push_back(error_of(kOpcUaCheck, fault));
-    }
+  if (const auto connected = device.connect(kConnect_s); !connected) {
+    out.push_back(error_of(kOpcUaCheck, connected.error()));
+    return out;
   }
-  if (std::ranges::none_of(out,
-                           [](const Finding& one) { return one.severity == Severity::error; })) {
-    check_samples(machine, out);
+  const auto faults = device.check();
+  if (!faults) {
+    out.push_back(error_of(kOpcUaCheck, faults.error()));
+    return out;
+  }
+  for (const Refusal& fault : *faults) {
+    out.push_back(error_of(kOpcUaCheck, fault));
+  }
+  if (faults->empty()) {
+    check_samples(machine, device, out);
   }
   return out;
+}
+
+}  // namespace
+
+BridgeClient::Config opcua_client(const Machine& machine) {
+  const char* const named = std::getenv("STEADYREST_OPCUA_BRIDGE");
+  return {.process = {.script = named != nullptr && *named != '\0' ? named : beside_program()},
+          .machine = machine.opcua,
+          .state_folder =
+              machine.opcua.certificates.empty() ? state_folder() : machine.opcua.certificates};
+}
+
+std::vector<Finding> opcua_findings(const Machine& machine) {
+  BridgeDevice device(opcua_client(machine));
+  return findings_by(device, machine);
 }
 
 std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
@@ -249,13 +245,10 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
   LivePort out;
   Machine with_program = machine;
   with_program.opcua.program = options.file;
-  out.findings = opcua_findings(with_program);
+  auto device = std::make_unique<BridgeDevice>(opcua_client(machine));
+  out.findings = findings_by(*device, with_program);
   if (auto errors = errors_of(machine, out.findings); !errors.empty()) {
     return std::unexpected(std::move(errors));
-  }
-  auto device = std::make_unique<BridgeDevice>(opcua_client(machine));
-  if (const auto connected = device->connect(kConnect_s); !connected) {
-    return refused(connected.error());
   }
   auto* const bridge = device.get();
   auto made = OpcUaPort::make(machine, std::move(device));
@@ -273,7 +266,8 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
     }
     start->on_control = true;
     watch = std::make_shared<ProgramWatch>(
-        *followed, machine, shown({.file = options.file, .start = std::move(*start)}, *port));
+        *followed, machine, shown({.file = options.file, .start = std::move(*start)}, *port),
+        say_unplanned);
   }
   out.shows = [port, bridge, &path = *followed, watch] {
     const auto alive = port->in_force();

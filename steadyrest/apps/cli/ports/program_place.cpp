@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,6 +35,13 @@ Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
           {"segments", status.segments},
           {"place", place.place},
           {"words", words.empty() ? Json(nullptr) : Json(words)}};
+}
+
+void say_unplanned(const kernel::outcome::Refusal& why) noexcept {
+  std::fputs(("steadyrest: warning: the layer runs without the program's path: " +
+              kernel::outcome::text(why) + "\n")
+                 .c_str(),
+             stderr);
 }
 
 std::expected<void, Refusals> check_program_file(const std::string& file) {

@@ -13,6 +13,9 @@ namespace steadyrest::apps::cli::live {
 [[nodiscard]] Json program_json(const steadyrest::live::ProgramWatch& watch,
                                 const steadyrest::live::FollowedPort& port);
 
+/// On stderr, at once: a run may take days.
+void say_unplanned(const kernel::outcome::Refusal& why) noexcept;
+
 /// Before a machine is connected: a program that is no file of this computer is refused. Empty:
 /// none.
 [[nodiscard]] std::expected<void, Refusals> check_program_file(const std::string& file);
