@@ -40,8 +40,8 @@ Result<void> Loop::check(const Config& config) {
 }
 
 Loop::Loop(kernel::port::Port& port, supervisor::Supervisor& layer, Pace& pace, Config config)
-    : port_(port, pace),
-      layer_(&layer),
+    : layer_(&layer),
+      port_(port, pace, config.holds_s, layer_),
       pace_(pace),
       config_(std::move(config)),
       wanted_(config_.mode) {

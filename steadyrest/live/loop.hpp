@@ -77,6 +77,9 @@ class Loop {
     std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
     double most_s = 0.0;      ///< likewise, by the pace's clock: cycles of a dead link are long
     bool port_paces = false;  ///< read() waits for the next frame
+    /// Without a command for longer the machine drops what was written, by the pace's clock; 0: it
+    /// stands still with the layer, or tells by its frames.
+    double holds_s = 0.0;
     // NOLINTBEGIN(readability-redundant-member-init)
     /// The machine has nothing more to do; empty: never.
     std::function<bool()> finished = {};
@@ -139,7 +142,9 @@ class Loop {
   /// Passes everything on and notes when the frame was there.
   class Watched final : public kernel::port::Port {
    public:
-    Watched(kernel::port::Port& port, const Pace& pace) noexcept : port_(port), pace_(pace) {}
+    Watched(kernel::port::Port& port, const Pace& pace, double holds_s,
+            supervisor::Supervisor* const& layer) noexcept
+        : port_(port), pace_(pace), holds_s_(holds_s), layer_(layer) {}
     [[nodiscard]] kernel::port::Capability capability() const noexcept override {
       return port_.capability();
     }
@@ -148,10 +153,15 @@ class Loop {
       read_s = pace_.now_s();
       age_s = frame ? frame->age_s : 0.0;
       last = frame ? *frame : kernel::signal::Frame();
+      if (holds_s_ > 0.0 && layer_->in_force().written && read_s - written_s_ > holds_s_) {
+        layer_->was_dropped();
+      }
       return frame;
     }
     kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override {
-      return port_.write(command);
+      auto done = port_.write(command);
+      written_s_ = pace_.now_s();
+      return done;
     }
     double read_s = 0.0;
     double age_s = 0.0;
@@ -160,6 +170,9 @@ class Loop {
    private:
     kernel::port::Port& port_;
     const Pace& pace_;
+    double holds_s_;
+    supervisor::Supervisor* const& layer_;  ///< of the loop: another may take over
+    double written_s_ = 0.0;
   };
 
   void succeed() noexcept;
@@ -174,8 +187,8 @@ class Loop {
   void publish() noexcept;
   void note_fault(const kernel::outcome::Refusal& refusal) noexcept;
 
-  Watched port_;
   supervisor::Supervisor* layer_;
+  Watched port_;
   Pace& pace_;
   Config config_;
   std::atomic<kernel::machine::Mode> wanted_;

@@ -112,6 +112,9 @@ class Supervisor {
   }
   /// The last command did not reach the machine: the previous one still applies there.
   void not_delivered() noexcept;
+  /// The machine has dropped what was written: the layer itself stood still for longer than it
+  /// holds that. The layer begins at the panel with the next good stamp. Before or while it reads.
+  void was_dropped() noexcept;
   /// A cycle without a reading: the last frame, aged. The caller gives the time.
   kernel::signal::Command update_without_frame(double time_s) noexcept;
   /// One whole cycle on a port; returns its refusal when it cannot read or write.

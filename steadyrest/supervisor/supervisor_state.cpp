@@ -135,6 +135,11 @@ void Supervisor::not_delivered() noexcept {
   state_.interrupted = true;
 }
 
+void Supervisor::was_dropped() noexcept {
+  state_.interrupted = true;
+  state_.silent_s = std::numeric_limits<double>::infinity();
+}
+
 Supervisor::State Supervisor::state() const noexcept {
   State state = state_;
   const Written now = written();

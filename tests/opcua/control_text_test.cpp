@@ -71,12 +71,12 @@ TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
 
 TEST(ControlText, TheStatedTimeIsThatOfTheSlowerOne) {
   auto of = machine();
-  of.envelope.min_feed_ratio = 0.8;
   of.envelope.min_spindle_ratio = 0.5;
+  of.spindle_override.ratio.back() = 2.0;
   const double cycles_s = 2.0 * of.control.interpolator_period_s;
-  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 0.7 / 2.0 + cycles_s, 1e-9);
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 1.5 / 2.0 + cycles_s, 1e-9);
   of.spindle_override.ratio = {1.0};
-  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 0.4 / 2.0 + cycles_s, 1e-9);
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 1.2 / 2.0 + cycles_s, 1e-9);
 }
 
 TEST(ControlText, WithoutASpindleTheFeedHasItsOwnRate) {

@@ -141,7 +141,8 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"RISE_PERCENT_S", number(100.0 * hand_back_1_s(machine))},
       {"SPINDLE_RISE", number(100.0 * envelope.spindle_slew_1_s * ipo_s)},
       {"FEED_MAX", number(100.0 * envelope.max_feed_ratio + kRounding)},
-      {"SPINDLE_MIN", number(100.0 * std::min(1.0, envelope.min_spindle_ratio) - kRounding)},
+      {"SPINDLE_MIN",
+       number(std::max(0.0, 100.0 * std::min(1.0, envelope.min_spindle_ratio) - kRounding))},
       {"SPINDLE_MAX", number(100.0 * std::max(1.0, envelope.max_spindle_ratio) + kRounding)},
       {"SPINDLE", config.spindle},
       {"OFFSET_MOST", number(envelope.max_offset_mm + kRounding)},
@@ -317,8 +318,7 @@ double longest_hand_back_s(const Machine& machine) noexcept {
   const auto top = [](const OverrideTable& table) {
     return table.ratio.empty() ? 1.0 : std::max(1.0, table.ratio.back());
   };
-  const double feed_s =
-      neutral_after_s(machine, machine.envelope.min_feed_ratio, top(machine.feed_override));
+  const double feed_s = neutral_after_s(machine, 0.0, top(machine.feed_override));
   const double spindle_s =
       way_back_s(machine, machine.spindle_override, machine.envelope.spindle_slew_1_s,
                  std::min(1.0, machine.envelope.min_spindle_ratio), top(machine.spindle_override));

@@ -29,7 +29,8 @@ struct ControlText {
 [[nodiscard]] double neutral_after_s(const kernel::machine::Machine& machine, double from_ratio,
                                      double panel_ratio = 1.0) noexcept;
 
-/// The same from the envelope's lowest values to the switches' highest, feed and spindle.
+/// The same from the lowest orders that the control takes to the switches' highest, feed and
+/// spindle.
 [[nodiscard]] double longest_hand_back_s(const kernel::machine::Machine& machine) noexcept;
 
 }  // namespace steadyrest::adapters::opcua

@@ -130,6 +130,38 @@ TEST(Loop, AStopInTheCutGoesToNeutralThroughTheSlew) {
   EXPECT_FALSE(desk.port->finished());
 }
 
+// A process that is stopped and goes on: the machine has handed back meanwhile.
+TEST(Loop, AfterAStandstillItBeginsAtThePanelAndGoesByTheSlew) {
+  for (const double still_s : {0.15, 0.25, 10.0}) {
+    Desk desk;
+    Spy spy(*desk.port);
+    Loop::Config config = until_finished(desk, Mode::act);
+    config.holds_s = 0.2;
+    Loop loop(spy, *desk.layer, desk.pace, config);
+    double before = 0.0;
+    std::optional<double> after;
+    int writes = 0;
+    spy.at_read = [&](int reads) {
+      if (reads == 300) {
+        before = spy.last.feed_ratio;
+        writes = spy.writes;
+        desk.pace.now += still_s;
+      }
+      if (reads > 300 && !after && spy.writes > writes) {
+        after = spy.last.feed_ratio;
+      }
+    };
+    loop.run();
+    ASSERT_LT(before, 0.6);
+    ASSERT_TRUE(after.has_value());
+    if (still_s < config.holds_s) {
+      EXPECT_NEAR(*after, before, 0.1) << "the machine still holds it";
+    } else {
+      EXPECT_GT(*after, 0.9) << "from the panel by the slew";
+    }
+  }
+}
+
 TEST(Loop, ALostLinkDoesNotEndIt) {
   Desk desk;
   Spy spy(*desk.port);

@@ -139,9 +139,10 @@ class MappingReader {
     const bool of_axis = kernel::machine::is_of_axis(quantity);
     const std::size_t axes = present_.size();
     std::string node = read.node;
-    const std::array<std::pair<std::string_view, std::size_t>, 7> filled = {
+    const std::array<std::pair<std::string_view, std::size_t>, 8> filled = {
         {{"{channel}", out_.channel},
          {"{channel_db}", out_.channel_db()},
+         {"{plc_block}", out_.plc_block},
          {"{axis}", rank + 1},
          {"{sample}", out_.first_sample},
          {"{sample_count}", kernel::machine::sample_count(axes)},
@@ -156,8 +157,9 @@ class MappingReader {
         read.index < 0 ? last
                        : read.index + static_cast<std::int64_t>(of_axis ? read.step * rank : 0);
     if (node.find('{') != std::string::npos || node.size() < 3 || node[1] != '=') {
-      faults_.add(given.at({"node"}), fmt::format("node = \"{}\"", cut(node)),
-                  "write s=NAME or i=NUMBER, and no other placeholders than docs/opcua.md has");
+      faults_.add(
+          given.at({"node"}), fmt::format("node = \"{}\"", cut(node)),
+          "write s=NAME or i=NUMBER, and no other placeholders than docs/machine-file.md has");
       return;
     }
     if (index < 0 || (index > 0 && index > last)) {

@@ -71,10 +71,11 @@ std::span<const Key<MappingEntry>> mapping_keys() noexcept {
   static const std::array kKeys = {
       Key<MappingEntry>{"quantity", &MappingEntry::quantity, 1, 64, "What the node means.",
                         Need::mandatory},
-      Key<MappingEntry>{"node", &MappingEntry::node, 1, 400,
-                        "Its identifier, `s=…` or `i=…`, with {channel}, {channel_db}, {axis}, "
-                        "{sample}, {sample_count}, {order} and {order_count} filled in.",
-                        Need::mandatory},
+      Key<MappingEntry>{
+          "node", &MappingEntry::node, 1, 400,
+          "Its identifier, `s=…` or `i=…`, with {channel}, {channel_db}, "
+          "{plc_block}, {axis}, {sample}, {sample_count}, {order} and {order_count} filled in.",
+          Need::mandatory},
       Key<MappingEntry>{"index", &MappingEntry::index, -1, 1023,
                         "Entry of an array, from 0 on; −1: the last one."},
       Key<MappingEntry>{"step", &MappingEntry::step, 0, 128,

@@ -42,7 +42,8 @@ std::span<const Key<Machine>> top_keys() noexcept {
       Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
       Key<Machine>{"port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
                    "The port to the machine: `sim`, the simulated machine; `linuxcnc`, a running "
-                   "LinuxCNC; `lines`, the override lines between panel and control."},
+                   "LinuxCNC; `lines`, the override lines between panel and control; `opcua`, a "
+                   "control behind its OPC UA server."},
       Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
                    "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
   };

@@ -100,6 +100,7 @@ Loop::Config loop_config(const Options& options, const kernel::machine::Machine&
                       .contour_limit_mm = machine.contour.limit_mm,
                       .mode = steadyrest::live::mode_of(options.mode).value_or(machine.mode),
                       .port_paces = port.paces,
+                      .holds_s = port.holds_s,
                       .finished = port.finished};
   const bool waits = machine.port == kernel::machine::PortKind::lines ||
                      machine.port == kernel::machine::PortKind::opcua;
@@ -344,7 +345,8 @@ void add_verb_run(Session& session, Verb& verb) {
   live::add_socket_option(verb, options->socket);
   live::add_page_options(verb, options->page);
   add_optional_program(verb, options->program,
-                       "The program that the simulated machine cuts (port sim)");
+                       "The program that the simulated machine cuts (port sim), or that the "
+                       "control runs (ports lines and opcua)");
   live::add_run_chatter_options(verb, options->chatter);
   session.on(verb, [options](Progress& progress) { return live::run(*options, progress); });
 }

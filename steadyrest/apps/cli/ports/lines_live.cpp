@@ -150,6 +150,8 @@ std::expected<LivePort, Refusals> open_lines(const Machine& machine,
   }
   LivePort out;
   out.period_s = layer_cycle_s(machine);
+  out.holds_s =
+      machine.lines.watchdog_s > 0.0 ? machine.lines.watchdog_s : machine.envelope.stale_after_s;
   if (auto errors = errors_of(machine, panel_findings(machine, (*port)->read())); !errors.empty()) {
     return std::unexpected(std::move(errors));
   }

@@ -28,6 +28,7 @@ struct LivePort {
   std::function<Result<void>(const kernel::machine::Machine&)> accepts;
   double period_s = 0.001;
   bool paces = false;              ///< read() waits for the control's next sample
+  double holds_s = 0.0;            ///< Loop::Config::holds_s
   std::function<bool()> finished;  ///< the machine has nothing more to do; empty: never
   /// The vibration sensor; a rate of 0: it has none.
   trial::listener::Sensor sensor;

@@ -79,10 +79,14 @@ struct Watched {
 Result<double> read_patiently(BridgeDevice& device, adapter::Reading& reading) {
   const auto until = Clock::now() + kMoment;
   for (;;) {
+    const auto starts = device.starts();
     const auto before = Clock::now();
     const auto read = device.read(reading);
-    if (read) {
+    if (read && device.starts() == starts) {
       return std::chrono::duration<double>(Clock::now() - before).count();
+    }
+    if (read) {
+      return 0.0;  // the bridge's start, not the control's time
     }
     if (Clock::now() > until) {
       return std::unexpected(read.error());
@@ -164,7 +168,7 @@ void check_samples(const Machine& machine, BridgeDevice& device, std::vector<Fin
                    fmt::format("the control takes up to {:.0f} ms for a reading, more than "
                                "cycle_ms = {:g}",
                                1e3 * watched->longest_s, 1e3 * machine.opcua.cycle_s),
-                   "set cycle_ms above that, and dead_man_ms to three times as much"});
+                   "set cycle_ms above that, and dead_man_ms to at least three times as much"});
   }
   // A busy computer is late; a wrong unit is wrong by 60 and more.
   if (watched->clock < 1.0 / kClock || watched->clock > kClock) {
@@ -257,6 +261,7 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
   }
   std::shared_ptr<OpcUaPort> port = std::move(*made);
   out.period_s = layer_cycle_s(machine);
+  out.holds_s = machine.opcua.dead_man_s;
   auto followed = std::make_unique<FollowedPort>(*port);
   std::shared_ptr<ProgramWatch> watch;
   if (!options.file.empty()) {

@@ -49,7 +49,10 @@ std::expected<void, Refusals> check_program_file(const std::string& file) {
   if (file.empty() || std::filesystem::is_regular_file(file, error)) {
     return {};
   }
-  return refused(bad_input(file, "there is no such program file on this computer",
+  return refused(bad_input(file,
+                           std::filesystem::exists(file, error)
+                               ? "is not a file"
+                               : "there is no such program file on this computer",
                            "name the NC program that the control runs, or leave it out"));
 }
 

@@ -256,20 +256,33 @@ TEST_F(OpcUaSection, AFaultyMappingIsRefusedWithItsOwnFileAndLine) {
   EXPECT_THAT(mapping("[[write]]", "[[write"), HasSubstr("mapping.toml:"));
 }
 
+/// The example machine with another of the example mappings.
+auto by_mapping(const std::string& name, const std::string& more = "") {
+  std::ifstream in(STEADYREST_SOURCE_DIR "/examples/machines/vmc-840d-opcua.toml");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string old = "sinumerik-840d-sl.toml\"\n";
+  text.replace(text.find(old), old.size(), name + ".toml\"\n" + more);
+  return parse(text, STEADYREST_SOURCE_DIR "/examples/machines/x.toml");
+}
+
 TEST(OpcUaMappings, TheExamplesFitAMachine) {
   for (const std::string name :
        {"sinumerik-840d-sl", "sinumerik-single-nodes", "sinumerik-plc", "other-control"}) {
-    std::string text;
-    {
-      std::ifstream in(STEADYREST_SOURCE_DIR "/examples/machines/vmc-840d-opcua.toml");
-      text.assign(std::istreambuf_iterator<char>(in), {});
-    }
-    const std::string old = "sinumerik-840d-sl.toml";
-    text.replace(text.find(old), old.size(), name + ".toml");
-    const auto read = parse(text, STEADYREST_SOURCE_DIR "/examples/machines/x.toml");
+    const auto read = by_mapping(name);
     ASSERT_TRUE(read) << kernel::outcome::text(read.error());
     EXPECT_FALSE(read->opcua.reads.empty());
   }
+}
+
+TEST(OpcUaMappings, DataBlocksAreThoseOfTheMachineFile) {
+  const auto read = by_mapping("sinumerik-plc", "channel = 3\nplc_block = 180\n");
+  ASSERT_TRUE(read) << kernel::outcome::text(read.error());
+  const auto node = [](const auto& places, Quantity quantity) {
+    return std::ranges::find(places, quantity, &kernel::machine::OpcUaPlace::quantity)->node;
+  };
+  EXPECT_EQ(node(read->opcua.reads, Quantity::motion_number), "s=/Plc/DB23.DBB208");
+  EXPECT_EQ(node(read->opcua.reads, Quantity::layer_alive), "s=/Plc/DB180.DBB4");
+  EXPECT_EQ(node(read->opcua.writes, Quantity::heartbeat_byte), "s=/Plc/DB180.DBB0");
 }
 
 }  // namespace
