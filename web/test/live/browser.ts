@@ -34,9 +34,11 @@ export interface Options {
   settings?: object;
   /** Pixels of the screen for one of the page. */
   scale?: number;
+  /** Done with the page while it is still empty. */
+  before?: (page: Page) => Promise<void>;
 }
 
-export async function open(address: string, path = '/', { width = 1440, height = 900, loggedIn = true, settings = { language: 'en', look: 'light', units: 'mm' }, scale = 1 }: Options = {}): Promise<Open> {
+export async function open(address: string, path = '/', { width = 1440, height = 900, loggedIn = true, settings = { language: 'en', look: 'light', units: 'mm' }, scale = 1, before }: Options = {}): Promise<Open> {
   const context = await (await launched()).newContext({ viewport: { width, height }, deviceScaleFactor: scale, locale: 'en-GB', timezoneId: 'UTC', acceptDownloads: true });
   if (loggedIn) {
     await context.addCookies([{ name: 'steadyrest_session', value: 'mock', url: address, httpOnly: true, sameSite: 'Strict' }]);
@@ -48,6 +50,7 @@ export async function open(address: string, path = '/', { width = 1440, height =
     if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
   });
   page.on('pageerror', (error) => complaints.push(error.message));
+  await before?.(page);
   await page.goto(address + path);
   return { page, context, complaints };
 }

@@ -6,7 +6,8 @@ import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
 import { ROOMS, Running, steadyrest } from './running';
 
-const SOON_MS = 1500;
+/** Less than the ten seconds after which a view asks by itself: what is seen sooner came by the stream. */
+const SOON_MS = 8000;
 const PASSWORD = 'a long password';
 
 const running = new Running();
@@ -80,6 +81,6 @@ it('shows a measured size', async () => {
   await anna.page.click('#measured button');
   await soon(anna.page, `/re-zeroed/.test(document.querySelector('#readings').textContent)`);
   // The others ask for the history every 10 s.
-  await expect.poll(() => vera.page.textContent('#readings'), { timeout: 12_000 }).toContain('re-zeroed');
+  await expect.poll(() => vera.page.textContent('#readings'), { timeout: 60_000 }).toContain('re-zeroed');
   expect([anna.complaints, vera.complaints].map((all) => all.filter((c) => !c.includes('401')))).toEqual([[], []]);
 });
