@@ -25,7 +25,8 @@ if(CMAKE_UNITY_BUILD)
 endif()
 if(STEADYREST_SANITIZE)
   target_compile_options(steadyrest_flags INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${STEADYREST_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${STEADYREST_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer>
+    $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-fsanitize-ignorelist=${CMAKE_SOURCE_DIR}/cmake/ubsan-ignorelist.txt>)
   target_link_options(steadyrest_flags INTERFACE -fsanitize=${STEADYREST_SANITIZE})
 endif()
 
@@ -55,9 +56,10 @@ function(steadyrest_hot target)
 endfunction()
 
 # steadyrest_room(NAME kernel SOURCES a.cpp … DEPENDS steadyrest_math … TESTS test/a_test.cpp … TEST_DEPENDS …)
-# makes the library steadyrest_<NAME> and, where TESTS are named, the executable steadyrest_<NAME>_test.
+# makes the library steadyrest_<NAME> and, where TESTS are named, the executable steadyrest_<NAME>_test. TESTS_COMPUTE: see
+# COMPUTES of steadyrest_test.
 function(steadyrest_room)
-  cmake_parse_arguments(ROOM "" "NAME" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ROOM "TESTS_COMPUTE" "NAME" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
   set(target steadyrest_${ROOM_NAME})
   if(ROOM_SOURCES)
     add_library(${target} STATIC ${ROOM_SOURCES})
@@ -67,7 +69,11 @@ function(steadyrest_room)
     target_link_libraries(${target} INTERFACE steadyrest_flags ${ROOM_DEPENDS})
   endif()
   if(ROOM_TESTS)
-    steadyrest_test(NAME ${ROOM_NAME} SOURCES ${ROOM_TESTS} DEPENDS ${target} ${ROOM_TEST_DEPENDS})
+    set(computes "")
+    if(ROOM_TESTS_COMPUTE)
+      set(computes COMPUTES)
+    endif()
+    steadyrest_test(NAME ${ROOM_NAME} ${computes} SOURCES ${ROOM_TESTS} DEPENDS ${target} ${ROOM_TEST_DEPENDS})
   endif()
 endfunction()
 
@@ -87,10 +93,19 @@ function(steadyrest_headers target)
   target_compile_options(${target} PRIVATE ${H_OPTIONS} $<$<CXX_COMPILER_ID:Clang>:-Xclang;-fno-pch-timestamp>)
   target_precompile_headers(${target} PRIVATE ${H_HEADERS})
 endfunction()
+# In sanitized builds compiling the tests took longer than running them: there they are not optimised, but for those that
+# compute much themselves. The linker takes a template's function from the test where it has one.
+if(STEADYREST_SANITIZE)
+  set(steadyrest_test_options ${steadyrest_not_hot_options})
+endif()
 set(test_frameworks steadyrest_rapidcheck GTest::gtest GTest::gmock GTest::gtest_main)
 set(test_headers <gmock/gmock.h> <gtest/gtest.h> <rapidcheck.h>)
 set(text_headers <fmt/format.h> <nlohmann/json.hpp>)
-steadyrest_headers(steadyrest_test_headers HEADERS ${test_headers} DEPENDS ${test_frameworks})
+steadyrest_headers(steadyrest_test_headers HEADERS ${test_headers} DEPENDS ${test_frameworks}
+  OPTIONS ${steadyrest_test_options})
+if(STEADYREST_SANITIZE)
+  steadyrest_headers(steadyrest_test_headers_computing HEADERS ${test_headers} DEPENDS ${test_frameworks})
+endif()
 steadyrest_headers(steadyrest_test_headers_not_hot HEADERS ${test_headers} ${text_headers}
   DEPENDS ${test_frameworks} fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
 steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_headers}
@@ -101,9 +116,9 @@ add_custom_target(threads_tests)
 
 # steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT): a GoogleTest executable; every test is a
 # ctest entry; with WHOLE all of them are one, so that a suite starts its server once. Several labels may be given. NOT_HOT: see
-# steadyrest_not_hot.
+# steadyrest_not_hot. COMPUTES: optimised in sanitized builds too.
 function(steadyrest_test)
-  cmake_parse_arguments(T "NOT_HOT;ALONE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  cmake_parse_arguments(T "NOT_HOT;COMPUTES;ALONE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
   if(NOT T_ALONE)
     set(T_ALONE FALSE)
   endif()
@@ -120,7 +135,10 @@ function(steadyrest_test)
     steadyrest_not_hot(${target})
     target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
     target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers_not_hot)
+  elseif(T_COMPUTES AND STEADYREST_SANITIZE)
+    target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers_computing)
   else()
+    target_compile_options(${target} PRIVATE ${steadyrest_test_options})
     target_precompile_headers(${target} REUSE_FROM steadyrest_test_headers)
   endif()
   if("threads" IN_LIST T_LABEL)

@@ -110,6 +110,9 @@ double ControlSide::read(const std::string& name) {
   if (name == "$AC_PROG") {
     return finished() ? 0.0 : 2.0;
   }
+  if (name == "$AC_SERUPRO") {
+    return searches ? 1.0 : 0.0;
+  }
   if (name.starts_with("$AA_IM[")) {
     return frame_.axis[axis_of(name)].command_mm;
   }

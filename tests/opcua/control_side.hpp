@@ -54,6 +54,8 @@ class ControlSide final : public Variables {
   [[nodiscard]] bool obeys() { return r(static_cast<int>(work_) + 3) > 0.0; }
   [[nodiscard]] double offset_mm(std::size_t axis) const noexcept { return offset_[axis]; }
   [[nodiscard]] std::size_t actions() const noexcept { return text_.count(); }
+  /// A block search tests the program.
+  bool searches = false;
   /// RESET: PROG_EVENT.SPF calls the actions' program again.
   void reset() { text_.start(*this); }
   /// Orders from now on do not reach the R parameters.

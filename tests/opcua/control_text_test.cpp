@@ -65,7 +65,7 @@ TEST(ControlText, PlcBlockIsOfTheChannel) {
 TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
   const auto of = by_plc();
   const std::string text = adapters::opcua::control_texts(of).value()[2].text;
-  EXPECT_NE(text.find("step := wait >= 50;"), std::string::npos);
+  EXPECT_NE(text.find("step := wait >= L#50;"), std::string::npos);
   EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 0.2 + 24 * 0.05, 1e-9);
 }
 
@@ -108,6 +108,16 @@ TEST(ControlText, TheMachinesNameStaysInItsComment) {
     EXPECT_EQ(text.text.find("\nG0 X100"), std::string::npos) << text.name;
     EXPECT_EQ(text.text.find("\nM30"), std::string::npos) << text.name;
   }
+}
+
+TEST(ControlText, WhatAnRParameterCannotHoldIsRefused) {
+  auto of = machine();
+  of.envelope.offset_slew_mm_s = 1e-7;
+  const auto texts = adapters::opcua::control_texts(of);
+  ASSERT_FALSE(texts.has_value());
+  EXPECT_NE(texts.error().what.find("offset_slew_um_s = 0.0001"), std::string::npos);
+  of.envelope.max_offset_mm = 0.0;
+  EXPECT_TRUE(adapters::opcua::control_texts(of).has_value());
 }
 
 TEST(ControlText, TooManyActionsAreRefused) {

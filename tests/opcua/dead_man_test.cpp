@@ -2,6 +2,7 @@
 // The control's side alone, without any link: the shipped text on the simulated machine.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -180,6 +181,21 @@ TEST_F(DeadMan, AnOffsetBeyondTheEnvelopeIsNotTaken) {
   }
 }
 
+TEST_F(DeadMan, AnOffsetThatIsNoNumberIsNotTaken) {
+  const int first = static_cast<int>(of.opcua.first_order);
+  const int last = first + static_cast<int>(kernel::machine::order_count(3)) - 1;
+  control.r(first + 1) = control.r(first + 2) = control.r(first + 3) = 1.0;
+  control.r(first + 4) = control.r(first + 5) = 90.0;
+  control.r(first) = control.r(last) = 1.0;
+  control.step();
+  ASSERT_TRUE(control.obeys());
+  run(0.3);
+  control.r(first + 7) = std::numeric_limits<double>::quiet_NaN();
+  control.r(first) = control.r(last) = 2.0;
+  control.step();
+  EXPECT_FALSE(control.obeys());
+}
+
 TEST_F(DeadMan, AForeignOffsetStaysWithinTheEnvelope) {
   const int goal = static_cast<int>(of.opcua.first_work) + 12;
   Order order;
@@ -189,6 +205,45 @@ TEST_F(DeadMan, AForeignOffsetStaysWithinTheEnvelope) {
     control.step();
     ASSERT_LE(control.offset_mm(0), of.envelope.max_offset_mm + 1e-5);
   }
+}
+
+// Whatever a program or an operator writes into the parameters that the actions work in.
+TEST_F(DeadMan, ForeignValuesLeaveNothingBehindAndNothingOutsideOfTheEnvelope) {
+  const int first = static_cast<int>(of.opcua.first_work);
+  const double most_s = adapters::opcua::neutral_after_s(of, 0.0) + of.opcua.dead_man_s + 0.1;
+  for (int i = 0; i < static_cast<int>(kernel::machine::work_count(3)); ++i) {
+    for (const double foreign : {-1e9, -1.0, 0.0, 1e9}) {
+      Order order;
+      order.masks_feed = order.masks_spindle = order.has_offsets = true;
+      order.feed_percent = order.spindle_percent = 80.0;
+      layer.write(order);
+      control.step();
+      ASSERT_TRUE(control.obeys());
+      control.r(first + i) = foreign;
+      for (const double until_s = control.time_s() + most_s; control.time_s() < until_s;) {
+        control.step();
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          ASSERT_LE(std::abs(control.offset_mm(axis)), of.envelope.max_offset_mm + 1e-5) << i;
+        }
+        ASSERT_GE(control.feed_in_force(), 0.0);
+        ASSERT_GE(control.read("$AA_TOTAL_OVR[S1]"), 100.0 * of.envelope.min_spindle_ratio - 1e-4);
+      }
+      ASSERT_FALSE(control.obeys()) << i << " " << foreign;
+      ASSERT_NEAR(control.feed_in_force(), 1.0, 1e-9) << i << " " << foreign;
+      ASSERT_NEAR(control.read("$AA_TOTAL_OVR[S1]"), 100.0, 1e-6) << i << " " << foreign;
+    }
+  }
+}
+
+TEST_F(DeadMan, NoOrderIsTakenInABlockSearch) {
+  run(0.1, 40.0);
+  control.searches = true;
+  run(adapters::opcua::neutral_after_s(of, 0.4), 40.0);
+  EXPECT_FALSE(control.obeys());
+  EXPECT_NEAR(control.feed_in_force(), 1.0, 1e-9);
+  control.searches = false;
+  run(0.1, 40.0);
+  EXPECT_NEAR(control.feed_in_force(), 0.4, 1e-9);
 }
 
 TEST_F(DeadMan, DeletedParametersDoNotStopTheSpindle) {

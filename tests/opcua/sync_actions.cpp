@@ -127,17 +127,28 @@ class Parser {
   }
 
   Value any_of() {
-    Value left = comparison();
-    while (take("AND")) {
-      const Value right = comparison();
-      left = [=](Variables& of) {
-        // Both sides are looked at, as a control does.
-        const double a = left(of);
-        const double b = right(of);
-        return a != 0.0 && b != 0.0 ? 1.0 : 0.0;
-      };
+    Value left = all_of();
+    while (take("OR")) {
+      left = joined(left, all_of(), [](bool a, bool b) { return a || b; });
     }
     return left;
+  }
+
+  Value all_of() {
+    Value left = comparison();
+    while (take("AND")) {
+      left = joined(left, comparison(), [](bool a, bool b) { return a && b; });
+    }
+    return left;
+  }
+
+  /// Both sides are looked at, as a control does.
+  static Value joined(const Value& left, const Value& right, bool (*by)(bool, bool)) {
+    return [=](Variables& of) {
+      const double a = left(of);
+      const double b = right(of);
+      return by(a != 0.0, b != 0.0) ? 1.0 : 0.0;
+    };
   }
 
   Value comparison() {

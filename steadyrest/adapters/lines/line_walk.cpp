@@ -45,9 +45,38 @@ void PanelWatch::see(std::uint32_t word) {
   const bool twice = started_ && word == last_;
   started_ = true;
   last_ = word;
-  if (twice && (words_.empty() || words_.back() != word)) {
+  if (twice && (words_.empty() || words_[at_] != word)) {
+    move_to(word);
+  }
+}
+
+void PanelWatch::move_to(std::uint32_t word) {
+  if (words_.empty()) {
+    words_.push_back(word);
+  } else if (at_ > 0 && words_[at_ - 1] == word) {
+    --at_;
+  } else if (at_ + 1 < words_.size() && words_[at_ + 1] == word) {
+    ++at_;
+  } else if (at_ == 0 && words_.size() > 1) {
+    words_.insert(words_.begin(), word);
+  } else {
+    // What came after this position once is not its neighbour after all.
+    out_of_order_ += at_ + 1 < words_.size() ? 1 : 0;
+    words_.resize(++at_);
     words_.push_back(word);
   }
+}
+
+std::vector<std::uint32_t> PanelWatch::words() const {
+  std::vector<std::uint32_t> ordered = words_;
+  if (at_ == 0) {
+    std::ranges::reverse(ordered);
+  }
+  return ordered;
+}
+
+bool PanelWatch::complete() const noexcept {
+  return words_.size() == steps_ && (at_ == 0 || at_ + 1 == steps_);
 }
 
 std::vector<WordPair> paired(const OverrideTable& table, const std::vector<std::uint32_t>& words) {
@@ -56,6 +85,29 @@ std::vector<WordPair> paired(const OverrideTable& table, const std::vector<std::
     pairs.push_back({.sent = table.code[i], .seen = words[i]});
   }
   return pairs;
+}
+
+std::vector<WireFault> stuck(const OverrideTable& table, const std::vector<std::uint32_t>& words,
+                             std::size_t bits) {
+  // Where two words differ.
+  const auto changing = [](const std::vector<std::uint32_t>& of) {
+    std::uint32_t bit_set = 0;
+    for (const std::uint32_t word : of) {
+      bit_set |= word ^ of.front();
+    }
+    return bit_set;
+  };
+  const std::uint32_t still = changing(table.code) & ~changing(words);
+  std::vector<WireFault> faults;
+  for (std::size_t bit = 0; bit < bits && words.size() > 1; ++bit) {
+    if ((still >> bit & 1U) != 0) {
+      const bool on = (words.front() >> bit & 1U) != 0;
+      faults.push_back({.bit = bit,
+                        .kind = on ? WireFault::Kind::stuck_on : WireFault::Kind::stuck_off,
+                        .other = bit});
+    }
+  }
+  return faults;
 }
 
 }  // namespace steadyrest::adapters::lines

@@ -26,20 +26,30 @@ struct Walk {
                                                  const kernel::machine::OverrideTable& table,
                                                  const std::function<void()>& settle);
 
-/// The words that the operator's switch has shown, each where it differs from the one before it.
+/// The words that the operator's switch has shown, in the order of its positions. It may be turned
+/// to and fro: a word that is a neighbour of the present one is that position again. At the end the
+/// switch must stand at its last position.
 class PanelWatch {
  public:
   explicit PanelWatch(std::size_t steps) : steps_(steps) {}
 
   /// One reading. A word counts when two readings one after the other have shown it.
   void see(std::uint32_t word);
-  [[nodiscard]] const std::vector<std::uint32_t>& words() const noexcept { return words_; }
-  /// As many words as the switch has positions have been seen, one after another.
-  [[nodiscard]] bool complete() const noexcept { return words_.size() == steps_; }
+  /// From the first position to the last.
+  [[nodiscard]] std::vector<std::uint32_t> words() const;
+  /// As many words as the switch has positions, and it stands at an end of them.
+  [[nodiscard]] bool complete() const noexcept;
+  /// How often a word came that is no neighbour of the one before: turned too fast, or a loose
+  /// contact.
+  [[nodiscard]] int out_of_order() const noexcept { return out_of_order_; }
 
  private:
+  void move_to(std::uint32_t word);
+
   std::size_t steps_;
   std::vector<std::uint32_t> words_;
+  std::size_t at_ = 0;  ///< where in them the switch stands
+  int out_of_order_ = 0;
   std::uint32_t last_ = 0;
   bool started_ = false;
 };
@@ -48,5 +58,10 @@ class PanelWatch {
 /// both.
 [[nodiscard]] std::vector<WordPair> paired(const kernel::machine::OverrideTable& table,
                                            const std::vector<std::uint32_t>& words);
+
+/// Bits of the table that change, and that none of the words changed, lowest first.
+[[nodiscard]] std::vector<WireFault> stuck(const kernel::machine::OverrideTable& table,
+                                           const std::vector<std::uint32_t>& words,
+                                           std::size_t bits);
 
 }  // namespace steadyrest::adapters::lines

@@ -36,9 +36,10 @@ struct Axis {
   std::string machine_name;
 };
 
-/// Without an exponent: the control writes 5EX-5 and takes 5e-05 for an error.
+/// Without an exponent: the control writes 5EX-5 and takes 5e-05 for an error. R parameters have
+/// eight decimals.
 std::string number(double value) {
-  std::string out = fmt::format("{:.10f}", value);
+  std::string out = fmt::format("{:.8f}", value);
   out.erase(out.find_last_not_of('0') + 1);
   if (out.ends_with('.')) {
     out.pop_back();
@@ -105,6 +106,11 @@ double position_s(const Machine& machine) {
   return std::max(0.02, std::ceil(1e3 * widest / hand_back_1_s(machine) - 1e-6) * 1e-3);
 }
 
+/// What the actions add in a cycle must be something where R parameters end.
+bool too_slow(double per_cycle) {
+  return per_cycle > 0.0 && number(per_cycle) == "0";
+}
+
 int gray(const kernel::machine::OverrideTable& table) {
   return table.coding == kernel::machine::Coding::gray ? 1 : 0;
 }
@@ -146,6 +152,7 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"SPINDLE_MAX", number(100.0 * std::max(1.0, envelope.max_spindle_ratio) + kRounding)},
       {"SPINDLE", config.spindle},
       {"OFFSET_MOST", number(envelope.max_offset_mm + kRounding)},
+      {"AXES", std::to_string(axes.size())},
       {"OFFSET_STEP", number(envelope.offset_slew_mm_s * ipo_s)},
       {"R_NEEDED",
        std::to_string(std::max({config.first_sample + kernel::machine::sample_count(axes.size()),
@@ -154,8 +161,7 @@ Fields fields_of(const Machine& machine, const std::vector<Axis>& axes) {
       {"HAS_SPINDLE", unless(spindle)},
       {"BY_ACTIONS", unless(!plc)},
       {"SPINDLE_BY_ACTIONS", unless(spindle && !plc)},
-      {"HAS_OFFSETS",
-       unless(envelope.max_offset_mm > 0.0 && writes(machine, Quantity::axis_offset_mm))},
+      {"HAS_OFFSETS", unless(has_offsets(machine))},
       {"FEED_EXCEEDS", unless(!plc && machine.feed_override.layer_may_exceed_panel)},
       {"SPINDLE_EXCEEDS",
        unless(spindle && !plc && machine.spindle_override.layer_may_exceed_panel)},
@@ -272,6 +278,10 @@ double way_back_s(const Machine& machine, const OverrideTable& table, double rat
 
 }  // namespace
 
+bool has_offsets(const Machine& machine) noexcept {
+  return machine.envelope.max_offset_mm > 0.0 && writes(machine, Quantity::axis_offset_mm);
+}
+
 Result<std::vector<ControlText>> control_texts(const Machine& machine) {
   if (machine.opcua.endpoint.empty()) {
     return refuse(machine.file, "there is no [opcua]", "add it, with endpoint and mapping");
@@ -286,6 +296,15 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
   if (!is_name(machine.opcua.spindle)) {
     return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"",
                   "write S1, for example");
+  }
+  if (has_offsets(machine) &&
+      too_slow(machine.envelope.offset_slew_mm_s * machine.control.interpolator_period_s)) {
+    return refuse(machine.file,
+                  fmt::format("offset_slew_um_s = {:g} is less than an R parameter can hold in a "
+                              "cycle of {:g} ms",
+                              1e3 * machine.envelope.offset_slew_mm_s,
+                              1e3 * machine.control.interpolator_period_s),
+                  "give a faster one, or max_offset_um = 0 for no offsets");
   }
   // The number of actions is written at the top, so the text is filled in twice.
   Filler counting(machine, axes);

@@ -15,6 +15,9 @@ struct ControlText {
   std::string text;
 };
 
+/// The actions move axes: the machine file allows an offset and the mapping has one.
+[[nodiscard]] bool has_offsets(const kernel::machine::Machine& machine) noexcept;
+
 /// What the machine builder loads (folder control/), with this machine's numbers filled in: the
 /// synchronized actions, the program that starts them, and the PLC block that takes their place
 /// where the overrides must be masked by switch positions. Refused: a machine without [opcua],

@@ -89,9 +89,9 @@ void Modulator::restore(const State& state) noexcept {
   // cycle.
   const bool is_fit = fit(state.modulation) && std::isfinite(state.time_s) && state.phase >= 0.0 &&
                       state.phase < 1.0 && state.fade >= 0.0 && state.fade <= 1.0 &&
-                      std::isfinite(state.ratio) && state.coming_feed.fit() &&
-                      state.coming_spindle.fit() && state.step < spindle_.steps() &&
-                      (!feed_ || state.feed_step < feed_->steps());
+                      std::isfinite(state.fades_from) && std::isfinite(state.ratio) &&
+                      state.coming_feed.fit() && state.coming_spindle.fit() &&
+                      state.step < spindle_.steps() && (!feed_ || state.feed_step < feed_->steps());
   if (!is_fit) {
     reset();
     return;
@@ -157,7 +157,8 @@ Modulator::Swing Modulator::swing(const Limits& limits, double speed_rev_s) cons
 }
 
 double Modulator::goal(const Swing& swing, double phase) const noexcept {
-  return 1.0 + state_.fade * (swing.mean + swing.amplitude * law_.at(phase) - 1.0);
+  const double from = state_.fades_from;
+  return from + state_.fade * (swing.mean + swing.amplitude * law_.at(phase) - from);
 }
 
 /// From now until the feed could respond, including turning points of the law on the way.
@@ -178,7 +179,8 @@ double Modulator::lowest_goal_ahead(const Swing& swing) const noexcept {
   const double ratio = swing.mean + swing.amplitude * lowest;
   // While fading in, the swing will be larger by the time the feed responds.
   const double fade = std::min(1.0, state_.fade + feed_delay_s_ / config_.fade_s);
-  return 1.0 + (ratio < 1.0 ? fade : state_.fade) * (ratio - 1.0);
+  const double start = state_.fades_from;
+  return start + (ratio < start ? fade : state_.fade) * (ratio - start);
 }
 
 /// The larger of the override's ratio and the path's actual ratio: one of them lags after a change,
@@ -348,7 +350,11 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   }
   const Limits within = limits(frame);
   if (!state_.stepped) {
-    state_.ratio = in_force.spindle.ratio;
+    // Not 100 %: after a thread, which holds the override, it would rise before it came back.
+    state_.ratio = state_.fades_from = in_force.spindle.ratio;
+  }
+  if (!active) {
+    state_.fades_from = 1.0;
   }
   const Swing fitted = swing(within, speed_rev_s);
   const double now = std::clamp(goal(fitted, state_.phase), within.low, within.high);

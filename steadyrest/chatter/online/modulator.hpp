@@ -32,9 +32,10 @@ struct Modulation {
 /// Modulates the spindle speed by a law, through the steps of its override switch.
 ///
 /// Law, S the shape with mean 0 (SpeedLaw), n the programmed speed, m the mean ratio, A the
-/// amplitude (RVA·m, or amplitude/n), g the fade:
+/// amplitude (RVA·m, or amplitude/n), g the fade, r what was in force when it began (1 on its way
+/// out):
 ///   φ̇ = 1/period while it is active: a change of anything never makes the phase jump
-///   goal = 1 + g·(m + A·S(φ) − 1), ġ = ±1/fade;  m is moved, then A narrowed, to fit the limits
+///   goal = r + g·(m + A·S(φ) − r), ġ = ±1/fade;  m is moved, then A narrowed, to fit the limits
 ///   ratio follows the goal by at most (a/n)·Δt, a the drive's acceleration
 ///   step: the nearest one within the limits, held until another is nearer by `hysteresis` of the
 ///   way between them
@@ -105,6 +106,7 @@ class Modulator {
     double time_s = 0.0;
     double phase = 0.0;
     double fade = 0.0;
+    double fades_from = 1.0;  ///< r
     double ratio = 1.0;
     std::size_t step = 0;
     std::size_t feed_step = 0;

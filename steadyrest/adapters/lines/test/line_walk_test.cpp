@@ -73,5 +73,43 @@ TEST(PanelWatch, TheTurnedSwitchTellsItsWiring) {
                           WireFault{1, WireFault::Kind::swapped, 0}));
 }
 
+PanelWatch after(std::size_t steps, const std::vector<std::uint32_t>& words) {
+  PanelWatch watch(steps);
+  for (const std::uint32_t word : words) {
+    watch.see(word);
+    watch.see(word);
+  }
+  return watch;
+}
+
+TEST(PanelWatch, TheSwitchMayBeTurnedToAndFro) {
+  const PanelWatch watch = after(5, {1, 3, 2, 3, 1, 3, 2, 6, 2, 6, 7});
+  EXPECT_THAT(watch.words(), ElementsAre(1, 3, 2, 6, 7));
+  EXPECT_TRUE(watch.complete());
+  EXPECT_EQ(watch.out_of_order(), 0);
+}
+
+TEST(PanelWatch, TheSwitchMayStandInTheMiddleAtTheBeginning) {
+  const PanelWatch watch = after(5, {2, 3, 1, 3, 2, 6, 7});
+  EXPECT_THAT(watch.words(), ElementsAre(1, 3, 2, 6, 7)) << "it ends at the last position";
+  EXPECT_TRUE(watch.complete());
+  EXPECT_FALSE(after(5, {2, 6, 7, 6, 2, 3, 1, 3}).complete()) << "not at an end of the switch";
+}
+
+TEST(PanelWatch, ALooseContactIsOutOfOrder) {
+  const PanelWatch watch = after(5, {1, 3, 2, 0, 2, 6, 7});
+  EXPECT_EQ(watch.out_of_order(), 1);
+  EXPECT_THAT(watch.words(), ElementsAre(1, 3, 2, 6, 7));
+}
+
+TEST(PanelWatch, BitsThatNeverChangeAreStuckWhateverTheOrder) {
+  const auto table = gray_of(8);
+  EXPECT_THAT(stuck(table, {1, 3, 7, 15, 13}, 4),
+              ElementsAre(WireFault{0, WireFault::Kind::stuck_on, 0}));
+  EXPECT_THAT(stuck(table, {0, 1, 5}, 4), ElementsAre(WireFault{1, WireFault::Kind::stuck_off, 1},
+                                                      WireFault{3, WireFault::Kind::stuck_off, 3}));
+  EXPECT_THAT(stuck(table, {1}, 4), IsEmpty()) << "nobody has turned the switch";
+}
+
 }  // namespace
 }  // namespace steadyrest::adapters::lines

@@ -97,10 +97,9 @@ void list(const Wired& of, Answer& answer) {
   answer.text += fmt::format("[lines.{}]\n{}", of.name, table.text());
 }
 
-/// What is wrong with the wires of one way, as text and JSON. True: nothing.
-bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs, Answer& answer) {
-  const std::size_t bits = of.wires->panel.size();
-  const auto faults = adapter::diagnose(pairs, bits);
+/// Tells what is wrong with the wires of one way, as text and JSON. True: nothing.
+bool tell(const Wired& of, const char* way, const std::vector<adapter::WireFault>& faults,
+          const std::vector<WordPair>& pairs, Answer& answer) {
   Json told = Json::array();
   for (const auto& fault : faults) {
     const bool out = std::string_view(way) == "outputs";
@@ -110,16 +109,48 @@ bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs,
     told.push_back(line);
     answer.text += fmt::format("[lines.{}] {}: {}\n", of.name, way, line);
   }
-  if (faults.empty()) {
-    answer.text += fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way,
-                               std::min(pairs.size(), of.table->code.size()));
-  }
   Json words = Json::array();
   for (const WordPair& pair : pairs) {
     words.push_back({{"sent", pair.sent}, {"seen", pair.seen}});
   }
   answer.json[of.name][way] = {{"ok", faults.empty()}, {"faults", told}, {"words", words}};
   return faults.empty();
+}
+
+bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs, Answer& answer) {
+  const bool right = tell(of, way, adapter::diagnose(pairs, of.wires->panel.size()), pairs, answer);
+  if (right) {
+    answer.text += fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way,
+                               std::min(pairs.size(), of.table->code.size()));
+  }
+  return right;
+}
+
+/// The same of a switch that was turned. Where words are missing, nobody knows which position each
+/// one belongs to.
+bool judge_switch(const Wired& of, const adapter::PanelWatch& watch, Answer& answer) {
+  const std::vector<std::uint32_t> words = watch.words();
+  const std::size_t positions = of.table->code.size();
+  Json& json = answer.json[of.name];
+  json["out_of_order"] = watch.out_of_order();
+  bool right = watch.out_of_order() == 0;
+  if (!right) {
+    answer.text += fmt::format(
+        "[lines.{}] inputs: {} times a word came that is no neighbour of the one before: turned "
+        "too fast, or a loose contact\n",
+        of.name, watch.out_of_order());
+  }
+  if (watch.complete()) {
+    return judge(of, "inputs", adapter::paired(*of.table, words), answer) && right;
+  }
+  json["incomplete"] = true;
+  answer.text += fmt::format(
+      "[lines.{}] inputs: {} words were seen, the table has {}: turn the switch from its first "
+      "position to its last, half a second on each, or correct the table\n",
+      of.name, words.size(), positions);
+  tell(of, "inputs", adapter::stuck(*of.table, words, of.wires->panel.size()), {}, answer);
+  json["inputs"]["ok"] = false;
+  return false;
 }
 
 void pause(double seconds) {
@@ -167,6 +198,17 @@ std::expected<bool, Refusals> walk_all(const Machine& machine, const Options& op
   return ok;
 }
 
+/// `turn each switch to its last position; seen: feed 7 of 23, spindle 2 of 14`
+std::string seen_so_far(const std::vector<Wired>& all,
+                        const std::vector<adapter::PanelWatch>& watches) {
+  std::string text = "turn each switch to its last position; seen:";
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    text += fmt::format("{} {} {} of {}", k == 0 ? "" : ",", all[k].name, watches[k].words().size(),
+                        all[k].table->code.size());
+  }
+  return text;
+}
+
 /// Reads the switches until each has shown as many words as its table has.
 std::expected<bool, Refusals> watch_panel(const Machine& machine, const Options& options,
                                           adapter::Wires& wires, Progress& progress,
@@ -188,21 +230,12 @@ std::expected<bool, Refusals> watch_panel(const Machine& machine, const Options&
     for (std::size_t k = 0; k < all.size(); ++k) {
       watches[k].see(adapter::word_of(inputs, all[k].wires->panel, all[k].wires->panel_inverted));
     }
-    progress.update(static_cast<double>(i) / pauses, "turn each switch from its first position");
+    progress.update(static_cast<double>(i) / pauses, seen_so_far(all, watches));
     pause(kPanelPause_s);
   }
   bool ok = true;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const auto& words = watches[k].words();
-    if (!watches[k].complete()) {
-      answer.text += fmt::format(
-          "[lines.{}] inputs: {} words were seen, the table has {}: turn the switch from its first "
-          "position to its last, or correct the table\n",
-          all[k].name, words.size(), all[k].table->code.size());
-      answer.json[all[k].name]["incomplete"] = true;
-      ok = false;
-    }
-    ok = judge(all[k], "inputs", adapter::paired(*all[k].table, words), answer) && ok;
+    ok = judge_switch(all[k], watches[k], answer) && ok;
   }
   return ok;
 }

@@ -109,6 +109,12 @@ Outcome run(const Options& options) {
   }
   const double slowest_s = adapters::opcua::longest_hand_back_s(*machine);
   answer.json["neutral_after_s"] = slowest_s;
+  answer.text += adapters::opcua::has_offsets(*machine)
+                     ? fmt::format(
+                           "With axis offsets of up to {:g} µm; max_offset_um = 0 leaves "
+                           "them out.\n",
+                           1e3 * machine->envelope.max_offset_mm)
+                     : "Without axis offsets.\n";
   answer.text += fmt::format(
       "Without orders the control is neutral after {:.2f} s at most. How to load the files: "
       "docs/opcua.md\n",

@@ -45,8 +45,10 @@ constexpr double kConnect_s = 20.0;
 constexpr std::chrono::milliseconds kMoment(1000);
 constexpr std::chrono::milliseconds kBetweenSamples(20);
 constexpr int kSamples = 10;
-constexpr double kDeadMen = 1.5;  ///< times of the dead man
-constexpr double kClock = 10.0;   ///< faster or slower than this computer's, at most
+constexpr double kDeadMen = 1.5;      ///< times of the dead man
+constexpr double kClock = 10.0;       ///< faster or slower than this computer's, at most
+constexpr double kClockDoubt = 1.25;  ///< likewise, without a word about it
+constexpr double kWatch_s = 0.6;      ///< at least, to tell that
 constexpr const char* kOpcUaCheck = "opcua";
 
 std::string beside_program() {
@@ -103,15 +105,21 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
   double heartbeat = std::nan("");
   double first_s = std::nan("");
   // A layer that has just ended is still obeyed for the dead man's time.
-  const auto least = std::chrono::duration<double>(kDeadMen * config.dead_man_s);
-  const auto begin = Clock::now();
+  const auto least =
+      std::chrono::duration<double>(std::max(kDeadMen * config.dead_man_s, kWatch_s));
+  auto begin = Clock::now();
+  auto last = begin;
   for (int i = 0; i < kSamples || Clock::now() - begin < least; ++i) {
     const auto took_s = read_patiently(device, reading);
     if (!took_s) {
       return std::unexpected(took_s.error());
     }
     out.longest_s = std::max(out.longest_s, *took_s);
-    first_s = i == 0 ? reading[Quantity::time_s] : first_s;
+    last = Clock::now();
+    if (i == 0) {
+      begin = last;
+      first_s = reading[Quantity::time_s];
+    }
     const double seen = reading[Quantity::heartbeat_seen];
     if (std::isfinite(seen)) {
       out.other_layer = out.other_layer || (std::isfinite(heartbeat) && seen != heartbeat);
@@ -119,8 +127,8 @@ Result<Watched> watch_samples(BridgeDevice& device, const kernel::machine::OpcUa
     }
     std::this_thread::sleep_for(kBetweenSamples);
   }
-  out.clock = (reading[Quantity::time_s] - first_s) /
-              std::chrono::duration<double>(Clock::now() - begin).count();
+  out.clock =
+      (reading[Quantity::time_s] - first_s) / std::chrono::duration<double>(last - begin).count();
   out.other_layer = out.other_layer || reading[Quantity::layer_alive] > 0.0;
   return out;
 }
@@ -176,6 +184,14 @@ void check_samples(const Machine& machine, BridgeDevice& device, std::vector<Fin
                    fmt::format("the control's clock goes {:.3g} times as fast as this computer's",
                                watched->clock),
                    "correct scale of time_s in the mapping: seconds"});
+  } else if (watched->clock < 1.0 / kClockDoubt || watched->clock > kClockDoubt) {
+    out.push_back(
+        {Severity::warning, kOpcUaCheck,
+         fmt::format("the control's clock goes {:.3g} times as fast as this computer's: every time "
+                     "of its actions is wrong by that, the dead man's too",
+                     watched->clock),
+         "[control] interpolator_period_ms must be the control's MD10071, and the SPF that is "
+         "loaded written with it; if both are right, one of the computers is too busy"});
   }
   for (const Refusal& fault : adapter::override_faults(watched->last, machine)) {
     out.push_back(error_of(kOpcUaCheck, fault));

@@ -189,6 +189,28 @@ TEST(Modulator, BeginsAtWhatIsInForce) {
   EXPECT_NEAR(bench.cycle().ratio, 0.82, 0.5 * kCycle_s + 1e-12);
 }
 
+TEST(Modulator, AfterAThreadItGoesOnFromWhatWasHeld) {
+  auto c = sine_config();
+  c.modulation = {.law = Law::constant, .mean_ratio = 0.6};
+  Bench bench(c);
+  ASSERT_EQ(bench.run(1.0).back().spindle.ratio, 0.6);
+  const kernel::signal::InForce held = bench.in_force;
+  kernel::signal::Frame frame = bench.frame;
+  frame.motion = Motion::thread;
+  for (int i = 0; i < 500; ++i) {
+    frame.time_s = bench.frame.time_s;
+    bench.frame = frame;
+    EXPECT_EQ(bench.cycle().spindle.reason, Reason::withdrawn_thread);
+    bench.in_force = held;
+  }
+  frame.time_s = bench.frame.time_s;
+  bench.frame = frame;
+  bench.frame.motion = Motion::feed;
+  for (const Modulator::Output& out : bench.run(1.0)) {
+    ASSERT_EQ(out.spindle.ratio, 0.6);
+  }
+}
+
 TEST(Modulator, ARestoredStateGoesOnWhereItWas) {
   Bench first;
   first.run(0.7);
