@@ -51,7 +51,7 @@ Result<std::optional<OverrideInput>> input_of(const OverrideTable& table, const 
   }
   auto made = OverrideInput::make({.table = table,
                                    .period_s = machine.control.interpolator_period_s,
-                                   .watchdog_s = machine.envelope.stale_after_s,
+                                   .watchdog_s = kernel::machine::holds_s(machine),
                                    .hand_back_rise_1_s = machine.envelope.feed_rise_1_s});
   if (!made) {
     return std::unexpected(made.error());
@@ -129,7 +129,7 @@ MachineBody::MachineBody(const Config& config, std::vector<AxisServo> servos, Sp
     : period_s_(config.machine.control.interpolator_period_s),
       servo_periods_(static_cast<std::uint32_t>(std::round(
           config.machine.control.interpolator_period_s / config.machine.control.servo_period_s))),
-      watchdog_s_(config.machine.envelope.stale_after_s),
+      watchdog_s_(kernel::machine::holds_s(config.machine)),
       servo_period_s_(config.machine.control.servo_period_s),
       servos_(std::move(servos)),
       spindle_(spindle),

@@ -165,7 +165,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
       cycle_s_(machine::layer_cycle_s(machine)),
-      watchdog_s_(machine.envelope.stale_after_s),
+      watchdog_s_(machine::holds_s(machine)),
       motion_(std::move(motion)),
       offset_(offset),
       path_offset_(path_offset),

@@ -32,6 +32,7 @@ struct ComediWires::Card {
   unsigned output_device = 0;
   Range inputs;
   Range outputs;
+  bool turned = false;  ///< outputs are outputs
 
   Card() = default;
   Card(const Card&) = delete;
@@ -50,7 +51,9 @@ struct ComediWires::Card {
                                      std::max(0, has), lines.first + lines.count - 1),
                          "correct input_device, output_device or the lines' numbers in [lines]");
     }
-    for (std::uint32_t i = lines.first; i < lines.first + lines.count; ++i) {
+    // Inputs or outputs alone have no direction, and their driver refuses to be given one.
+    const bool turns = comedi_get_subdevice_type(device, subdevice) == COMEDI_SUBD_DIO;
+    for (std::uint32_t i = lines.first; turns && i < lines.first + lines.count; ++i) {
       if (comedi_dio_config(device, subdevice, i, direction) < 0) {
         return comedi_fault(fmt::format("line {} of subdevice {} cannot be turned to {}", i,
                                         subdevice, direction == COMEDI_INPUT ? "input" : "output"));
@@ -95,9 +98,6 @@ Result<std::unique_ptr<ComediWires>> ComediWires::open(const Lines& lines) {
   if (auto turned = card->turn(card->input_device, card->inputs, COMEDI_INPUT); !turned) {
     return std::unexpected(std::move(turned.error()));
   }
-  if (auto turned = card->turn(card->output_device, card->outputs, COMEDI_OUTPUT); !turned) {
-    return std::unexpected(std::move(turned.error()));
-  }
   return std::unique_ptr<ComediWires>(new ComediWires(std::move(card)));
 }
 
@@ -108,7 +108,15 @@ Result<void> ComediWires::read(Levels& inputs, Levels& outputs) {
   return card_->exchange(card_->output_device, card_->outputs, false, outputs);
 }
 
+// The direction comes with the first write: it clears the latches of some cards, and whoever only
+// looks must not take a word off that another layer has there.
 Result<void> ComediWires::write(const Levels& outputs) {
+  if (!card_->turned) {
+    if (auto turned = card_->turn(card_->output_device, card_->outputs, COMEDI_OUTPUT); !turned) {
+      return turned;
+    }
+    card_->turned = true;
+  }
   Levels copy = outputs;
   return card_->exchange(card_->output_device, card_->outputs, true, copy);
 }

@@ -43,6 +43,11 @@ LinesDevice::LinesDevice(const Lines& lines, Parts parts)
   if (lines.heartbeat < kMostLines) {
     words_.reset(lines.heartbeat);
   }
+  for (const std::uint32_t mask : {lines.feed.mask, lines.spindle.mask}) {
+    if (mask < kMostLines) {
+      masks_.set(mask);
+    }
+  }
 }
 
 LinesDevice::~LinesDevice() {
@@ -73,6 +78,7 @@ Result<void> LinesDevice::send(const Levels& outputs) {
   auto written = parts_.wires->write(outputs);
   const double took_s = parts_.wires->now_s() - begin_s;
   sent_ = written.has_value();
+  written_s_ = sent_ ? begin_s : written_s_;
   fastest_s_ = sent_ ? std::min(fastest_s_, took_s) : fastest_s_;
   if (changed) {
     // A slow write counts from its end, less what the next one takes at least.
@@ -94,7 +100,9 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 
 Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const double now_s = parts_.wires->now_s();
-  const bool dropped = taken_ && (outputs & ours_).none();  // by a watchdog
+  // By a watchdog, which takes all outputs off or keeps the word and takes the masks.
+  const bool dropped = taken_ && (outputs & masks_).none() &&
+                       ((outputs & ours_).none() || (differ & ~masks_).none());
   if (!dropped) {
     disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
     dispute_s_ = now_s;
@@ -125,7 +133,7 @@ Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
 Result<void> LinesDevice::pass_on() {
   ++silent_;
   const bool ends = acting_ && silent_ > kSilentReadings;
-  if (!ends && (acting_ || lines_.wiring != Wiring::through)) {
+  if (!ends && (acting_ || parts_.only_looks || lines_.wiring != Wiring::through)) {
     return {};
   }
   Levels outputs = on_wires_;
@@ -151,9 +159,18 @@ void LinesDevice::adopt(const Levels& outputs) noexcept {
   on_wires_ = outputs;
   for (auto* line : {&parts_.feed, &parts_.spindle}) {
     if (*line) {
-      (*line)->adopt(outputs);
+      (*line)->adopt(outputs, now_s - written_s_ > parts_.holds_s);
     }
   }
+}
+
+/// The way back between two passes counts: each must be cut at one speed.
+bool LinesDevice::in_thread(const Levels& inputs) noexcept {
+  const double now_s = parts_.wires->now_s();
+  if (lines_.locked < kMostLines && inputs[lines_.locked] != lines_.locked_inverted) {
+    locked_s_ = now_s;
+  }
+  return now_s - locked_s_ <= lines_.locked_hold_s;
 }
 
 Result<void> LinesDevice::read_lines(LineSample& sample) {
@@ -172,6 +189,12 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
   }
   if (!sent_ || let_go_) {
     adopt(outputs);
+  }
+  sample.in_thread = in_thread(sample.inputs);
+  for (auto* line : {&parts_.feed, &parts_.spindle}) {
+    if (*line) {
+      (*line)->hold(sample.in_thread);
+    }
   }
   if (parts_.feed) {
     sample.feed = parts_.feed->see(sample.inputs, outputs);

@@ -19,6 +19,7 @@ struct LineSample {
   OverrideLine::Seen feed;  ///< of what is wired
   OverrideLine::Seen spindle;
   EncoderReading encoders;
+  bool in_thread = false;       ///< by `locked`, and `locked_hold_ms` longer
   bool positions_known = true;  ///< false: the encoders have failed, the layer's word is in force
   double read_s = 0.0;          ///< monotonic clock
 };
@@ -37,7 +38,8 @@ struct LineOrder {
 /// written in two readings one after the other are a fault of the link: the module's watchdog has
 /// dropped them, a line is stuck, or another client writes. Three such faults, each within a minute
 /// of the one before, and the layer lets go for good: two that write would flip the word for ever.
-/// While another one's heartbeat beats it does not begin to act.
+/// While another one's heartbeat beats it does not begin to act. Where its last write is older than
+/// the machine keeps it (`holds_s`) it begins without masks, whatever the module has kept.
 class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
  public:
   struct Parts {
@@ -45,6 +47,8 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
     std::unique_ptr<EncoderSource> encoders;  ///< null: none
     std::optional<OverrideLine> feed;         ///< empty: not wired
     std::optional<OverrideLine> spindle;
+    double holds_s = 0.1;     ///< the machine keeps what was written for so long
+    bool only_looks = false;  ///< nothing is written, whatever the wiring
   };
 
   LinesDevice(const kernel::machine::Lines& lines, Parts parts);
@@ -62,25 +66,29 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   kernel::outcome::Result<void> send(const Levels& outputs);
   void release(Levels& outputs) noexcept;
   void adopt(const Levels& outputs) noexcept;
+  [[nodiscard]] bool in_thread(const Levels& inputs) noexcept;
   [[nodiscard]] bool settled(const OverrideLine& line) const noexcept;
 
   kernel::machine::Lines lines_;
   Parts parts_;
   Levels ours_;   ///< outputs that the layer sets
   Levels words_;  ///< of them without the heartbeat
+  Levels masks_;
   Levels on_wires_;
   std::uint64_t connection_ = 0;
   bool sent_ = false;  ///< `on_wires_` is what was written on this connection
   bool acting_ = false;
-  int silent_ = 0;          ///< readings since the last order
-  int differing_ = 0;       ///< readings with other outputs
-  bool taken_ = false;      ///< a reading has shown outputs as they were written
-  bool adopted_ = false;    ///< `on_wires_` is what a reading has shown
-  double beaten_s_ = -1e9;  ///< when the heartbeat changed and nobody here had written it
-  double fastest_s_ = 1e9;  ///< a write takes at least
-  double since_s_ = 0;      ///< when the words on the wires were written
-  int disputes_ = 0;        ///< lost links by other outputs
-  double dispute_s_ = 0;    ///< the last one
+  int silent_ = 0;           ///< readings since the last order
+  int differing_ = 0;        ///< readings with other outputs
+  bool taken_ = false;       ///< a reading has shown outputs as they were written
+  bool adopted_ = false;     ///< `on_wires_` is what a reading has shown
+  double written_s_ = -1e9;  ///< the last write that was taken
+  double locked_s_ = -1e9;   ///< `locked` was seen last
+  double beaten_s_ = -1e9;   ///< when the heartbeat changed and nobody here had written it
+  double fastest_s_ = 1e9;   ///< a write takes at least
+  double since_s_ = 0;       ///< when the words on the wires were written
+  int disputes_ = 0;         ///< lost links by other outputs
+  double dispute_s_ = 0;     ///< the last one
   std::optional<kernel::outcome::Refusal> let_go_;  ///< why the layer does not act any more
 };
 

@@ -87,7 +87,8 @@ bool is_on(const Levels& inputs, std::uint32_t line) noexcept {
 
 Result<std::unique_ptr<LinesPort>> LinesPort::make(const Machine& machine,
                                                    std::unique_ptr<Wires> wires,
-                                                   std::unique_ptr<EncoderSource> encoders) {
+                                                   std::unique_ptr<EncoderSource> encoders,
+                                                   Use use) {
   const auto& lines = machine.lines;
   auto feed = line_of(lines.feed, machine.feed_override, lines.wiring);
   auto spindle = line_of(lines.spindle, machine.spindle_override, lines.wiring);
@@ -97,13 +98,16 @@ Result<std::unique_ptr<LinesPort>> LinesPort::make(const Machine& machine,
   if (!*feed && !*spindle) {
     return refuse("[lines] wires no override", "add [lines.feed] or [lines.spindle]");
   }
-  return std::unique_ptr<LinesPort>(new LinesPort(machine, {.wires = std::move(wires),
-                                                            .encoders = std::move(encoders),
-                                                            .feed = std::move(*feed),
-                                                            .spindle = std::move(*spindle)}));
+  return std::unique_ptr<LinesPort>(
+      new LinesPort(machine, {.wires = std::move(wires),
+                              .encoders = std::move(encoders),
+                              .feed = std::move(*feed),
+                              .spindle = std::move(*spindle),
+                              .holds_s = kernel::machine::holds_s(machine),
+                              .only_looks = use == Use::looks}));
 }
 
-Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
+Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine, Use use) {
   auto wires = open_wires(machine.lines);
   if (!wires) {
     return std::unexpected(std::move(wires.error()));
@@ -116,7 +120,7 @@ Result<std::unique_ptr<LinesPort>> LinesPort::open(const Machine& machine) {
     }
     encoders = std::move(*opened);
   }
-  return make(machine, std::move(*wires), std::move(encoders));
+  return make(machine, std::move(*wires), std::move(encoders), use);
 }
 
 LinesPort::LinesPort(const Machine& machine, LinesDevice::Parts parts)
@@ -206,7 +210,8 @@ void LinesPort::show_spindle(const EncoderReading& encoders, Frame& frame) noexc
 }
 
 /// What is not wired is taken for the most common case: a program that cuts.
-void LinesPort::show_program(const Levels& inputs, Frame& frame) const noexcept {
+void LinesPort::show_program(const LineSample& sample, Frame& frame) const noexcept {
+  const Levels& inputs = sample.inputs;
   frame.motion = Motion::feed;
   if (lines_.running != kNoLine) {
     const bool runs = is_on(inputs, lines_.running);
@@ -216,7 +221,7 @@ void LinesPort::show_program(const Levels& inputs, Frame& frame) const noexcept 
   if (lines_.cutting != kNoLine && frame.motion == Motion::feed && !is_on(inputs, lines_.cutting)) {
     frame.motion = Motion::rapid;
   }
-  if (is_on(inputs, lines_.locked)) {
+  if (sample.in_thread) {
     frame.motion = Motion::thread;
   }
   frame.speed_modulation = is_on(inputs, lines_.modulate);
@@ -245,7 +250,7 @@ Result<Frame> LinesPort::read() noexcept {
   if (!lines_.spindle.out.empty()) {
     frame.spindle = state_of(sample.spindle);
   }
-  show_program(sample.inputs, frame);
+  show_program(sample, frame);
   if (!sample.positions_known) {
     hide_axes(frame);
   } else if (encoders_ > 0) {

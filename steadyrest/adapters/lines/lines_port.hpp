@@ -21,13 +21,16 @@ namespace steadyrest::adapters::lines {
 /// reading.
 class LinesPort final : public kernel::port::Port {
  public:
+  /// `looks`: it writes nothing, whatever the wiring.
+  enum class Use : std::uint8_t { acts, looks };
+
   /// Refused: no override is wired, a word whose steps cannot be walked.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<LinesPort>> make(
       const kernel::machine::Machine& machine, std::unique_ptr<Wires> wires,
-      std::unique_ptr<EncoderSource> encoders);
+      std::unique_ptr<EncoderSource> encoders, Use use = Use::acts);
   /// With what the machine file names.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<LinesPort>> open(
-      const kernel::machine::Machine& machine);
+      const kernel::machine::Machine& machine, Use use = Use::acts);
 
   [[nodiscard]] kernel::port::Capability capability() const noexcept override;
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
@@ -39,7 +42,7 @@ class LinesPort final : public kernel::port::Port {
   [[nodiscard]] double time_of(const LineSample& sample) noexcept;
   void show_axes(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
   void show_spindle(const EncoderReading& encoders, kernel::signal::Frame& frame) noexcept;
-  void show_program(const Levels& inputs, kernel::signal::Frame& frame) const noexcept;
+  void show_program(const LineSample& sample, kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] double position_mm(std::size_t axis, std::int64_t count) const noexcept;
 
   kernel::machine::Lines lines_;

@@ -28,9 +28,13 @@ Result<OverrideLine> OverrideLine::make(const Config& config) {
 
 OverrideLine::Seen OverrideLine::see(const Levels& inputs, const Levels& outputs) noexcept {
   const auto& wires = config_.wires;
-  seen_.panel_code = word_of(inputs, wires.panel, wires.panel_inverted);
-  const auto panel = table_.step_of_code(seen_.panel_code);
-  seen_.panel_known = panel.has_value();
+  shown_code_ = word_of(inputs, wires.panel, wires.panel_inverted);
+  const auto panel = table_.step_of_code(shown_code_);
+  unknown_ = panel ? 0 : std::min(unknown_ + 1, kUnknownReadings);
+  if (panel || unknown_ == kUnknownReadings) {
+    seen_.panel_code = shown_code_;
+    seen_.panel_known = panel.has_value();
+  }
   if (panel) {
     seen_.panel_ratio = table_.ratio(*panel);
   }
@@ -53,17 +57,22 @@ bool OverrideLine::operator_has_it(std::size_t step) const noexcept {
          (above && !table_.layer_may_exceed_panel());
 }
 
-void OverrideLine::adopt(const Levels& outputs) noexcept {
+void OverrideLine::adopt(const Levels& outputs, bool begins) noexcept {
   step_ = table_.step_of_code(word_of(outputs, config_.wires.out, config_.wires.out_inverted));
-  mask_on_ = config_.wires.mask != kNoLine && outputs[config_.wires.mask];
+  mask_on_ = !begins && config_.wires.mask != kNoLine && outputs[config_.wires.mask];
+  catches_up_ = begins && config_.wiring == Wiring::through;
 }
 
 std::size_t OverrideLine::walk(std::size_t step, bool step_time) noexcept {
-  if (step_ && *step_ != step && !table_.latched_word() &&
-      !kernel::override::change_is_safe(table_, *step_, step)) {
+  const std::size_t goal = step;
+  const bool far = step_ && catches_up_ && goal > *step_ + 1;
+  if (step_ && *step_ != step &&
+      (far ||
+       (!table_.latched_word() && !kernel::override::change_is_safe(table_, *step_, step)))) {
     // Two steps of a walk that the link has swallowed come one after the other all the same.
     step = !step_time ? *step_ : step > *step_ ? *step_ + 1 : *step_ - 1;
   }
+  catches_up_ = catches_up_ && step != goal;
   step_ = step;
   return step;
 }
@@ -102,7 +111,7 @@ bool OverrideLine::put(const Word& word, bool step_time, Levels& outputs) noexce
   put_code(table_.code(step), outputs);
   switch (config_.wiring) {
     case Wiring::relay:
-      return put_mask((mask_on_ || settled) && !operator_has_it(step), outputs);
+      return put_mask((mask_on_ || (settled && !holds_)) && !operator_has_it(step), outputs);
     case Wiring::plc:
       return put_mask(masks && !waits, outputs);
     case Wiring::through:
@@ -120,13 +129,13 @@ void OverrideLine::release(bool step_time, Levels& outputs) noexcept {
   if (config_.wiring != Wiring::through) {
     return;
   }
-  const auto panel = table_.step_of_code(seen_.panel_code);
+  const auto panel = table_.step_of_code(shown_code_);
   const bool rises = panel && step_ && table_.ratio(*panel) > table_.ratio(*step_);
   if (rises) {
     put_code(table_.code(walk(*panel, step_time)), outputs);
   } else {
     step_ = panel;
-    put_code(seen_.panel_code, outputs);
+    put_code(shown_code_, outputs);
   }
 }
 

@@ -56,6 +56,8 @@ struct Lines {
   std::uint32_t running = kNoLine;    ///< input: a program runs
   std::uint32_t cutting = kNoLine;    ///< input: feed motion (G1–G3)
   std::uint32_t locked = kNoLine;     ///< input: threading or tapping
+  bool locked_inverted = false;       ///< that input is off there: a broken wire holds
+  double locked_hold_s = 3.0;         ///< a thread goes on for so long after it, between passes
   std::uint32_t modulate = kNoLine;   ///< input: the program asks for speed modulation
   double programmed_rev_s = 0.0;      ///< S of the program, where no encoder shows it; 0: not known
   double watchdog_s = 0.0;  ///< the module drops its outputs after this time; 0: it has no watchdog

@@ -58,6 +58,17 @@ struct Machine {
                                            : machine.control.interpolator_period_s;
 }
 
+/// Without a new command the machine keeps what was written for so long: the module's watchdog, the
+/// control's dead man, else `stale_after_ms`. s.
+[[nodiscard]] inline double holds_s(const Machine& machine) noexcept {
+  if (machine.port == PortKind::opcua) {
+    return machine.opcua.dead_man_s;
+  }
+  return machine.port == PortKind::lines && machine.lines.watchdog_s > 0.0
+             ? machine.lines.watchdog_s
+             : machine.envelope.stale_after_s;
+}
+
 /// Encoders that a recorder of this machine reads: of the axes, then of the spindle.
 [[nodiscard]] inline std::size_t encoder_count(const Machine& machine) noexcept {
   std::size_t count = machine.recorder.spindle_counts_rev > 0.0 ? 1 : 0;

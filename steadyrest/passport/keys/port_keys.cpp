@@ -63,6 +63,12 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "Input: the axes move at a programmed feed (G1 … G3), not at rapid."},
       Key<Lines>{"locked", &Lines::locked, 0, kMostLines,
                  "Input: threading or tapping, the overrides must not move."},
+      Key<Lines>{"locked_inverted", &Lines::locked_inverted, 0, 0,
+                 "That input is off in a thread and on elsewhere, so that a broken wire holds the "
+                 "overrides."},
+      Key<Lines>{"locked_hold_ms", &Lines::locked_hold_s, 0, 60000,
+                 "A thread goes on for so long after `locked` ends: longer than the way back "
+                 "between two passes, which must be cut at one speed."},
       Key<Lines>{"modulate", &Lines::modulate, 0, kMostLines,
                  "Input: the program asks for spindle speed modulation (an M function)."},
       Key<Lines>{"programmed_rpm", &Lines::programmed_rev_s, 0, 1e6,

@@ -111,9 +111,23 @@ TEST(GpioCards, OutputsAreLeftAsTheyAreUntilSomethingIsWritten) {
 TEST(ComediCards, LinesAreTurnedToTheirDirection) {
   fake_cards() = {};
   fake_cards().card = "here";
-  ASSERT_TRUE(open_wires(lines_of(LinesKind::comedi)));
+  const auto wires = open_wires(lines_of(LinesKind::comedi)).value();
   EXPECT_EQ((fake_cards().turned[{0, 2}]), static_cast<unsigned>(COMEDI_INPUT));
+  Levels inputs;
+  Levels outputs;
+  ASSERT_TRUE(wires->read(inputs, outputs));
+  EXPECT_FALSE((fake_cards().turned.contains({1, 12}))) << "another layer may have a word there";
+  ASSERT_TRUE(wires->write(Levels()));
   EXPECT_EQ((fake_cards().turned[{1, 12}]), static_cast<unsigned>(COMEDI_OUTPUT));
+}
+
+TEST(ComediCards, InputsAndOutputsThatAreNothingElseAreNotTurned) {
+  fake_cards() = {};
+  fake_cards().card = "here";
+  fake_cards().fixed_direction = true;
+  const auto wires = open_wires(lines_of(LinesKind::comedi)).value();
+  ASSERT_TRUE(wires->write(Levels()));
+  EXPECT_TRUE(fake_cards().turned.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Cards, ::testing::Values(LinesKind::gpio, LinesKind::comedi),

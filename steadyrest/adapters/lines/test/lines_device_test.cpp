@@ -81,6 +81,61 @@ TEST(LinesDevice, ThroughWritesAtEachReadingThoughNothingTurns) {
   EXPECT_EQ(scene.held.written.size(), 5U);
 }
 
+TEST(LinesDevice, WhoOnlyLooksWritesNothing) {
+  DeviceScene scene(Wiring::through, true, true);
+  scene.reads(5);
+  EXPECT_EQ(scene.sample.feed.panel_ratio, 1.0);
+  EXPECT_TRUE(scene.held.written.empty());
+}
+
+// The module keeps its outputs; a relay that watches the heartbeat has let go meanwhile.
+TEST(LinesDevice, AfterALongStandstillItBeginsWithoutMasks) {
+  DeviceScene scene(Wiring::relay);
+  scene.acts(5);
+  ASSERT_TRUE(scene.masks());
+  scene.held.cut = true;
+  EXPECT_FALSE(scene.read());
+  scene.held.cut = false;
+  scene.held.now_s += 0.05;
+  scene.acts(1);
+  EXPECT_TRUE(scene.masks()) << "the machine has it still";
+  scene.held.cut = true;
+  EXPECT_FALSE(scene.read());
+  scene.held.cut = false;
+  scene.held.now_s += 0.5;
+  scene.acts(1);
+  EXPECT_FALSE(scene.masks());
+  EXPECT_EQ(scene.held.outputs & Levels(7), Levels(2)) << "the panel's word";
+}
+
+TEST(LinesDevice, AThreadLastsFromPassToPass) {
+  DeviceScene scene(Wiring::relay);
+  scene.reads(1);
+  EXPECT_FALSE(scene.sample.in_thread);
+  scene.held.inputs.set(testing::kLocked);
+  scene.reads(1);
+  EXPECT_TRUE(scene.sample.in_thread);
+  scene.held.inputs.reset(testing::kLocked);
+  const int readings = static_cast<int>(lines_of(Wiring::relay).locked_hold_s / Held::kCycle_s);
+  scene.reads(readings - 1);
+  EXPECT_TRUE(scene.sample.in_thread);
+  scene.reads(2);
+  EXPECT_FALSE(scene.sample.in_thread);
+}
+
+TEST(LinesDevice, AWatchdogMayTakeTheMaskAlone) {
+  DeviceScene scene(Wiring::plc);
+  for (int i = 0; i < 6; ++i) {
+    scene.acts(5);
+    ASSERT_TRUE(scene.masks());
+    scene.held.outputs.reset(3);
+    ASSERT_TRUE(scene.read());
+    const auto refused = scene.read();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().what.find("let go"), std::string::npos) << "no other client";
+  }
+}
+
 /// Counts how often it was read.
 class CountedEncoders final : public EncoderSource {
  public:

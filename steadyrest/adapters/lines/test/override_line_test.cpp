@@ -65,6 +65,9 @@ TEST(OverrideLine, ReadsThePanelsCodeAndKeepsTheLastKnownRatio) {
   EXPECT_DOUBLE_EQ(seen.panel_ratio, 1.0);
   seen = scene.panel(0b01110);
   EXPECT_DOUBLE_EQ(seen.panel_ratio, 0.5);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(scene.panel(0).panel_known) << "it may be a bounce";
+  }
   seen = scene.panel(0);  // an open cable
   EXPECT_FALSE(seen.panel_known);
   EXPECT_DOUBLE_EQ(seen.panel_ratio, 0.5);
@@ -128,12 +131,68 @@ TEST(OverrideLine, TheRelayFallsForTheOperator) {
   scene.put(k60, true);
   ASSERT_TRUE(scene.put(k60, true));
   for (const std::uint32_t code : {sinumerik_code(0), 0U, sinumerik_code(k50)}) {
-    scene.panel(code);
+    for (int i = 0; i < 3; ++i) {
+      scene.panel(code);
+    }
     EXPECT_FALSE(scene.put(k60, true)) << code;
     EXPECT_FALSE(scene.outputs[kMask]);
     scene.panel(sinumerik_code(k60));
     scene.put(k60, true);
     EXPECT_TRUE(scene.put(k60, true));
+  }
+}
+
+TEST(OverrideLine, AContactThatBouncesMovesNoRelay) {
+  Scene scene(Wiring::relay);
+  scene.panel(sinumerik_code(k100));
+  scene.put(k60, true);
+  ASSERT_TRUE(scene.put(k60, true));
+  for (const std::uint32_t code : {0U, 0b10101U}) {
+    scene.panel(code);
+    EXPECT_TRUE(scene.put(k60, true));
+    EXPECT_EQ(scene.out(), sinumerik_code(k60));
+  }
+  scene.panel(0);
+  EXPECT_FALSE(scene.put(k60, true));
+}
+
+TEST(OverrideLine, InAThreadNoRelayComesInAndOneThatIsInStays) {
+  Scene scene(Wiring::relay);
+  scene.panel(sinumerik_code(k100));
+  scene.line.hold(true);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_FALSE(scene.put(k100, true));
+  }
+  scene.line.hold(false);
+  EXPECT_TRUE(scene.put(k100, true));
+  scene.line.hold(true);
+  EXPECT_TRUE(scene.put(k100, true));
+}
+
+// The module has kept word and mask for longer than the machine does: the relay may have fallen.
+TEST(OverrideLine, AnOldMaskDoesNotCount) {
+  Scene scene(Wiring::relay);
+  scene.panel(sinumerik_code(k100));
+  scene.put(k60, true);
+  scene.put(k60, true);
+  ASSERT_EQ(scene.out(), sinumerik_code(k60));
+  scene.line.adopt(scene.outputs, true);
+  EXPECT_FALSE(scene.put(k50, true));
+  EXPECT_EQ(scene.out(), sinumerik_code(k100));
+  EXPECT_TRUE(scene.put(k100, true)) << "once the panel's word has been there";
+}
+
+TEST(OverrideLine, ThroughAnOldWordRisesOneStepAtATime) {
+  Scene scene(Wiring::through);
+  scene.panel(sinumerik_code(k100));
+  scene.put(k60, true);
+  ASSERT_EQ(scene.out(), sinumerik_code(k60));
+  scene.line.adopt(scene.outputs, true);
+  for (std::size_t step = k60 + 1; step <= k100; ++step) {
+    scene.put(k100, true, false);
+    EXPECT_EQ(scene.out(), sinumerik_code(step - 1)) << "not before its scan";
+    scene.put(k100, true);
+    EXPECT_EQ(scene.out(), sinumerik_code(step));
   }
 }
 

@@ -31,20 +31,24 @@ inline kernel::machine::Lines lines_of(Wiring wiring) {
   return lines;
 }
 
+inline constexpr std::uint32_t kLocked = 9;
+
 inline constexpr LineOrder kHalf{.feed = {.code = 3, .masks = true}, .spindle = {}};
 
 /// A device on wires that the test holds, the panel at 100 %.
 class DeviceScene {
  public:
-  explicit DeviceScene(Wiring wiring, bool latched = true) {
+  explicit DeviceScene(Wiring wiring, bool latched = true, bool only_looks = false) {
     auto table = small_table();
     table.latched_word = latched;
-    const auto lines = lines_of(wiring);
+    auto lines = lines_of(wiring);
+    lines.locked = kLocked;
     held.inputs = Levels(2);
     LinesDevice::Parts parts;
     parts.wires = std::make_unique<HeldWires>(held);
     parts.feed =
         OverrideLine::make({.wires = lines.feed, .table = table, .wiring = wiring}).value();
+    parts.only_looks = only_looks;
     device = std::make_unique<LinesDevice>(lines, std::move(parts));
   }
   kernel::outcome::Result<void> read() { return device->read(sample); }

@@ -116,6 +116,10 @@ const char* comedi_strerror(int /*fault*/) {
 int comedi_get_n_channels(comedi_t* /*card*/, unsigned subdevice) {
   return subdevice > 1 ? -1 : static_cast<int>(fake_cards().lines);
 }
+int comedi_get_subdevice_type(comedi_t* /*card*/, unsigned subdevice) {
+  const bool fixed = fake_cards().fixed_direction;
+  return !fixed ? COMEDI_SUBD_DIO : subdevice == 0 ? COMEDI_SUBD_DI : COMEDI_SUBD_DO;
+}
 int comedi_dio_config(comedi_t* /*card*/, unsigned subdevice, unsigned line, unsigned direction) {
   fake_cards().turned[{subdevice, line}] = direction;
   return 0;

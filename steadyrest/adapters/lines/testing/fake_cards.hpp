@@ -15,7 +15,8 @@ struct FakeCards {
   std::map<unsigned, int>
       direction;  ///< −1: another program has it; 1 input, 2 output, 3 as it was
   unsigned released = 0;
-  bool fails = false;  ///< whatever is asked for
+  bool fails = false;            ///< whatever is asked for
+  bool fixed_direction = false;  ///< comedi: subdevice 0 is inputs alone, 1 outputs
 
   std::string card;
   std::map<unsigned, unsigned> bits;                         ///< levels of a comedi subdevice

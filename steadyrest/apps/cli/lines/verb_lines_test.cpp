@@ -36,6 +36,7 @@ using kernel::machine::OverrideWires;
 
 constexpr double kSlowest_s = 0.02;  ///< a walk waits at least so long on each word
 constexpr double kPanelPause_s = 0.01;
+constexpr double kAfter_s = 1.0;  ///< the switch may have more positions than the table
 
 struct Options {
   std::string machine;
@@ -221,7 +222,9 @@ std::expected<bool, Refusals> watch_panel(const Machine& machine, const Options&
   }
   const auto pauses = static_cast<int>(options.for_s / kPanelPause_s);
   const auto complete = [](const adapter::PanelWatch& watch) { return watch.complete(); };
-  for (int i = 0; i < pauses && !std::ranges::all_of(watches, complete); ++i) {
+  const auto after = static_cast<int>(kAfter_s / kPanelPause_s);
+  int since = 0;  // all were complete, in pauses
+  for (int i = 0; i < pauses && since < after; ++i) {
     adapter::Levels inputs;
     adapter::Levels outputs;
     if (auto read = wires.read(inputs, outputs); !read) {
@@ -230,6 +233,7 @@ std::expected<bool, Refusals> watch_panel(const Machine& machine, const Options&
     for (std::size_t k = 0; k < all.size(); ++k) {
       watches[k].see(adapter::word_of(inputs, all[k].wires->panel, all[k].wires->panel_inverted));
     }
+    since = std::ranges::all_of(watches, complete) ? since + 1 : 0;
     progress.update(static_cast<double>(i) / pauses, seen_so_far(all, watches));
     pause(kPanelPause_s);
   }

@@ -124,7 +124,7 @@ std::vector<Finding> lines_findings(const Machine& machine) {
                    "known",
                    "steadyrest lines test sets and reads them back"});
   }
-  const auto port = LinesPort::open(machine);
+  const auto port = LinesPort::open(machine, LinesPort::Use::looks);
   std::ranges::move(port ? panel_findings(machine, (*port)->read())
                          : std::vector<Finding>{error_of(kLinesCheck, port.error())},
                     std::back_inserter(out));
@@ -150,8 +150,7 @@ std::expected<LivePort, Refusals> open_lines(const Machine& machine,
   }
   LivePort out;
   out.period_s = layer_cycle_s(machine);
-  out.holds_s =
-      machine.lines.watchdog_s > 0.0 ? machine.lines.watchdog_s : machine.envelope.stale_after_s;
+  out.holds_s = holds_s(machine);
   if (auto errors = errors_of(machine, panel_findings(machine, (*port)->read())); !errors.empty()) {
     return std::unexpected(std::move(errors));
   }

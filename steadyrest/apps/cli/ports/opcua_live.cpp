@@ -277,7 +277,7 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
   }
   std::shared_ptr<OpcUaPort> port = std::move(*made);
   out.period_s = layer_cycle_s(machine);
-  out.holds_s = machine.opcua.dead_man_s;
+  out.holds_s = holds_s(machine);
   auto followed = std::make_unique<FollowedPort>(*port);
   std::shared_ptr<ProgramWatch> watch;
   if (!options.file.empty()) {
