@@ -194,7 +194,11 @@ Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& t
   if (fault == Reason::none) {
     state_.idle_s = frame.motion == signal::Motion::idle ? state_.idle_s + tick.step_s : 0.0;
     state_.tool_in_cut = in_cut(frame.motion, state_.idle_s, state_.tool_in_cut);
-    state_.in_thread = signal::is_locked(frame.motion);
+    const bool between = frame.motion == signal::Motion::rapid ||
+                         frame.motion == signal::Motion::dwell ||
+                         frame.motion == signal::Motion::spindle_wait;
+    state_.in_passes = frame.motion == signal::Motion::thread || (state_.in_passes && between);
+    state_.in_thread = signal::is_locked(frame.motion) || state_.in_passes;
   }
   return fault;
 }

@@ -39,7 +39,8 @@ namespace steadyrest::supervisor {
 /// a copy of it.
 /// Thread cutting and tapping hold feed and spindle where they are, from the first frame that shows
 /// them to the first fit one that shows something else, whatever the mode and the input; the
-/// operator still wins.
+/// operator still wins. Rapids and dwells after a pass of a thread belong to it: all passes must be
+/// cut at one speed.
 /// The tool counts as in the cut during feed, thread and tap, and as out of it during rapids and
 /// tool changes and after a second of idle (program end, abort); anything else, and unfit input,
 /// keeps the last known state.
@@ -85,6 +86,7 @@ class Supervisor {
     double idle_s = 0.0;     ///< good time since the control became idle
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
+    bool in_passes = false;    ///< likewise, in a thread or on the way back between two passes
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
     double silence_began_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not restored
     bool clock_set = false;                                             ///< since then

@@ -90,6 +90,7 @@ Result<void> LinesDevice::send(const Levels& outputs) {
 Result<void> LinesDevice::check_outputs(const Levels& outputs) {
   const Levels differ = sent_ ? (outputs ^ on_wires_) & ours_ : Levels();
   differing_ = differ.any() ? differing_ + 1 : 0;
+  silence_s_ = differing_ == 1 ? parts_.wires->now_s() - written_s_ : silence_s_;
   taken_ = taken_ || (sent_ && differ.none());
   if (differing_ < kDifferingReadings) {
     return {};
@@ -100,9 +101,10 @@ Result<void> LinesDevice::check_outputs(const Levels& outputs) {
 
 Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const double now_s = parts_.wires->now_s();
-  // By a watchdog, which takes all outputs off or keeps the word and takes the masks.
-  const bool dropped = taken_ && (outputs & masks_).none() &&
-                       ((outputs & ours_).none() || (differ & ~masks_).none());
+  // By a watchdog, which takes all outputs off, or keeps the word and takes the masks.
+  const bool expired = lines_.watchdog_s > 0.0 && silence_s_ > lines_.watchdog_s;
+  const bool masks_alone = (outputs & masks_).none() && (differ & ~masks_).none();
+  const bool dropped = taken_ && ((outputs & ours_).none() || (expired && masks_alone));
   if (!dropped) {
     disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
     dispute_s_ = now_s;

@@ -83,6 +83,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   bool taken_ = false;       ///< a reading has shown outputs as they were written
   bool adopted_ = false;     ///< `on_wires_` is what a reading has shown
   double written_s_ = -1e9;  ///< the last write that was taken
+  double silence_s_ = 0.0;   ///< since then, when outputs began to differ
   double locked_s_ = -1e9;   ///< `locked` was seen last
   double beaten_s_ = -1e9;   ///< when the heartbeat changed and nobody here had written it
   double fastest_s_ = 1e9;   ///< a write takes at least

@@ -65,7 +65,7 @@ void OverrideLine::adopt(const Levels& outputs, bool begins) noexcept {
 
 std::size_t OverrideLine::walk(std::size_t step, bool step_time) noexcept {
   const std::size_t goal = step;
-  const bool far = step_ && catches_up_ && goal > *step_ + 1;
+  const bool far = step_ && catches_up_ && goal > *step_;
   if (step_ && *step_ != step &&
       (far ||
        (!table_.latched_word() && !kernel::override::change_is_safe(table_, *step_, step)))) {

@@ -44,6 +44,38 @@ TEST(Interruption, WhatTheWatchdogHasDroppedIsNotWrittenAfterARestore) {
   }
 }
 
+// A module that keeps its outputs for 200 ms has everything still after 150: a layer that began at
+// the panel would have the feed jump.
+TEST(Interruption, WhatTheMachineKeepsLongerIsGoneOnWith) {
+  for (const double keeps_s : {0.2, 0.0}) {
+    auto machine = mill(Mode::act);
+    machine.port = kernel::machine::PortKind::lines;
+    machine.lines.cycle_s = kCycle_s;
+    machine.lines.watchdog_s = keeps_s;
+    auto supervisor = Supervisor::make(machine, kAll).value();
+    test::FakePort port;
+    port.frame.motion = signal::Motion::feed;
+    port.frame.feed.panel_code = 0b11010;
+    const std::vector<signal::FeedRequest> wish = {{.ratio = 0.5, .reason = Reason::contour_limit}};
+    const auto cycles = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        static_cast<void>(
+            supervisor.cycle(port, {.feed = wish, .spindle = {}, .offset = {}, .path_offset = {}}));
+      }
+    };
+    cycles(1000);
+    ASSERT_EQ(port.written.back().feed_ratio, 0.5);
+    port.lost = true;
+    cycles(3);  // of 50 ms each
+    port.lost = false;
+    port.frame.time_s += 0.15;
+    const std::size_t so_far = port.written.size();
+    cycles(300);
+    ASSERT_GT(port.written.size(), so_far);
+    EXPECT_EQ(port.written[so_far].feed_masks_panel, keeps_s > 0.0);
+  }
+}
+
 /// A port that refuses to write for a while.
 class DeafPort final : public kernel::port::Port {
  public:

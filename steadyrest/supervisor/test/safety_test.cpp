@@ -158,6 +158,28 @@ TEST(Safety, ThreadingAndTappingHoldTheOverridesButNotAgainstTheOperator) {
   }
 }
 
+TEST(Safety, AllPassesOfAThreadAreCutAtOneSpeed) {
+  Bench bench;
+  bench.wish_spindle(0.8);
+  bench.cycles(500);
+  for (const double wish : {1.1, 0.7, 0.9}) {
+    bench.frame.motion = signal::Motion::thread;
+    EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.8);
+    bench.wish_spindle(wish);
+    for (const auto way : {signal::Motion::rapid, signal::Motion::dwell, signal::Motion::rapid}) {
+      bench.frame.motion = way;
+      EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.8);
+    }
+  }
+  bench.frame.motion = signal::Motion::feed;
+  EXPECT_EQ(bench.cycles(800).spindle_ratio, 0.9);
+  bench.frame.motion = signal::Motion::tap;
+  bench.wish_spindle(0.8);
+  EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.9);
+  bench.frame.motion = signal::Motion::rapid;
+  EXPECT_EQ(bench.cycles(800).spindle_ratio, 0.8) << "each hole is tapped by itself";
+}
+
 // Frozen by bad input, by a dwell, by a stale frame; out at 0.05 mm/s, so 5 µm in the 100 cycles
 // after the first good frame that shows a rapid.
 TEST(Safety, AnOffsetFreezesOnBadInputAndRampsOutWhenNoToolIsInTheCut) {

@@ -28,6 +28,7 @@ inline kernel::machine::Lines lines_of(Wiring wiring) {
   lines.feed.out = {0, 1, 2};
   lines.feed.mask = wiring == Wiring::through ? kernel::machine::kNoLine : 3;
   lines.heartbeat = 4;
+  lines.watchdog_s = 0.1;
   return lines;
 }
 
