@@ -93,7 +93,7 @@ function(steadyrest_headers target)
   target_compile_options(${target} PRIVATE ${H_OPTIONS} $<$<CXX_COMPILER_ID:Clang>:-Xclang;-fno-pch-timestamp>)
   target_precompile_headers(${target} PRIVATE ${H_HEADERS})
 endfunction()
-# In sanitized builds compiling the tests took longer than running them: there they are not optimised, but for those that
+# In sanitized builds compiling the tests took longer than running them: there they are not optimised, except those that
 # compute much themselves. The linker takes a template's function from the test where it has one.
 if(STEADYREST_SANITIZE)
   set(steadyrest_test_options ${steadyrest_not_hot_options})
@@ -114,7 +114,7 @@ steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_heade
 # All test executables with the label `threads`: those worth building for ThreadSanitizer.
 add_custom_target(threads_tests)
 
-# steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT): a GoogleTest executable; every test is a
+# steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT COMPUTES): a GoogleTest executable; every test is a
 # ctest entry; with WHOLE all of them are one, so that a suite starts its server once. Several labels may be given. NOT_HOT: see
 # steadyrest_not_hot. COMPUTES: optimised in sanitized builds too.
 function(steadyrest_test)

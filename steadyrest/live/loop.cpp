@@ -19,6 +19,7 @@ using kernel::outcome::Result;
 constexpr double kShortestPeriod_s = 1.0 / 4000.0;
 constexpr double kLongestPeriod_s = 1.0;
 constexpr double kRounding = 1e-9;
+constexpr double kLongestHold_s = 120.0;
 
 std::size_t place_of(Reason reason) noexcept {
   const auto all = kernel::outcome::reasons();
@@ -132,7 +133,13 @@ bool Loop::stops(double now_s) const noexcept {
 bool Loop::goes_on(double now_s) noexcept {
   began_s_ = began_s_ < 0.0 ? now_s : began_s_;
   const bool stops = this->stops(now_s);
-  if (stops && stopped_s_ < 0.0) {
+  if (stops && stop_asked_s_ < 0.0) {
+    stop_asked_s_ = now_s;
+  }
+  // In a thread nothing can be handed back.
+  const bool held =
+      kernel::signal::is_locked(port_.last.motion) && now_s - stop_asked_s_ <= kLongestHold_s;
+  if (stops && (stopped_s_ < 0.0 || held)) {
     stopped_s_ = now_s;
   }
   const Mode mode = stops ? Mode::observe : wanted_.load();

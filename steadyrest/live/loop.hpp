@@ -72,7 +72,7 @@ class Loop {
   struct Config {
     double period_s = 0.001;        ///< 1 Hz … 4 kHz: a bus or a network may be slow
     double contour_limit_mm = 0.0;  ///< of the machine file
-    double handback_s = 5.0;        ///< the longest way to neutral at the end
+    double handback_s = 5.0;        ///< the longest way to neutral at the end, a thread not counted
     kernel::machine::Mode mode = kernel::machine::Mode::observe;
     std::uint64_t most_cycles = 0;  ///< 0: until it is told to stop
     double most_s = 0.0;      ///< likewise, by the pace's clock: cycles of a dead link are long
@@ -197,7 +197,8 @@ class Loop {
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> beats_{0};
   double began_s_ = -1.0;                      ///< the first cycle; not yet
-  double stopped_s_ = -1.0;                    ///< when the end was first asked for; not yet
+  double stop_asked_s_ = -1.0;                 ///< when the end was first asked for; not yet
+  double stopped_s_ = -1.0;                    ///< likewise, or later: a thread was being cut
   std::optional<kernel::machine::Mode> told_;  ///< by on_mode
   std::mutex noting_;
   kernel::rt::Ring<LoopNote, 32> notes_;

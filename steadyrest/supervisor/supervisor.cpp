@@ -26,6 +26,8 @@ constexpr double kNeverReadS = 1e9;
 /// Between two blocks a control may report idle for some cycles with the tool in the cut. Tests
 /// AfterAnAbortTheOffsetFades, ADwellOrAShortIdleInTheCutKeepsTheOffset.
 constexpr double kIdleLeavesCutS = 1.0;
+/// A way back between two passes of a thread takes no longer.
+constexpr double kBetweenPassesS = 10.0;
 
 // No table, no override: the machine file need not name what the control lacks.
 Result<std::optional<Channel>> channel(const Channel::Config& config) {
@@ -165,6 +167,7 @@ Supervisor::Supervisor(const machine::Machine& machine, const kernel::port::Capa
     : check_(machine.axes, machine.envelope.stale_after_s),
       clock_(clock),
       cycle_s_(machine::layer_cycle_s(machine)),
+      stale_after_s_(machine.envelope.stale_after_s),
       watchdog_s_(machine::holds_s(machine)),
       motion_(std::move(motion)),
       offset_(offset),
@@ -197,8 +200,11 @@ Reason Supervisor::inspect(const signal::Frame& frame, const FrameClock::Tick& t
     const bool between = frame.motion == signal::Motion::rapid ||
                          frame.motion == signal::Motion::dwell ||
                          frame.motion == signal::Motion::spindle_wait;
-    state_.in_passes = frame.motion == signal::Motion::thread || (state_.in_passes && between);
-    state_.in_thread = signal::is_locked(frame.motion) || state_.in_passes;
+    const bool threads = frame.motion == signal::Motion::thread;
+    state_.between_s = between ? state_.between_s + tick.step_s : 0.0;
+    state_.in_passes =
+        threads || (state_.in_passes && between && state_.between_s < kBetweenPassesS);
+    state_.in_thread = signal::is_locked(frame.motion);
   }
   return fault;
 }
@@ -281,7 +287,9 @@ Supervisor::Decisions Supervisor::arbitrate(const signal::Frame& frame, const Re
           .unfit = unfit == Reason::none && leaving_act() ? Reason::observe_only : unfit,
           // The raw frame's motion too: an unfit frame that shows a tap holds at once, while only a
           // fit one ends the hold.
-          .hold = state_.in_thread || signal::is_locked(frame.motion)};
+          // Whoever takes the machine back gets it between two passes.
+          .hold = state_.in_thread || signal::is_locked(frame.motion) ||
+                  (state_.in_passes && !leaving_act())};
 }
 
 // resume() and settle_mode() may put the words back to the panel, so the copy that a refused write

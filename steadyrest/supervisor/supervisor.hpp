@@ -39,15 +39,15 @@ namespace steadyrest::supervisor {
 /// a copy of it.
 /// Thread cutting and tapping hold feed and spindle where they are, from the first frame that shows
 /// them to the first fit one that shows something else, whatever the mode and the input; the
-/// operator still wins. Rapids and dwells after a pass of a thread belong to it: all passes must be
-/// cut at one speed.
+/// operator still wins. Up to 10 s of rapids, dwells and waits for the spindle after a pass of a
+/// thread belong to it, unless act is left: all passes must be cut at one speed.
 /// The tool counts as in the cut during feed, thread and tap, and as out of it during rapids and
 /// tool changes and after a second of idle (program end, abort); anything else, and unfit input,
 /// keeps the last known state.
 /// Only what was written counts: mere advice is dropped on the way to act, and a cycle that the
 /// port did not take is taken back. After an interruption (restore(), a port that could not read or
-/// write) of more than `stale_after` the machine's watchdog has dropped everything, so the layer
-/// begins at the panel and at offset 0; until a good stamp tells how long it was, nothing is
+/// write) of more than machine::holds_s() the machine's watchdog has dropped everything, so the
+/// layer begins at the panel and at offset 0; until a good stamp tells how long it was, nothing is
 /// written.
 /// All of update() runs in the cycle: bounded, noexcept, without allocation, lock or I/O.
 class Supervisor {
@@ -87,6 +87,7 @@ class Supervisor {
     bool tool_in_cut = false;
     bool in_thread = false;    ///< by the last fit frame
     bool in_passes = false;    ///< likewise, in a thread or on the way back between two passes
+    double between_s = 0.0;    ///< good time of that way so far
     bool interrupted = false;  ///< what is on the machine is unknown until the time is known
     double silence_began_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not restored
     bool clock_set = false;                                             ///< since then
@@ -207,7 +208,7 @@ class Supervisor {
   void watch_source(double stamp_s) noexcept;
   [[nodiscard]] bool stamps_say_short(const FrameClock::Tick& tick) const noexcept;
   [[nodiscard]] bool is_dropped(const FrameClock::Tick& tick) const noexcept;
-  [[nodiscard]] bool source_stalled() const noexcept { return state_.stalled_s > watchdog_s_; }
+  [[nodiscard]] bool source_stalled() const noexcept { return state_.stalled_s > stale_after_s_; }
   void begin_at_panel() noexcept;
   void resume(const FrameClock::Tick& tick) noexcept;
   void hear(const kernel::signal::Frame& frame, bool fit) noexcept;
@@ -239,6 +240,7 @@ class Supervisor {
   FrameCheck check_;
   FrameClock clock_;
   double cycle_s_;
+  double stale_after_s_;
   double watchdog_s_;  ///< the machine drops whatever no heartbeat renews for this long
   MotionStage motion_;
   std::optional<contour::online::FeedGovernor> contour_;

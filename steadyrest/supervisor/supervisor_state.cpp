@@ -166,6 +166,7 @@ void Supervisor::restore(const State& state) noexcept {
   // A state comes from a file: a NaN here would keep the tool in the cut, or the layer silent, for
   // good.
   state_.idle_s = std::isfinite(state.idle_s) ? std::max(0.0, state.idle_s) : 0.0;
+  state_.between_s = std::isfinite(state.between_s) ? std::max(0.0, state.between_s) : 0.0;
   state_.silent_s =
       state.silent_s >= 0.0 ? state.silent_s : std::numeric_limits<double>::infinity();
   clock_.restore(state.clock);

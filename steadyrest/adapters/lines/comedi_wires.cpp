@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <comedilib.h>
@@ -43,14 +44,23 @@ struct ComediWires::Card {
     }
   }
 
-  [[nodiscard]] Result<void> turn(unsigned subdevice, const Range& lines,
-                                  unsigned direction) const {
+  [[nodiscard]] Result<void> check(unsigned subdevice, const Range& lines, int only) const {
     const int has = comedi_get_n_channels(device, subdevice);
     if (has < static_cast<int>(lines.first + lines.count)) {
       return unavailable(fmt::format("subdevice {} has {} lines, line {} is wanted", subdevice,
                                      std::max(0, has), lines.first + lines.count - 1),
                          "correct input_device, output_device or the lines' numbers in [lines]");
     }
+    const int type = comedi_get_subdevice_type(device, subdevice);
+    if (type != COMEDI_SUBD_DIO && type != only) {
+      return unavailable(fmt::format("subdevice {} has no digital {}", subdevice,
+                                     only == COMEDI_SUBD_DI ? "inputs" : "outputs"),
+                         "correct input_device or output_device in [lines]");
+    }
+    return {};
+  }
+  [[nodiscard]] Result<void> turn(unsigned subdevice, const Range& lines,
+                                  unsigned direction) const {
     // Inputs or outputs alone have no direction, and their driver refuses to be given one.
     const bool turns = comedi_get_subdevice_type(device, subdevice) == COMEDI_SUBD_DIO;
     for (std::uint32_t i = lines.first; turns && i < lines.first + lines.count; ++i) {
@@ -94,6 +104,13 @@ Result<std::unique_ptr<ComediWires>> ComediWires::open(const Lines& lines) {
   card->device = comedi_open(lines.device.c_str());
   if (card->device == nullptr) {
     return comedi_fault(fmt::format("the comedi device {} cannot be opened", lines.device));
+  }
+  for (const auto& [subdevice, range, only] :
+       {std::tuple(card->input_device, card->inputs, COMEDI_SUBD_DI),
+        std::tuple(card->output_device, card->outputs, COMEDI_SUBD_DO)}) {
+    if (auto there = card->check(subdevice, range, only); !there) {
+      return std::unexpected(std::move(there.error()));
+    }
   }
   if (auto turned = card->turn(card->input_device, card->inputs, COMEDI_INPUT); !turned) {
     return std::unexpected(std::move(turned.error()));

@@ -51,12 +51,16 @@ void PanelWatch::see(std::uint32_t word) {
 }
 
 void PanelWatch::move_to(std::uint32_t word) {
+  const auto known = std::ranges::find(words_, word);
   if (words_.empty()) {
     words_.push_back(word);
   } else if (at_ > 0 && words_[at_ - 1] == word) {
     --at_;
   } else if (at_ + 1 < words_.size() && words_[at_ + 1] == word) {
     ++at_;
+  } else if (known != words_.end()) {
+    ++out_of_order_;
+    at_ = static_cast<std::size_t>(known - words_.begin());
   } else if (at_ == 0 && words_.size() > 1) {
     words_.insert(words_.begin(), word);
   } else {

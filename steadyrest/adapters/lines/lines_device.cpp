@@ -20,7 +20,8 @@ constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
 constexpr int kMostDisputes = 3;
 constexpr double kDispute_s = 60.0;
-constexpr double kBeats_s = 1.0;  ///< another layer's heartbeat is heard for so long
+constexpr double kStandstill_s = 1.0;  ///< no program has run for so long
+constexpr double kBeats_s = 1.0;       ///< another layer's heartbeat is heard for so long
 /// Of the scan: the cycle's jitter.
 constexpr double kTimeTolerance = 0.1;
 
@@ -103,7 +104,7 @@ Result<void> LinesDevice::dispute(const Levels& outputs, const Levels& differ) {
   const double now_s = parts_.wires->now_s();
   // By a watchdog, which takes all outputs off, or keeps the word and takes the masks.
   const bool expired = lines_.watchdog_s > 0.0 && silence_s_ > lines_.watchdog_s;
-  const bool masks_alone = (outputs & masks_).none() && (differ & ~masks_).none();
+  const bool masks_alone = (outputs & masks_).none() && (differ & words_ & ~masks_).none();
   const bool dropped = taken_ && ((outputs & ours_).none() || (expired && masks_alone));
   if (!dropped) {
     disputes_ = disputes_ > 0 && now_s - dispute_s_ <= kDispute_s ? disputes_ + 1 : 1;
@@ -161,9 +162,14 @@ void LinesDevice::adopt(const Levels& outputs) noexcept {
   on_wires_ = outputs;
   for (auto* line : {&parts_.feed, &parts_.spindle}) {
     if (*line) {
-      (*line)->adopt(outputs, now_s - written_s_ > parts_.holds_s);
+      (*line)->adopt(outputs, is_old());
     }
   }
+}
+
+/// The machine has dropped what was written last: the process stood still, or the link.
+bool LinesDevice::is_old() const noexcept {
+  return parts_.wires->now_s() - written_s_ > parts_.holds_s;
 }
 
 /// The way back between two passes counts: each must be cut at one speed.
@@ -172,7 +178,13 @@ bool LinesDevice::in_thread(const Levels& inputs) noexcept {
   if (lines_.locked < kMostLines && inputs[lines_.locked] != lines_.locked_inverted) {
     locked_s_ = now_s;
   }
-  return now_s - locked_s_ <= lines_.locked_hold_s;
+  if (is_on(inputs, lines_.running)) {
+    ran_s_ = now_s;
+  }
+  // A broken wire of an inverted input must not hold a machine that stands.
+  const bool stands =
+      lines_.running != kNoLine && now_s - ran_s_ > std::max(lines_.locked_hold_s, kStandstill_s);
+  return !stands && now_s - locked_s_ <= lines_.locked_hold_s;
 }
 
 Result<void> LinesDevice::read_lines(LineSample& sample) {
@@ -189,6 +201,7 @@ Result<void> LinesDevice::read_lines(LineSample& sample) {
   if (auto as_written = let_go_ ? Result<void>() : check_outputs(outputs); !as_written) {
     return as_written;
   }
+  sent_ = sent_ && !(acting_ && differing_ == 0 && is_old());
   if (!sent_ || let_go_) {
     adopt(outputs);
   }
@@ -236,8 +249,13 @@ Result<void> LinesDevice::write(const LineOrder& order) {
                                    lines_.heartbeat),
                        "stop the other one");
   }
+  // A write now would put an old word and its mask back in one step; the next reading begins anew.
+  const bool stood_still = acting_ && sent_ && is_old();
   acting_ = true;
   silent_ = 0;
+  if (stood_still) {
+    return {};
+  }
   if (differing_ > 0) {
     // A write now would put word and mask back in one step; the next reading tells.
     return {};

@@ -67,6 +67,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   void release(Levels& outputs) noexcept;
   void adopt(const Levels& outputs) noexcept;
   [[nodiscard]] bool in_thread(const Levels& inputs) noexcept;
+  [[nodiscard]] bool is_old() const noexcept;
   [[nodiscard]] bool settled(const OverrideLine& line) const noexcept;
 
   kernel::machine::Lines lines_;
@@ -85,6 +86,7 @@ class LinesDevice final : public kernel::link::Device<LineSample, LineOrder> {
   double written_s_ = -1e9;  ///< the last write that was taken
   double silence_s_ = 0.0;   ///< since then, when outputs began to differ
   double locked_s_ = -1e9;   ///< `locked` was seen last
+  double ran_s_ = -1e9;      ///< a program was seen to run
   double beaten_s_ = -1e9;   ///< when the heartbeat changed and nobody here had written it
   double fastest_s_ = 1e9;   ///< a write takes at least
   double since_s_ = 0;       ///< when the words on the wires were written

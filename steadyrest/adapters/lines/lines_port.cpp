@@ -79,10 +79,6 @@ std::string name_of(const kernel::machine::Lines& lines) {
   }
 }
 
-bool is_on(const Levels& inputs, std::uint32_t line) noexcept {
-  return line < kMostLines && inputs[line];
-}
-
 }  // namespace
 
 Result<std::unique_ptr<LinesPort>> LinesPort::make(const Machine& machine,

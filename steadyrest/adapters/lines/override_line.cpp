@@ -134,6 +134,7 @@ void OverrideLine::release(bool step_time, Levels& outputs) noexcept {
   if (rises) {
     put_code(table_.code(walk(*panel, step_time)), outputs);
   } else {
+    catches_up_ = false;
     step_ = panel;
     put_code(shown_code_, outputs);
   }

@@ -52,6 +52,11 @@ struct Range {
 [[nodiscard]] Range inputs_of(const kernel::machine::Lines& lines);
 [[nodiscard]] Range outputs_of(const kernel::machine::Lines& lines);
 
+/// False where the line is not wired.
+[[nodiscard]] inline bool is_on(const Levels& levels, std::uint32_t line) noexcept {
+  return line < kMostLines && levels[line];
+}
+
 /// The word that some lines carry, `lines[0]` its lowest bit; at most 32 of them.
 [[nodiscard]] std::uint32_t word_of(const Levels& levels, std::span<const std::uint32_t> lines,
                                     bool inverted) noexcept;

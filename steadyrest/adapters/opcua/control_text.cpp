@@ -297,6 +297,12 @@ Result<std::vector<ControlText>> control_texts(const Machine& machine) {
     return refuse(machine.file, "spindle = \"" + machine.opcua.spindle + "\"",
                   "write S1, for example");
   }
+  const double ipo_s = machine.control.interpolator_period_s;
+  if (too_slow(100.0 * hand_back_1_s(machine) * ipo_s) ||
+      (has_spindle(machine) && too_slow(100.0 * machine.envelope.spindle_slew_1_s * ipo_s))) {
+    return refuse(machine.file, "the way back is slower than an R parameter can hold in a cycle",
+                  "give a larger hand_back_percent_s or spindle_slew_percent_s");
+  }
   if (has_offsets(machine) &&
       too_slow(machine.envelope.offset_slew_mm_s * machine.control.interpolator_period_s)) {
     return refuse(machine.file,

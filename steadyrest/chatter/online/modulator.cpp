@@ -320,6 +320,16 @@ Modulator::Output Modulator::withdraw(Reason reason) noexcept {
   return output;
 }
 
+/// On its way out the goal shrinks to 100 % from where it is, also where the law had not quite come
+/// in from what was held.
+void Modulator::begin_to_leave(const Swing& swing) noexcept {
+  const double way = swing.mean + swing.amplitude * law_.at(state_.phase) - 1.0;
+  if (std::abs(state_.fades_from - 1.0) > kRatioTolerance && std::abs(way) > kRatioTolerance) {
+    state_.fade = std::clamp((goal(swing, state_.phase) - 1.0) / way, 0.0, 1.0);
+  }
+  state_.fades_from = 1.0;
+}
+
 Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force) noexcept {
   const Reason fault = fault_of(frame);
   const double passed_s = state_.started ? frame.time_s - state_.time_s : 0.0;
@@ -339,6 +349,9 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   // A late frame must not make the law jump.
   const double dt_s = std::min(passed_s, config_.max_step_s);
   const double turn = dt_s / config_.fade_s;
+  if (!active && speed_rev_s > 0.0) {
+    begin_to_leave(swing(limits(frame), speed_rev_s));
+  }
   if (!active && (speed_rev_s == 0.0 || state_.fade <= turn)) {
     return withdraw(frame.motion == Motion::feed ? Reason::none : Reason::not_cutting);
   }
@@ -352,9 +365,6 @@ Modulator::Output Modulator::update(const Frame& frame, const InForce& in_force)
   if (!state_.stepped) {
     // Not 100 %: after a thread, which holds the override, it would rise before it came back.
     state_.ratio = state_.fades_from = in_force.spindle.ratio;
-  }
-  if (!active) {
-    state_.fades_from = 1.0;
   }
   const Swing fitted = swing(within, speed_rev_s);
   const double now = std::clamp(goal(fitted, state_.phase), within.low, within.high);

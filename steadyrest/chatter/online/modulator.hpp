@@ -153,6 +153,7 @@ class Modulator {
   [[nodiscard]] bool wanted(const kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] Limits limits(const kernel::signal::Frame& frame) const noexcept;
   [[nodiscard]] Swing swing(const Limits& limits, double speed_rev_s) const noexcept;
+  void begin_to_leave(const Swing& swing) noexcept;
   [[nodiscard]] double goal(const Swing& swing, double phase) const noexcept;
   [[nodiscard]] double lowest_goal_ahead(const Swing& swing) const noexcept;
   [[nodiscard]] double feed_in_force(const kernel::signal::Frame& frame) const noexcept;

@@ -60,6 +60,8 @@ struct Lines {
   double locked_hold_s = 3.0;         ///< a thread goes on for so long after it, between passes
   std::uint32_t modulate = kNoLine;   ///< input: the program asks for speed modulation
   double programmed_rev_s = 0.0;      ///< S of the program, where no encoder shows it; 0: not known
+  double dropped_after_s =
+      0.0;                  ///< a watchdog relay or the PLC drops the word sooner; 0: it does not
   double watchdog_s = 0.0;  ///< the module drops its outputs after this time; 0: it has no watchdog
   /// Registers that set it: address and value in turn, written and read back before the first write
   /// of each connection.

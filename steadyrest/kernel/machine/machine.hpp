@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,14 +61,18 @@ struct Machine {
                                            : machine.control.interpolator_period_s;
 }
 
-/// Without a new command the machine keeps what was written for so long: the module's watchdog, the
-/// control's dead man, else `stale_after_ms`. s.
+/// Without a new command the machine keeps what was written for so long: the earliest of watchdog
+/// relay, PLC and module's watchdog, or the control's dead man, else `stale_after_ms`. s.
 [[nodiscard]] inline double holds_s(const Machine& machine) noexcept {
   if (machine.port == PortKind::opcua) {
     return machine.opcua.dead_man_s;
   }
-  return machine.port == PortKind::lines && machine.lines.watchdog_s > 0.0
-             ? machine.lines.watchdog_s
+  double earliest_s = std::numeric_limits<double>::infinity();
+  for (const double given_s : {machine.lines.dropped_after_s, machine.lines.watchdog_s}) {
+    earliest_s = given_s > 0.0 ? std::min(earliest_s, given_s) : earliest_s;
+  }
+  return machine.port == PortKind::lines && std::isfinite(earliest_s)
+             ? earliest_s
              : machine.envelope.stale_after_s;
 }
 

@@ -41,7 +41,11 @@ class Spy final : public kernel::port::Port {
                                                       .what = "the link is lost",
                                                       .to_do = "look at the cable"});
     }
-    return inner_.read();
+    auto frame = inner_.read();
+    if (frame && motion) {
+      frame->motion = *motion;
+    }
+    return frame;
   }
   Result<void> write(const Command& command) noexcept override {
     ++writes;
@@ -50,6 +54,7 @@ class Spy final : public kernel::port::Port {
     return inner_.write(command);
   }
   bool lost = false;
+  std::optional<kernel::signal::Motion> motion;  ///< instead of the machine's
   int reads = 0;
   int writes = 0;
   double lowest = 10.0;
@@ -229,6 +234,25 @@ TEST(Loop, GivesUpHandingBackAfterItsTime) {
     }
   };
   EXPECT_FALSE(loop.run().handed_back);
+}
+
+// What holds the overrides in a thread must not be let go in it.
+TEST(Loop, AThreadAtTheEndDoesNotCountAsHandingBack) {
+  Desk desk;
+  Spy spy(*desk.port);
+  Loop::Config config = until_finished(desk, Mode::act);
+  config.handback_s = 0.3;
+  Loop loop(spy, *desk.layer, desk.pace, config);
+  spy.at_read = [&](int reads) {
+    spy.motion = reads >= 300 && reads < 1000 ? kernel::signal::Motion::thread
+                                              : std::optional<kernel::signal::Motion>();
+    if (reads == 400) {
+      loop.ask_stop();
+    }
+  };
+  const LoopFigures figures = loop.run();
+  EXPECT_TRUE(figures.handed_back);
+  EXPECT_GE(figures.cycles, 1000U);
 }
 
 TEST(Loop, CountsLatenessWorkOverrunsAndReasons) {

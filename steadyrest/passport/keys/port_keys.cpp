@@ -66,14 +66,18 @@ std::span<const Key<Lines>> lines_keys() noexcept {
       Key<Lines>{"locked_inverted", &Lines::locked_inverted, 0, 0,
                  "That input is off in a thread and on elsewhere, so that a broken wire holds the "
                  "overrides."},
-      Key<Lines>{"locked_hold_ms", &Lines::locked_hold_s, 0, 60000,
-                 "A thread goes on for so long after `locked` ends: longer than the way back "
-                 "between two passes, which must be cut at one speed."},
+      Key<Lines>{
+          "locked_hold_ms", &Lines::locked_hold_s, 0, 60000,
+          "A thread counts as going on for this long after `locked` goes off: longer than the "
+          "way back between two passes, which must be cut at one speed."},
       Key<Lines>{"modulate", &Lines::modulate, 0, kMostLines,
                  "Input: the program asks for spindle speed modulation (an M function)."},
       Key<Lines>{"programmed_rpm", &Lines::programmed_rev_s, 0, 1e6,
                  "Spindle speed that the program asks for (S), where no encoder on the recorder "
                  "shows it; 0: not known, and no law of speed acts."},
+      Key<Lines>{"dropped_after_ms", &Lines::dropped_after_s, 0, 60000,
+                 "What drops the layer's word when it falls silent, if not the module's watchdog: "
+                 "the time of the watchdog relay, or the PLC's limit for the heartbeat."},
       Key<Lines>{"watchdog_ms", &Lines::watchdog_s, 0, 60000,
                  "The module drops its outputs when it has not been written for this long; 0: it "
                  "has no output watchdog."},

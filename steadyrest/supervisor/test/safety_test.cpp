@@ -171,13 +171,33 @@ TEST(Safety, AllPassesOfAThreadAreCutAtOneSpeed) {
       EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.8);
     }
   }
+  EXPECT_EQ(bench.cycles(11'000).spindle_ratio, 0.9) << "no way back takes as long";
+  bench.frame.motion = signal::Motion::thread;
+  bench.wish_spindle(0.8);
+  bench.cycles(300);
+  bench.frame.motion = signal::Motion::rapid;
+  EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.9);
   bench.frame.motion = signal::Motion::feed;
+  EXPECT_EQ(bench.cycles(800).spindle_ratio, 0.8);
+  bench.wish_spindle(0.9);
   EXPECT_EQ(bench.cycles(800).spindle_ratio, 0.9);
   bench.frame.motion = signal::Motion::tap;
   bench.wish_spindle(0.8);
   EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.9);
   bench.frame.motion = signal::Motion::rapid;
   EXPECT_EQ(bench.cycles(800).spindle_ratio, 0.8) << "each hole is tapped by itself";
+}
+
+TEST(Safety, WhoeverLeavesActGetsTheMachineBackBetweenTwoPasses) {
+  Bench bench;
+  bench.wish_spindle(0.8);
+  bench.cycles(500);
+  bench.frame.motion = signal::Motion::thread;
+  bench.supervisor.set_mode(kernel::machine::Mode::observe);
+  EXPECT_EQ(bench.cycles(300).spindle_ratio, 0.8);
+  bench.frame.motion = signal::Motion::rapid;
+  bench.cycles(800);
+  EXPECT_EQ(bench.supervisor.mode_in_force(), kernel::machine::Mode::observe);
 }
 
 // Frozen by bad input, by a dwell, by a stale frame; out at 0.05 mm/s, so 5 µm in the 100 cycles

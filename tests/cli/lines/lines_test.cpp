@@ -27,6 +27,7 @@ using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 // The words of 100 % on both switches of examples/machines/mill-802d.toml, and a running program.
 constexpr std::uint64_t kPanel = 0b11010 | 0b01110 << 5 | 1 << 10;
@@ -149,6 +150,16 @@ TEST_F(Mill, AStuckOutputIsNamed) {
   EXPECT_THAT(answer["feed"]["outputs"]["faults"],
               ElementsAre("output 3: bit 3 stays 1: it touches the supply, or the line is dead"));
   EXPECT_THAT(answer["spindle"]["outputs"]["faults"], IsEmpty());
+}
+
+TEST_F(Mill, OutputsThatNeverChangeMayBeReadBackElsewhere) {
+  for (int line = 0; line < 5; ++line) {
+    module_->tell("stick " + std::to_string(line) + " 0");
+  }
+  const Finished test = run_line("lines test --machine " + machine_);
+  EXPECT_EQ(test.code, 1);
+  EXPECT_THAT(test.out, HasSubstr("[lines.feed] outputs: what is read back never changes"));
+  EXPECT_THAT(test.out, Not(HasSubstr("[lines.spindle] outputs: what is read back never changes")));
 }
 
 TEST_F(Mill, SwappedWiresAreNamedByTheJumpersTest) {

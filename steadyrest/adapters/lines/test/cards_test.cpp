@@ -128,6 +128,12 @@ TEST(ComediCards, InputsAndOutputsThatAreNothingElseAreNotTurned) {
   const auto wires = open_wires(lines_of(LinesKind::comedi)).value();
   ASSERT_TRUE(wires->write(Levels()));
   EXPECT_TRUE(fake_cards().turned.empty());
+  auto exchanged = lines_of(LinesKind::comedi);
+  exchanged.input_device = 1;
+  exchanged.output_device = 0;
+  const auto refused = open_wires(exchanged);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().what, "subdevice 1 has no digital inputs");
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Cards, ::testing::Values(LinesKind::gpio, LinesKind::comedi),

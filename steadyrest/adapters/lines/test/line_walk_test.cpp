@@ -96,6 +96,12 @@ TEST(PanelWatch, TheSwitchMayStandInTheMiddleAtTheBeginning) {
   EXPECT_FALSE(after(5, {2, 6, 7, 6, 2, 3, 1, 3}).complete()) << "not at an end of the switch";
 }
 
+TEST(PanelWatch, AWordFromElsewhereIsOutOfOrder) {
+  const PanelWatch watch = after(5, {1, 3, 2, 1, 3, 2, 6, 7});
+  EXPECT_EQ(watch.out_of_order(), 1) << "2, then 1";
+  EXPECT_THAT(watch.words(), ElementsAre(1, 3, 2, 6, 7));
+}
+
 TEST(PanelWatch, ALooseContactIsOutOfOrder) {
   const PanelWatch watch = after(5, {1, 3, 2, 0, 2, 6, 7});
   EXPECT_EQ(watch.out_of_order(), 1);

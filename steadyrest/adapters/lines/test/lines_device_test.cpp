@@ -108,6 +108,51 @@ TEST(LinesDevice, AfterALongStandstillItBeginsWithoutMasks) {
   EXPECT_EQ(scene.held.outputs & Levels(7), Levels(2)) << "the panel's word";
 }
 
+// The link lives on, and the module has kept everything: before a reading, or after it.
+TEST(LinesDevice, AfterAStandstillOfTheProcessItBeginsWithoutMasks) {
+  for (const bool after_the_reading : {false, true}) {
+    DeviceScene scene(Wiring::relay);
+    scene.acts(5);
+    ASSERT_TRUE(scene.masks());
+    const std::size_t written = scene.held.written.size();
+    if (after_the_reading) {
+      scene.reads(1);
+      scene.held.now_s += 0.5;
+      ASSERT_TRUE(scene.device->write(kHalf));
+      EXPECT_EQ(scene.held.written.size(), written) << "nothing goes out unseen";
+    } else {
+      scene.held.now_s += 0.5;
+    }
+    scene.acts(1);
+    EXPECT_FALSE(scene.masks());
+    EXPECT_EQ(scene.held.outputs & Levels(7), Levels(2)) << "the panel's word";
+    scene.acts(5);
+    EXPECT_TRUE(scene.masks());
+  }
+}
+
+// `locked_inverted`, and the wire has broken.
+TEST(LinesDevice, AMachineThatStandsIsNotHeld) {
+  auto lines = lines_of(Wiring::plc);
+  lines.locked = testing::kLocked;
+  lines.locked_inverted = true;
+  lines.running = 8;
+  Held held;
+  LinesDevice::Parts parts;
+  parts.wires = std::make_unique<HeldWires>(held);
+  LinesDevice device(lines, std::move(parts));
+  LineSample sample;
+  held.inputs.set(lines.running);
+  ASSERT_TRUE(device.read(sample));
+  EXPECT_TRUE(sample.in_thread);
+  held.inputs.reset(lines.running);
+  ASSERT_TRUE(device.read(sample));
+  EXPECT_TRUE(sample.in_thread);
+  held.now_s += lines.locked_hold_s;
+  ASSERT_TRUE(device.read(sample));
+  EXPECT_FALSE(sample.in_thread);
+}
+
 TEST(LinesDevice, AThreadLastsFromPassToPass) {
   DeviceScene scene(Wiring::relay);
   scene.reads(1);
@@ -129,7 +174,10 @@ TEST(LinesDevice, AWatchdogMayTakeTheMaskAlone) {
     scene.acts(5);
     ASSERT_TRUE(scene.masks());
     scene.held.outputs.reset(3);
-    scene.held.now_s += 0.1;  // the computer stood still
+    if (i % 2 == 0) {
+      scene.held.outputs.reset(4);  // the heartbeat, too
+    }
+    scene.held.now_s += 0.15;  // the computer stood still
     ASSERT_TRUE(scene.read());
     const auto refused = scene.read();
     ASSERT_FALSE(refused);

@@ -120,6 +120,13 @@ bool tell(const Wired& of, const char* way, const std::vector<adapter::WireFault
 
 bool judge(const Wired& of, const char* way, const std::vector<WordPair>& pairs, Answer& answer) {
   const bool right = tell(of, way, adapter::diagnose(pairs, of.wires->panel.size()), pairs, answer);
+  const auto changes = [&](const WordPair& pair) { return pair.seen != pairs.front().seen; };
+  if (std::string_view(way) == "outputs" && std::ranges::none_of(pairs, changes)) {
+    answer.text += fmt::format(
+        "[lines.{}] outputs: what is read back never changes: the module shows its outputs at "
+        "another address, give it as output_copy (docs/wiring.md)\n",
+        of.name);
+  }
   if (right) {
     answer.text += fmt::format("[lines.{}] {}: all {} words are right\n", of.name, way,
                                std::min(pairs.size(), of.table->code.size()));
@@ -142,7 +149,14 @@ bool judge_switch(const Wired& of, const adapter::PanelWatch& watch, Answer& ans
         of.name, watch.out_of_order());
   }
   if (watch.complete()) {
-    return judge(of, "inputs", adapter::paired(*of.table, words), answer) && right;
+    // A switch that was turned back to its first position shows the words the other way round.
+    auto pairs = adapter::paired(*of.table, words);
+    const auto back = adapter::paired(*of.table, {words.rbegin(), words.rend()});
+    const std::size_t bits = of.wires->panel.size();
+    if (adapter::diagnose(back, bits).size() < adapter::diagnose(pairs, bits).size()) {
+      pairs = back;
+    }
+    return judge(of, "inputs", pairs, answer) && right;
   }
   json["incomplete"] = true;
   answer.text += fmt::format(

@@ -187,8 +187,8 @@ void check_samples(const Machine& machine, BridgeDevice& device, std::vector<Fin
   } else if (watched->clock < 1.0 / kClockDoubt || watched->clock > kClockDoubt) {
     out.push_back(
         {Severity::warning, kOpcUaCheck,
-         fmt::format("the control's clock goes {:.3g} times as fast as this computer's: every time "
-                     "of its actions is wrong by that, the dead man's too",
+         fmt::format("the control's clock runs {:.3g} times as fast as this computer's: every time "
+                     "of its actions is wrong by that factor, the dead man's too",
                      watched->clock),
          "[control] interpolator_period_ms must be the control's MD10071, and the SPF that is "
          "loaded written with it; if both are right, one of the computers is too busy"});

@@ -211,6 +211,24 @@ TEST(Modulator, AfterAThreadItGoesOnFromWhatWasHeld) {
   }
 }
 
+TEST(Modulator, WhatHasNotQuiteComeInLeavesWithoutAJump) {
+  auto c = sine_config();
+  c.modulation = {.law = Law::constant, .mean_ratio = 0.6};
+  Bench bench(c);
+  bench.in_force.spindle = {.ratio = 0.7, .word_ratio = 0.7};
+  bench.in_force.feed = {.ratio = 0.6, .word_ratio = 0.6};
+  bench.frame.feed.panel_ratio = 0.6;
+  const double before = bench.run(0.04).back().goal_ratio;
+  EXPECT_NEAR(before, 0.68, 0.011);
+  bench.frame.speed_modulation = false;
+  double goal = before;
+  for (const Modulator::Output& out : bench.run(0.5)) {
+    EXPECT_LE(std::abs(out.goal_ratio - goal), 0.4 * kCycle_s / 0.2 + 1e-9);
+    goal = out.spindle.reason == Reason::none ? goal : out.goal_ratio;
+  }
+  EXPECT_GT(goal, 0.98);
+}
+
 TEST(Modulator, ARestoredStateGoesOnWhereItWas) {
   Bench first;
   first.run(0.7);

@@ -56,8 +56,11 @@ heartbeat = 10
 running = 11
 cutting = 12
 locked = 13
+locked_inverted = true
+locked_hold_ms = 1500
 modulate = 14
 programmed_rpm = 1200
+dropped_after_ms = 12
 watchdog_ms = 15
 watchdog_registers = [4384, 16]
 watchdog_reset = [4385, 48847, 4385, 45054]
@@ -100,6 +103,8 @@ TEST(PortSections, EveryKeyReachesItsField) {
                  .running = 11,
                  .cutting = 12,
                  .locked = 13,
+                 .locked_inverted = true,
+                 .locked_hold_s = 1.5,
                  .modulate = 14,
                  .programmed_rev_s = 20,
                  .watchdog_registers = {4384, 16},
@@ -110,6 +115,8 @@ TEST(PortSections, EveryKeyReachesItsField) {
   expected.cycle_s = read->lines.cycle_s;
   expected.reply_s = read->lines.reply_s;
   expected.watchdog_s = read->lines.watchdog_s;
+  EXPECT_DOUBLE_EQ(read->lines.dropped_after_s, 0.012);
+  expected.dropped_after_s = read->lines.dropped_after_s;
   EXPECT_EQ(read->lines, expected);
   EXPECT_TRUE(read->recorder.fitted);
   EXPECT_EQ(read->recorder.kind, kernel::machine::RecorderKind::serial);
