@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <vector>
 
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
@@ -20,10 +23,9 @@ constexpr std::array<string_view, 3> kRecorders = {"serial", "gpio", "counter"};
 constexpr double kMostLines = 1023;
 constexpr double kLastAddress = 65535;
 
-}  // namespace
-
-std::span<const Key<Lines>> lines_keys() noexcept {
-  static const std::array kKeys = {
+/// How the lines are reached.
+std::vector<Key<Lines>> reach_keys() {
+  return {
       Key<Lines>{
           "kind", choice<Lines, &Lines::kind>(kKinds), 0, 0,
           "How the lines are reached: a Modbus module by network or serial line, Linux GPIO, "
@@ -56,6 +58,12 @@ std::span<const Key<Lines>> lines_keys() noexcept {
       Key<Lines>{"cycle_ms", &Lines::cycle_s, 1, 1000,
                  "The layer reads and writes the lines this often."},
       Key<Lines>{"reply_ms", &Lines::reply_s, 1, 10000, "Longest wait for the module's answer."},
+  };
+}
+
+/// What is on them, and what drops them.
+std::vector<Key<Lines>> signal_keys() {
+  return {
       Key<Lines>{"heartbeat", &Lines::heartbeat, 0, kMostLines,
                  "Output that changes in each cycle of the layer while it acts."},
       Key<Lines>{"running", &Lines::running, 0, kMostLines, "Input: a program runs."},
@@ -91,6 +99,16 @@ std::span<const Key<Lines>> lines_keys() noexcept {
                  "with exception 4; a module that refuses it is not at fault.",
                  Need::optional, For::any, 32},
   };
+}
+
+}  // namespace
+
+std::span<const Key<Lines>> lines_keys() noexcept {
+  static const std::vector<Key<Lines>> kKeys = [] {
+    auto keys = reach_keys();
+    std::ranges::copy(signal_keys(), std::back_inserter(keys));
+    return keys;
+  }();
   return kKeys;
 }
 
