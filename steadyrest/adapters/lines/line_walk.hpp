@@ -27,17 +27,17 @@ struct Walk {
                                                  const std::function<void()>& settle);
 
 /// The words that the operator's switch has shown, in the order of its positions. It may be turned
-/// to and fro: a word that is a neighbour of the present one is that position again. At the end the
-/// switch must stand at its last position.
+/// back and forth, as long as it ends at its last position.
 class PanelWatch {
  public:
   explicit PanelWatch(std::size_t steps) : steps_(steps) {}
 
-  /// One reading. A word counts when two readings one after the other have shown it.
+  /// One reading. A word counts when two readings in a row have shown it.
   void see(std::uint32_t word);
   /// From the first position to the last.
   [[nodiscard]] std::vector<std::uint32_t> words() const;
-  /// As many words as the switch has positions, and it stands at an end of them.
+  /// As many words as the switch has positions have been seen, and the present one is the first or
+  /// the last of them.
   [[nodiscard]] bool complete() const noexcept;
   /// How often a word came that is no neighbour of the one before: turned too fast, or a loose
   /// contact.
@@ -48,7 +48,7 @@ class PanelWatch {
 
   std::size_t steps_;
   std::vector<std::uint32_t> words_;
-  std::size_t at_ = 0;  ///< where in them the switch stands
+  std::size_t at_ = 0;  ///< index of the present word
   int out_of_order_ = 0;
   std::uint32_t last_ = 0;
   bool started_ = false;

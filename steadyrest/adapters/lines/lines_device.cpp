@@ -20,8 +20,8 @@ constexpr int kSilentReadings = 3;
 constexpr int kDifferingReadings = 2;
 constexpr int kMostDisputes = 3;
 constexpr double kDispute_s = 60.0;
-constexpr double kStandstill_s = 1.0;  ///< no program has run for so long
-constexpr double kBeats_s = 1.0;       ///< another layer's heartbeat is heard for so long
+constexpr double kStopped_s = 1.0;  ///< no program has run for so long
+constexpr double kBeats_s = 1.0;    ///< another layer's heartbeat is heard for so long
 /// Of the scan: the cycle's jitter.
 constexpr double kTimeTolerance = 0.1;
 
@@ -181,10 +181,10 @@ bool LinesDevice::in_thread(const Levels& inputs) noexcept {
   if (is_on(inputs, lines_.running)) {
     ran_s_ = now_s;
   }
-  // A broken wire of an inverted input must not hold a machine that stands.
-  const bool stands =
-      lines_.running != kNoLine && now_s - ran_s_ > std::max(lines_.locked_hold_s, kStandstill_s);
-  return !stands && now_s - locked_s_ <= lines_.locked_hold_s;
+  // A broken wire of an inverted input must not hold the overrides once no program runs.
+  const bool stopped =
+      lines_.running != kNoLine && now_s - ran_s_ > std::max(lines_.locked_hold_s, kStopped_s);
+  return !stopped && now_s - locked_s_ <= lines_.locked_hold_s;
 }
 
 Result<void> LinesDevice::read_lines(LineSample& sample) {
@@ -249,7 +249,7 @@ Result<void> LinesDevice::write(const LineOrder& order) {
                                    lines_.heartbeat),
                        "stop the other one");
   }
-  // A write now would put an old word and its mask back in one step; the next reading begins anew.
+  // Writing now would restore an old word and its mask in one step: the next reading starts afresh.
   const bool stood_still = acting_ && sent_ && is_old();
   acting_ = true;
   silent_ = 0;

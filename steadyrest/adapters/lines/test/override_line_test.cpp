@@ -131,7 +131,7 @@ TEST(OverrideLine, TheRelayFallsForTheOperator) {
   scene.put(k60, true);
   ASSERT_TRUE(scene.put(k60, true));
   for (const std::uint32_t code : {sinumerik_code(0), 0U, sinumerik_code(k50)}) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < (code == 0U ? 3 : 1); ++i) {
       scene.panel(code);
     }
     EXPECT_FALSE(scene.put(k60, true)) << code;
