@@ -69,6 +69,21 @@ TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
   EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 0.2 + 24 * 0.05, 1e-9);
 }
 
+// The block climbs a repeated position like any other. From the lowest of three at 50 % these are
+// two, then nine up to the upper of two at 100 %, with two cycles of OB1.
+TEST(ControlText, RepeatedPositionsAreInTheStatedTime) {
+  auto of = by_plc();
+  auto& table = of.feed_override;
+  table.ratio = {0.0, 0.5, 0.5, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0, 1.0, 1.2};
+  table.code.clear();
+  for (std::uint32_t i = 1; i <= table.ratio.size(); ++i) {
+    table.code.push_back(i ^ (i >> 1U));
+  }
+  const std::string text = adapters::opcua::control_texts(of).value()[2].text;
+  ASSERT_NE(text.find("step := wait >= L#250;"), std::string::npos);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.5, 1.0), 0.2 + (2 + 9 + 2) * 0.25, 1e-9);
+}
+
 TEST(ControlText, TheStatedTimeIsThatOfTheSlowerOne) {
   auto of = machine();
   of.envelope.min_spindle_ratio = 0.5;

@@ -130,7 +130,8 @@ void OverrideLine::release(bool step_time, Levels& outputs) noexcept {
     return;
   }
   const auto panel = table_.step_of_code(shown_code_);
-  const bool rises = panel && step_ && table_.ratio(*panel) > table_.ratio(*step_);
+  // Between steps of equal ratio too: a word that jumps there mixes like any other.
+  const bool rises = panel && step_ && table_.ratio(*panel) >= table_.ratio(*step_);
   if (rises) {
     put_code(table_.code(walk(*panel, step_time)), outputs);
   } else {

@@ -268,9 +268,12 @@ class Filler {
 double way_back_s(const Machine& machine, const OverrideTable& table, double rate_1_s,
                   double from_ratio, double panel_ratio) noexcept {
   if (has_plc_block(machine)) {
+    // The block climbs every position, those that repeat a value too.
     const auto positions = std::ranges::count_if(
         table.ratio, [&](double ratio) { return ratio > from_ratio && ratio <= panel_ratio; });
-    return machine.opcua.dead_man_s + static_cast<double>(positions + 2) * position_s(machine);
+    const auto repeated = std::max<std::ptrdiff_t>(std::ranges::count(table.ratio, from_ratio), 1);
+    return machine.opcua.dead_man_s +
+           static_cast<double>(positions + repeated + 1) * position_s(machine);
   }
   return machine.opcua.dead_man_s + std::max(0.0, panel_ratio - from_ratio) / rate_1_s +
          2.0 * machine.control.interpolator_period_s;

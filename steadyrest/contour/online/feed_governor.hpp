@@ -180,7 +180,7 @@ class FeedGovernor {
   Output update(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force,
                 kernel::outcome::Reason unfit = kernel::outcome::Reason::none) noexcept;
 
-  /// Ratios of the table's steps, Forecast::kMaxTable at most.
+  /// The different ratios of the table's steps, Forecast::kMaxTable at most.
   [[nodiscard]] std::span<const double> steps() const noexcept { return table_ratio_; }
   /// A decision would be made from a known path: preview() has something to look at.
   [[nodiscard]] bool previews() const noexcept { return state_.engaged && state_.last.path_known; }

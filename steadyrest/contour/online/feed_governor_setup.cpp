@@ -79,27 +79,43 @@ double jerk_time(Axes axes) noexcept {
   return std::min(time, 0.5);
 }
 
-/// The steps that the search looks at: all of them, or, for a table finer than the forecast's, as
-/// many as that holds, evenly spread and including both ends.
-std::vector<std::size_t> searched_steps(std::size_t steps) {
+/// What a step gives; the control clips the table.
+double ratio_of(const kernel::machine::OverrideTable& table, std::size_t step) noexcept {
+  return std::min(table.ratio[step], table.max_ratio);
+}
+
+constexpr double kRounding = 1e-9;  ///< ratios closer than this are the same
+
+/// The steps that the search looks at: the first of each ratio, or, for a table finer than the
+/// forecast's, as many as that holds, evenly spread and including both ends.
+std::vector<std::size_t> searched_steps(const kernel::machine::OverrideTable& table) {
+  std::vector<std::size_t> distinct;
+  for (std::size_t i = 0; i < table.ratio.size(); ++i) {
+    if (distinct.empty() || ratio_of(table, i) > ratio_of(table, distinct.back()) + kRounding) {
+      distinct.push_back(i);
+    }
+  }
+  const std::size_t steps = distinct.size();
   const std::size_t count = std::min(steps, Forecast::kMaxTable);
   std::vector<std::size_t> index(count);
   for (std::size_t i = 0; i < count; ++i) {
-    index[i] = count == steps ? i : (i * (steps - 1) + (count - 1) / 2) / (count - 1);
+    index[i] = distinct[count == steps ? i : (i * (steps - 1) + (count - 1) / 2) / (count - 1)];
   }
   return index;
 }
 
-/// A word that is not latched walks from neighbour to neighbour, one per scan: the slowest pace of
-/// that among the searched steps.
+/// A word that is not latched walks from neighbour to neighbour, one per scan, over repeated steps
+/// too: the slowest pace of that among the searched steps.
 double walking_1_s(const kernel::machine::OverrideTable& table,
-                   const std::vector<double>& candidate) noexcept {
+                   const std::vector<double>& candidate,
+                   const std::vector<std::size_t>& step) noexcept {
   double slowest = std::numeric_limits<double>::infinity();
   if (table.latched_word || !(table.scan_period_s > 0.0)) {
     return slowest;
   }
   for (std::size_t i = 1; i < candidate.size(); ++i) {
-    slowest = std::min(slowest, (candidate[i] - candidate[i - 1]) / table.scan_period_s);
+    const double walk_s = static_cast<double>(step[i] - step[i - 1]) * table.scan_period_s;
+    slowest = std::min(slowest, (candidate[i] - candidate[i - 1]) / walk_s);
   }
   return slowest;
 }
@@ -223,11 +239,10 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   const double low = std::max(m.contour.min_ratio, m.envelope.min_feed_ratio);
   const double high =
       std::min({m.contour.max_ratio, m.envelope.max_feed_ratio, m.feed_override.max_ratio});
-  for (const std::size_t i : searched_steps(m.feed_override.ratio.size())) {
-    const double ratio = m.feed_override.ratio[i];
+  for (const std::size_t i : searched_steps(m.feed_override)) {
+    const double ratio = ratio_of(m.feed_override, i);
     table_ratio_.push_back(ratio);
-    const bool is_new = candidate_.empty() || ratio > candidate_.back() + kSameRatio;
-    if (ratio > 0.0 && is_new && ratio >= low - kSameRatio && ratio <= high + kSameRatio) {
+    if (ratio > 0.0 && ratio >= low - kSameRatio && ratio <= high + kSameRatio) {
       candidate_.push_back(ratio);
       table_step_.push_back(i);
     }
@@ -256,7 +271,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   timing.dead_s =
       m.feed_override.dead_time_s + m.control.interpolator_period_s + 0.5 * jerk_time(m.axes);
   timing.scan_s = m.feed_override.scan_period_s + m.cycle_s;
-  const double walk_1_s = walking_1_s(m.feed_override, candidate_);
+  const double walk_1_s = walking_1_s(m.feed_override, candidate_, table_step_);
   timing.fall_1_s = std::min(m.envelope.feed_fall_1_s, walk_1_s);
   timing.rise_1_s = std::min(m.envelope.feed_rise_1_s, walk_1_s);
   timing.settle_s = kSettle / softest(m.axes) + kSettleLag * longest_lag(m.axes);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include <steadyrest/kernel/override/arbiter.hpp>
@@ -49,8 +50,10 @@ void Handover::follow_panel(const RatioEnvelope::Output& wanted, bool is_first) 
   }
 }
 
+/// Of equal steps the nearest: a walk among them would change nothing but delay what comes next.
 void Handover::write_word(const RatioEnvelope::Output& wanted) noexcept {
-  stepper_.update(table_.floor_step(wanted.ratio).value_or(0));
+  const auto run = table_.equal_steps(table_.floor_step(wanted.ratio).value_or(0));
+  stepper_.update(std::clamp(stepper_.state().step, run.first, run.last));
 }
 
 // One action per cycle: drop the mask, move the word, or follow the panel. During a hold only the
@@ -68,13 +71,15 @@ Handover::Output Handover::update(double step_s, const RatioEnvelope::Output& wa
     follow_panel(wanted, is_first);
   }
   const std::size_t step = stepper_.state().step;
+  const auto [first, last] = table_.equal_steps(step);
   return {.ratio = masked_ ? word_ratio() : wanted.panel_ratio,
-          .code = table_.code(stepper_.state().step),
+          .code = table_.code(step),
           .masks_panel = masked_,
           .settled = stepper_.settled(),
-          // How far the next step can take the word; the envelope stays within that.
-          .reach_low = step > 0 ? table_.ratio(step - 1) : 0.0,
-          .reach_high = step + 1 < table_.steps() ? table_.ratio(step + 1) : kMaxRequestRatio};
+          // How far the next change can take the word; the envelope stays within that. A neighbour
+          // of the same ratio is no change: bounded by it, the envelope could never leave the step.
+          .reach_low = first > 0 ? table_.ratio(first - 1) : 0.0,
+          .reach_high = last + 1 < table_.steps() ? table_.ratio(last + 1) : kMaxRequestRatio};
 }
 
 // A mask without a written word would point at whatever is on the wires.

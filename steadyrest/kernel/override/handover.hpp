@@ -39,8 +39,9 @@ class Handover {
     double ratio = 1.0;      ///< in force: the word's when masked, else the panel's
     std::uint32_t code = 0;  ///< the word to write
     bool masks_panel = false;
-    bool settled = false;    ///< word and mask have been unchanged for a scan
-    double reach_low = 0.0;  ///< ratios of the word's neighbours: the envelope stays between them
+    bool settled = false;  ///< word and mask have been unchanged for a scan
+    /// The next different ratios below and above the word's: the envelope stays between them.
+    double reach_low = 0.0;
     double reach_high = 0.0;
   };
 

@@ -105,9 +105,13 @@ outcome::Result<Table> Table::make(const Config& config) {
     }
   }
   Table table;
+  double before = -1.0;
   for (double& ratio : filled.ratio) {
     // Nobody can ask for what the control clips.
     ratio = std::min(ratio, filled.max_ratio);
+    // The same within rounding is the same to the last bit: queries compare exactly.
+    ratio = ratio - before <= kRatioTolerance ? before : ratio;
+    before = ratio;
   }
   for (std::size_t i = 0; i < filled.code.size(); ++i) {
     table.by_code_.push_back({.code = filled.code[i], .step = static_cast<std::uint32_t>(i)});
@@ -181,6 +185,12 @@ std::optional<std::size_t> Table::nearest_step(double ratio) const noexcept {
   }
   // A tie goes to the lower step: the safe side for a feed.
   return ratio - ratio_[*below] <= ratio_[*above] - ratio ? below : above;
+}
+
+Table::Run Table::equal_steps(std::size_t step) const noexcept {
+  const auto run = std::ranges::equal_range(ratio_, ratio(step));
+  return {.first = static_cast<std::size_t>(run.begin() - ratio_.begin()),
+          .last = static_cast<std::size_t>(run.end() - ratio_.begin()) - 1};
 }
 
 }  // namespace steadyrest::kernel::override

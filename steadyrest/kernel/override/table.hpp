@@ -20,7 +20,8 @@ inline constexpr double kRatioTolerance = 1e-9;
 /// Machine data, never a constant: on one 840D the code 11010 means 100 %, on another 70 %. A code
 /// that is not in the table is unknown; it is never rounded to a neighbour. Ratios are the
 /// effective ones: the control clips them at `max_ratio`. Steps of equal ratio are allowed (unused
-/// positions repeat the last value); a search by ratio gives the lowest of them.
+/// positions repeat the last value) and count as one: a search by ratio gives the lowest of them,
+/// and the way up or down from any of them leads to the next different ratio.
 /// All queries are noexcept, allocate nothing and take O(log steps).
 class Table {
  public:
@@ -49,6 +50,14 @@ class Table {
   [[nodiscard]] std::optional<std::size_t> ceil_step(double ratio) const noexcept;
   /// The step whose ratio is nearest, the lower one of two equally near; empty for NaN.
   [[nodiscard]] std::optional<std::size_t> nearest_step(double ratio) const noexcept;
+
+  /// Steps of equal ratio, as a closed range.
+  struct Run {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  /// All steps with the ratio of this one.
+  [[nodiscard]] Run equal_steps(std::size_t step) const noexcept;
 
   [[nodiscard]] double min_ratio() const noexcept { return ratio_.front(); }
   [[nodiscard]] double max_ratio() const noexcept { return ratio_.back(); }

@@ -270,5 +270,28 @@ TEST(OverrideLine, BinaryOnSeparateWiresIsRefused) {
   EXPECT_NE(made.error().to_do.find("Gray"), std::string::npos);
 }
 
+// Five positions at 50 %: the word goes from the first to the panel's last bit by bit, although the
+// ratio is the same. At once it would pass words that mean something else.
+TEST(OverrideLine, BetweenEqualStepsItWalksToo) {
+  auto table = table_840d();
+  for (std::size_t i = 7; i < 12; ++i) {
+    table.ratio[i] = 0.2;
+  }
+  Scene scene(Wiring::through);
+  scene.line = OverrideLine::make(
+                   {.wires = scene.line.config().wires, .table = table, .wiring = Wiring::through})
+                   .value();
+  scene.panel(sinumerik_code(11));
+  put_word(sinumerik_code(7), scene.line.config().wires.out, false, scene.outputs);
+  scene.line.adopt(scene.outputs);
+  std::uint32_t before = scene.out();
+  for (int i = 0; i < 10; ++i) {
+    scene.line.release(true, scene.outputs);
+    EXPECT_LE(std::popcount(before ^ scene.out()), 1) << i;
+    before = scene.out();
+  }
+  EXPECT_EQ(before, sinumerik_code(11));
+}
+
 }  // namespace
 }  // namespace steadyrest::adapters::lines

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <rapidcheck.h>
@@ -34,14 +35,58 @@ inline double random_wish() {
   return *rc::gen::inRange(0, 1500) / 1000.0;
 }
 
-// Published tables in Gray code, walked or latched; a binary percent word only latched, since
-// make() refuses it otherwise.
+// As machine builders fill a switch: positions that repeat a value anywhere, one position alone,
+// all 256 positions of a byte. A binary switch may have its codes in any order.
+inline machine::OverrideTable varied(machine::OverrideTable table) {
+  const auto published = table.ratio;
+  switch (*rc::gen::inRange(0, 6)) {
+    case 0:
+      table.ratio = {*rc::gen::elementOf(published)};
+      break;
+    case 1: {
+      const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 24));
+      const auto some =
+          *rc::gen::container<std::vector<double>>(count, rc::gen::elementOf(published));
+      table.ratio.clear();
+      for (std::size_t i = 0; i < 256; ++i) {
+        table.ratio.push_back(some[i % some.size()]);
+      }
+      std::ranges::sort(table.ratio);
+      break;
+    }
+    case 2:
+    case 3:
+      table.ratio.clear();
+      for (const double ratio : published) {
+        table.ratio.insert(table.ratio.end(), static_cast<std::size_t>(*rc::gen::inRange(1, 4)),
+                           ratio);
+      }
+      break;
+    case 4:
+      table.max_ratio = *rc::gen::element(0.5, 0.9, 1.0);
+      break;
+    default:
+      break;
+  }
+  if (table.coding == machine::Coding::binary) {
+    table.code.clear();
+    const auto odd = static_cast<std::uint32_t>(2 * *rc::gen::inRange(0, 512) + 1);
+    for (std::uint32_t i = 0; i < table.ratio.size(); ++i) {
+      table.code.push_back(i * odd % 1024U);
+    }
+  }
+  return table;
+}
+
+// Published tables and variants of them, in Gray code, walked or latched; a binary word only
+// latched, since make() refuses it otherwise.
 inline Channel::Config random_config(bool may_exceed) {
   Channel::Config config;
   const bool binary = *rc::gen::inRange(0, 4) == 0;
   config.table = binary
                      ? test::percent_word()
                      : *rc::gen::element(test::feed_840d(), test::spindle_840d(), test::feed_dmg());
+  config.table = varied(std::move(config.table));
   config.table.layer_may_exceed_panel = may_exceed;
   config.latched = binary || *rc::gen::arbitrary<bool>();
   config.min_ratio = *rc::gen::inRange(0, 60) / 100.0;
@@ -136,13 +181,15 @@ inline double widest_step(const Table& table) {
   return widest;
 }
 
-/// Repeats the last input until the slowest way ends: the whole range at 1 1/s, 31 steps of a scan
+/// Repeats the last input until the slowest way ends: the whole range at 1 1/s, all steps of a scan
 /// each, a scan for the mask.
 inline void settle(Scene& scene, RatioEnvelope::Input input) {
+  const double walk_s =
+      static_cast<double>(scene.config.table.ratio.size()) * scene.config.table.scan_period_s;
   input.hold = false;
   input.panel.panel_code_known = true;
   input.step_s = 0.002;
-  for (double waited_s = 0.0; waited_s < 3.0; waited_s += 0.002) {
+  for (double waited_s = 0.0; waited_s < 2.7 + walk_s; waited_s += 0.002) {
     scene.inputs.push_back(input);
   }
 }

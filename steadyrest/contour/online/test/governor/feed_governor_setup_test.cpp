@@ -47,6 +47,24 @@ TEST(FeedGovernorSteps, EndAtTheStrictestOfTheUpperLimits) {
   EXPECT_EQ(highest(1.2, 1.2, 0.95), 0.95);
 }
 
+// Positions that repeat a value are one step, for the search and for whoever looks at the steps.
+TEST(FeedGovernorSteps, AreTheTablesDifferentRatios) {
+  Machine machine = test::mill();
+  const auto plain = FeedGovernor::make(machine).value();
+  std::vector<double> repeated;
+  for (const double ratio : machine.feed_override.ratio) {
+    repeated.insert(repeated.end(), repeated.size() % 3 + 1, ratio);
+  }
+  machine.feed_override.ratio = repeated;
+  machine.feed_override.code.clear();
+  const auto many = FeedGovernor::make(machine).value();
+  EXPECT_TRUE(std::ranges::equal(plain.steps(), many.steps()));
+  for (const double radius_mm : {1.0, 5.0, 500.0}) {
+    Machine once = test::mill();
+    EXPECT_EQ(settled(machine, radius_mm).request.ratio, settled(once, radius_mm).request.ratio);
+  }
+}
+
 // On 1 mm even a tenth of 1000 mm/min errs by more than 0.1 µm: the floor is in force, the stricter
 // of the two lower limits.
 TEST(FeedGovernorSteps, BeginAtTheStricterOfTheLowerLimits) {
