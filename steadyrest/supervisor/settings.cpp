@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 
 #include <steadyrest/supervisor/settings.hpp>
 
@@ -54,9 +55,15 @@ kernel::signal::AxisValues limits(const machine::Machine& machine, double max_mm
 
 }  // namespace
 
+// No faster than an offset against the contour error can give way, also one that a reload is taking
+// out: together they keep its limit.
 OffsetEnvelope::Config offset_config(const machine::Machine& machine, bool available) {
-  return {.max_mm = limits(machine, machine.envelope.max_offset_mm, available),
-          .slew_mm_s = machine.envelope.offset_slew_mm_s,
+  const auto& envelope = machine.envelope;
+  const double slower_mm_s = std::min(envelope.offset_slew_mm_s, envelope.path_offset_slew_mm_s);
+  return {.max_mm = limits(machine, envelope.max_offset_mm, available),
+          // A slew that is none must reach make(), which refuses it.
+          .slew_mm_s =
+              std::isfinite(envelope.offset_slew_mm_s) ? slower_mm_s : envelope.offset_slew_mm_s,
           .max_step_s = machine.envelope.stale_after_s};
 }
 
@@ -66,6 +73,21 @@ OffsetEnvelope::Config path_offset_config(const machine::Machine& machine, bool 
           .slew_mm_s = machine.envelope.path_offset_slew_mm_s,
           .fade_mm_s = std::max(max_mm, 1e-3) / kFade_s,
           .max_step_s = machine.envelope.stale_after_s};
+}
+
+double longest_hand_back_s(const machine::Machine& machine) noexcept {
+  // The port may walk a word that the table calls latched, so the walk always counts.
+  const auto way_s = [](const machine::OverrideTable& table, double rise_1_s) {
+    const double top = table.ratio.empty() ? 0.0 : std::min(table.ratio.back(), table.max_ratio);
+    return std::max(top, 1.0) / rise_1_s +
+           static_cast<double>(table.ratio.size() + 2) * table.scan_period_s;
+  };
+  const auto& envelope = machine.envelope;
+  constexpr double kRest_s = 1.0;
+  const double offset_s =
+      kRest_s + kFade_s + envelope.max_offset_mm / offset_config(machine, true).slew_mm_s;
+  return std::max({way_s(machine.feed_override, envelope.feed_rise_1_s),
+                   way_s(machine.spindle_override, envelope.spindle_slew_1_s), offset_s});
 }
 
 }  // namespace steadyrest::supervisor

@@ -20,4 +20,9 @@ namespace steadyrest::supervisor {
 [[nodiscard]] kernel::override::OffsetEnvelope::Config path_offset_config(
     const kernel::machine::Machine& machine, bool available);
 
+/// How long it may take until nothing of the layer is left on a machine that stands, s: the longest
+/// way by the slews, a walk over every step of a word that is not latched, the second until a
+/// machine at rest counts as out of the cut.
+[[nodiscard]] double longest_hand_back_s(const kernel::machine::Machine& machine) noexcept;
+
 }  // namespace steadyrest::supervisor

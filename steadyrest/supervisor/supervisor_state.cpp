@@ -114,8 +114,8 @@ Supervisor::Written Supervisor::written() const noexcept {
 // operator did turn it), when restored they do not. The offsets are what the machine has, beyond a
 // limit that a new machine file has lowered too: they return from there by the slew.
 void Supervisor::put_back(const Written& written) noexcept {
-  offset_.take_over(written.offset);
-  path_offset_.take_over(written.path_offset);
+  offset_.restore(written.offset);
+  path_offset_.restore(written.path_offset);
   state_.delivered_s = written.delivered_s;
   state_.delivered_stamped_s = written.delivered_stamped_s;
   state_.silent_s = written.silent_s;
@@ -183,10 +183,15 @@ void Supervisor::restore(const State& state) noexcept {
             .delivered_s = state.delivered_s,
             .delivered_stamped_s = state.delivered_stamped_s,
             .silent_s = state_.silent_s});
-  // From a file, so within its limits, whatever it says.
-  offset_.restore(state.offset);
-  path_offset_.restore(state.path_offset);
   state_.silence_began_s = clock_.time_s() - state_.silent_s;
+  // Offsets that cannot have been in force: what the machine has is unknown until its watchdog has
+  // dropped it for certain.
+  const bool heat_known = offset_.restore(state.offset);
+  const bool path_known = path_offset_.restore(state.path_offset);
+  if (!heat_known || !path_known) {
+    state_.silence_began_s = clock_.time_s();
+    state_.silent_s = std::numeric_limits<double>::infinity();
+  }
   motion_.reset();
   if (contour_) {
     contour_->reset();
@@ -220,8 +225,8 @@ void Supervisor::take_over(Supervisor& before, const Kept& kept) noexcept {
   if (spindle_ && before.spindle_) {
     spindle_->restore(before.spindle_->state());
   }
-  offset_.take_over(before.offset_.state());
-  path_offset_.take_over(before.path_offset_.state());
+  offset_.restore(before.offset_.state());
+  path_offset_.restore(before.path_offset_.state());
   if (kept.motion) {
     std::swap(motion_, before.motion_);
   }

@@ -181,22 +181,26 @@ outcome::Result<OffsetEnvelope> OffsetEnvelope::make(const Config& config) {
   return OffsetEnvelope(config);
 }
 
-// Each axis moves at the slower of the room's slope and the envelope's slew. A target not yet
-// reached counts as slew-limited only where the envelope limits: a room that chose to go slowly is
-// not held up.
+// What is beyond the allowed goes there first, by the slew: nobody may hold it. What the slew then
+// leaves of this cycle each axis moves at the room's slope. A target not yet reached counts as
+// slew-limited only where the envelope limits: a room that chose to go slowly is not held up.
 bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
-                              const signal::AxisValues& slope_mm_s, double step_s) noexcept {
+                              const signal::AxisValues& slope_mm_s,
+                              const signal::AxisValues& beside_mm, double step_s) noexcept {
+  const double most_mm = config_.slew_mm_s * step_s;
   bool reached = true;
   for (std::size_t axis = 0; axis < target_mm.size(); ++axis) {
-    const double limit_mm = config_.max_mm[axis];
     double& offset_mm = state_.offset_mm[axis];
-    const bool beyond = std::abs(offset_mm) > limit_mm;  // after take_over(): nobody may hold it
+    const double before_mm = offset_mm;
+    offset_mm = toward(offset_mm, within(axis, offset_mm, beside_mm[axis]), most_mm, most_mm);
+    const double returned_mm = std::abs(offset_mm - before_mm);
     // A slope that is NaN or negative moves nothing.
     const double slope = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
-    const double asked = beyond ? config_.slew_mm_s : slope;
-    const double step_mm = std::min(asked, config_.slew_mm_s) * step_s;
+    const double step_mm = std::min(std::min(slope, config_.slew_mm_s) * step_s,
+                                    std::max(0.0, most_mm - returned_mm));
     offset_mm = toward(offset_mm, target_mm[axis], step_mm, step_mm);
-    reached = reached && (offset_mm == target_mm[axis] || (!beyond && asked <= config_.slew_mm_s));
+    reached = reached &&
+              (offset_mm == target_mm[axis] || (returned_mm == 0.0 && slope <= config_.slew_mm_s));
   }
   return reached;
 }
@@ -209,13 +213,15 @@ double OffsetEnvelope::within(std::size_t axis, double offset_mm, double beside_
                     std::min(limit_mm, limit_mm - beside));
 }
 
-// The limits may have been lowered since the state was written.
-void OffsetEnvelope::restore(const State& state) noexcept {
-  state_ = all_finite(state.offset_mm) ? state : State{};
-  for (std::size_t axis = 0; axis < state_.offset_mm.size(); ++axis) {
-    state_.offset_mm[axis] =
-        std::clamp(state_.offset_mm[axis], -config_.max_mm[axis], config_.max_mm[axis]);
+// The limits may have been lowered since the state was written: cutting to them would jump.
+bool OffsetEnvelope::restore(const State& state) noexcept {
+  bool fit = true;
+  for (std::size_t axis = 0; axis < state.offset_mm.size(); ++axis) {
+    const double most_mm = std::max(kMostOffset_mm, config_.max_mm[axis]);
+    fit = fit && std::abs(state.offset_mm[axis]) <= most_mm;  // false for NaN
   }
+  state_ = fit ? state : State{};
+  return fit;
 }
 
 OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
@@ -235,7 +241,7 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
       target_mm[axis] = within(axis, request.offset_mm[axis], input.beside_mm[axis]);
     }
     output.reason = target_mm == request.offset_mm ? request.reason : Reason::clamped;
-    if (!approach(target_mm, request.slope_mm_s, step_s)) {
+    if (!approach(target_mm, request.slope_mm_s, input.beside_mm, step_s)) {
       output.reason = Reason::slew_limited;
     }
   } else {
@@ -243,15 +249,11 @@ OffsetEnvelope::Output OffsetEnvelope::update(const Input& input) noexcept {
     if (config_.fade_mm_s > 0.0) {
       signal::AxisValues fade{};
       fade.fill(config_.fade_mm_s);
-      approach({}, fade, step_s);
+      approach({}, fade, input.beside_mm, step_s);
     } else if (!input.tool_in_cut && !request.tool_in_cut) {
-      approach({}, signal::any_slope(), step_s);
+      approach({}, signal::any_slope(), input.beside_mm, step_s);
     } else {
-      signal::AxisValues frozen_mm{};
-      for (std::size_t axis = 0; axis < frozen_mm.size(); ++axis) {
-        frozen_mm[axis] = within(axis, state_.offset_mm[axis], 0.0);
-      }
-      approach(frozen_mm, {}, step_s);
+      approach({}, {}, input.beside_mm, step_s);
     }
   }
   output.offset_mm = state_.offset_mm;

@@ -98,6 +98,9 @@ class RatioEnvelope {
   State state_;
 };
 
+/// The largest offset limit of a machine file.
+inline constexpr double kMostOffset_mm = 10.0;
+
 /// Envelope of the axis offsets.
 ///
 /// Law, for each axis: under a wish the offset moves to clamp(wish, ±max) by at most min(slew, the
@@ -108,7 +111,9 @@ class RatioEnvelope {
 /// cancels the contour error turns with the direction of travel, so a frozen one would soon double
 /// the error, while without it the part has the error it would have had anyway.
 /// `beside_mm`, the offsets that others hold on the same axes, comes first: the sum stays within
-/// ±max.
+/// ±max, as long as they move no faster than `slew_mm_s`.
+/// An offset beyond what is allowed (the limit was lowered, or what is beside it grew) returns to
+/// the allowed by the slew, whatever slope is asked for, frozen or not.
 class OffsetEnvelope {
  public:
   struct Config {
@@ -142,17 +147,15 @@ class OffsetEnvelope {
 
   void reset() noexcept { state_ = {}; }
   [[nodiscard]] const State& state() const noexcept { return state_; }
-  /// Offsets that are not finite are rejected; those beyond the limit are cut to it.
-  void restore(const State& state) noexcept;
-  /// From an envelope with other limits that was in force until now: an offset beyond the new limit
-  /// stays where it is and returns to the limit by the slew, frozen or not.
-  void take_over(const State& state) noexcept { state_ = state; }
+  /// Of an envelope that was in force until now, perhaps with wider limits: nothing jumps. False,
+  /// and at 0, for offsets that no limit allows: not finite, or beyond kMostOffset_mm and its own.
+  bool restore(const State& state) noexcept;
 
  private:
   explicit OffsetEnvelope(const Config& config) noexcept : config_(config) {}
   /// False when the slew, not the slope that was asked for, kept an axis from its target.
   bool approach(const signal::AxisValues& target_mm, const signal::AxisValues& slope_mm_s,
-                double step_s) noexcept;
+                const signal::AxisValues& beside_mm, double step_s) noexcept;
   [[nodiscard]] double within(std::size_t axis, double offset_mm, double beside_mm) const noexcept;
 
   Config config_;

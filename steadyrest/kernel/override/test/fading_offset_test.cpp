@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -87,6 +88,38 @@ RC_GTEST_PROP(FadingOffset, GivesWayToTheOffsetBesideIt, ()) {
     const double asked = input.request.offset_mm[0];
     const bool fits = std::abs(asked) <= 0.4 && std::abs(asked + input.beside_mm[0]) <= 0.4;
     RC_ASSERT(!fits || std::abs(offset - asked) < 1e-12);
+  }
+}
+
+// In every cycle, not only in the end: whatever slope the room asks for, whether it asks at all,
+// and however slowly it fades. The other offset moves by at most the same slew.
+RC_GTEST_PROP(FadingOffset, KeepsTheSumInsideItsLimitInEveryCycle, ()) {
+  const double limit_mm = 1e-3 * *rc::gen::inRange(1, 600);
+  const double slew_mm_s = *rc::gen::element(0.01, 0.5, 5.0, 50.0);
+  OffsetEnvelope::Config config{.slew_mm_s = slew_mm_s,
+                                .fade_mm_s = *rc::gen::element(0.0, 0.001, 2.0)};
+  config.max_mm[0] = limit_mm;
+  auto envelope = OffsetEnvelope::make(config).value();
+  double beside_mm = 0.0;
+  double before_mm = 0.0;
+  for (int change = 0; change < 30; ++change) {
+    auto input = wish(1e-3 * *rc::gen::inRange(-900, 900));
+    input.request.slope_mm_s[0] = *rc::gen::element(0.0, 0.001, 1.0, 100.0, units::kNan);
+    input.request.reason = *rc::gen::element(Reason::contour_cancelled, Reason::none);
+    input.unfit = *rc::gen::element(Reason::none, Reason::none, Reason::input_stale);
+    input.tool_in_cut = *rc::gen::arbitrary<bool>();
+    input.step_s = *rc::gen::element(0.001, 0.004, 0.02);
+    const double towards_mm = 1e-3 * *rc::gen::inRange(-700, 700);
+    for (int i = 0; i < 20; ++i) {
+      const double most_mm = slew_mm_s * input.step_s;
+      beside_mm = std::clamp(towards_mm, beside_mm - most_mm, beside_mm + most_mm);
+      input.beside_mm[0] = beside_mm;
+      const double now_mm = envelope.update(input).offset_mm[0];
+      RC_ASSERT(std::abs(now_mm) <= limit_mm + 1e-12);
+      RC_ASSERT(std::abs(now_mm + beside_mm) <= std::max(limit_mm, std::abs(beside_mm)) + 1e-12);
+      RC_ASSERT(std::abs(now_mm - before_mm) <= most_mm + 1e-12);
+      before_mm = now_mm;
+    }
   }
 }
 

@@ -124,19 +124,40 @@ TEST(OffsetEnvelope, FreezesInTheCutThenRampsOut) {
   spoilt([](auto& input) { input.request.reason = Reason::none; }, Reason::none);
 }
 
-// 5 mm were never allowed; the axis that takes no offset must come back to 0.
-TEST(OffsetEnvelope, ARestoredOffsetIsCutToTheLimitAndNoNumberIsNotTaken) {
-  auto envelope = OffsetEnvelope::make(OffsetBench::config());
-  ASSERT_TRUE(envelope);
-  OffsetEnvelope::State state;
-  state.offset_mm[0] = 5.0;
-  state.offset_mm[1] = 0.1;
-  envelope->restore(state);
-  EXPECT_EQ(envelope->update({}).offset_mm[0], 0.2);
-  EXPECT_EQ(envelope->update({}).offset_mm[1], 0.0) << "this axis takes none";
-  state.offset_mm[2] = kNan;
-  envelope->restore(state);
-  EXPECT_TRUE(envelope->update({}).at_zero);
+// 0.05 mm/s: 0.2 mm from 0.3 takes 2 s, and the axis that takes no offset is at 0 after 2 s as
+// well; in the cut, frozen, under a wish that holds, none of them jumps.
+TEST(OffsetEnvelope, ARestoredOffsetBeyondTheLimitReturnsByTheSlew) {
+  for (const bool wished : {false, true}) {
+    auto envelope = OffsetEnvelope::make(OffsetBench::config()).value();
+    OffsetEnvelope::State state;
+    state.offset_mm[0] = 0.3;
+    state.offset_mm[1] = -0.1;
+    ASSERT_TRUE(envelope.restore(state));
+    OffsetEnvelope::Input input{.step_s = kCycle_s, .tool_in_cut = true};
+    input.request.reason = wished ? Reason::contour_limit : Reason::none;
+    input.request.offset_mm = state.offset_mm;
+    input.request.slope_mm_s.fill(0.0);
+    for (int i = 1; i <= 2000; ++i) {
+      const auto offset_mm = envelope.update(input).offset_mm;
+      ASSERT_NEAR(offset_mm[0], 0.3 - 0.05 * kCycle_s * i, 1e-9);
+      ASSERT_NEAR(offset_mm[1], -0.1 + 0.05 * kCycle_s * i, 1e-9);
+    }
+    envelope.update(input);
+    EXPECT_EQ(envelope.update(input).offset_mm[0], 0.2);
+    EXPECT_EQ(envelope.update(input).offset_mm[1], 0.0);
+  }
+}
+
+// No machine file allows more than 10 mm: a state that says so is no state.
+TEST(OffsetEnvelope, AnImpossibleStateIsRefused) {
+  for (const double impossible_mm : {kNan, kInfinity, -kInfinity, 10.1, -1e300}) {
+    auto envelope = OffsetEnvelope::make(OffsetBench::config()).value();
+    OffsetEnvelope::State state;
+    state.offset_mm[0] = 0.1;
+    state.offset_mm[2] = impossible_mm;
+    EXPECT_FALSE(envelope.restore(state)) << impossible_mm;
+    EXPECT_TRUE(envelope.update({}).at_zero);
+  }
 }
 
 TEST(OffsetEnvelope, RefusesLimitsThatAreNone) {

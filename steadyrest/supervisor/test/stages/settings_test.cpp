@@ -65,6 +65,25 @@ TEST(Settings, ThePortSaysWhichOverrideItCanWriteAndHow) {
   }
 }
 
+// 0.18 mm at 0.019 mm/s are 9.5 s; 256 positions of 50 ms 12.9 s, after 1.2 / 1.4 s of slew; a
+// spindle of 0.01 1/s takes two minutes.
+TEST(Settings, TheLongestHandBackIsTheLongestOfAllWays) {
+  auto wired = unlike();
+  EXPECT_NEAR(longest_hand_back_s(wired), 1.0 + 0.2 + 0.18 / 0.019, 1e-9);
+  wired.feed_override.ratio.assign(256, 1.2);
+  wired.feed_override.scan_period_s = 0.05;
+  EXPECT_NEAR(longest_hand_back_s(wired), 1.2 / 1.4 + 258 * 0.05, 1e-9);
+  wired.envelope.spindle_slew_1_s = 0.01;
+  EXPECT_NEAR(longest_hand_back_s(wired), 1.2 / 0.01 + 17 * 0.01, 1e-9);
+}
+
+// Together they keep the limit of the path's offset, so heat moves no faster than that gives way.
+TEST(Settings, HeatMovesNoFasterThanThePathsOffset) {
+  auto slow = unlike();
+  slow.envelope.path_offset_slew_mm_s = 0.007;
+  EXPECT_EQ(offset_config(slow, true).slew_mm_s, 0.007);
+}
+
 TEST(Settings, OffsetsGoToLinearAxesAlone) {
   const auto config = offset_config(unlike(), true);
   EXPECT_EQ(config.slew_mm_s, 0.019);
