@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <bench/hostile/hostile_port.hpp>
@@ -31,6 +32,16 @@ HostilePort::HostilePort(const kernel::machine::Machine& machine,
     const double middle = axis.rotary ? 0.0 : 0.5 * (axis.min_au + axis.max_au);
     frame.axis[i].command_mm = frame.axis[i].actual_mm = middle;
   }
+  const auto nearest_to_1 = [](const kernel::machine::OverrideTable& table) {
+    double nearest = table.ratio.empty() ? 1.0 : std::min(table.ratio.front(), table.max_ratio);
+    for (const double ratio : table.ratio) {
+      const double here = std::min(ratio, table.max_ratio);
+      nearest = std::abs(here - 1.0) < std::abs(nearest - 1.0) ? here : nearest;
+    }
+    return nearest;
+  };
+  feed_panel_ = shown_feed = nearest_to_1(machine.feed_override);
+  spindle_panel_ = shown_spindle = nearest_to_1(machine.spindle_override);
   // The control's clock need not start at 0, and it may start below.
   real_s_ = dice.of({0.0, 1.0, 1000.0, 1e6, -50.0});
 }
@@ -108,7 +119,8 @@ void HostilePort::turn(signal::OverrideState& state, double& truth,
         truth = 0.0;
         break;
       case 1:
-        truth = dice_.within(table.ratio.front(), std::min(table.ratio.back(), table.max_ratio));
+        truth = dice_.within(std::min(table.ratio.front(), table.max_ratio),
+                             std::min(table.ratio.back(), table.max_ratio));
         break;
       default:
         truth = std::min(table.ratio[dice_.below(table.ratio.size())], table.max_ratio);

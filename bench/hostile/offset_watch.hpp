@@ -30,6 +30,9 @@ class OffsetWatch {
       credit_s = std::min(credit_s + real_s, real_s + rules_.slack_s);
     }
   }
+  /// Another machine file is in force.
+  void limit(const kernel::signal::AxisValues& max_mm) noexcept { rules_.max_mm = max_mm; }
+  [[nodiscard]] double limit_mm(std::size_t axis) const noexcept { return rules_.max_mm[axis]; }
   /// The watchdog drops them.
   void drop() noexcept { held_mm_ = {}; }
 
@@ -40,13 +43,15 @@ class OffsetWatch {
       const double now_mm = offset_mm[axis];
       const double before_mm = held_mm_[axis];
       const double moved_mm = std::abs(now_mm - before_mm);
-      if (!(std::abs(now_mm) <= rules_.max_mm[axis])) {
+      // Beyond a limit that was lowered it goes back, and no further out.
+      const bool beyond = std::abs(before_mm) > rules_.max_mm[axis];
+      if (!(std::abs(now_mm) <= std::max(rules_.max_mm[axis], std::abs(before_mm)))) {
         return fmt::format("clamp: axis {} at {:g} mm", axis, now_mm);
       }
       if (moved_mm > rules_.slew_mm_s * credit_s_[axis] + 1e-9) {
         return fmt::format("offset slew: axis {} from {:g} to {:g} mm", axis, before_mm, now_mm);
       }
-      if (!wished && moved_mm > 0.0 && in_cut && !rules_.fades) {
+      if (!wished && moved_mm > 0.0 && in_cut && !rules_.fades && !beyond) {
         return fmt::format("freeze: axis {} from {:g} to {:g} mm in the cut", axis, before_mm,
                            now_mm);
       }

@@ -21,7 +21,7 @@ OverrideWatch::OverrideWatch(Rules rules) : rules_(std::move(rules)) {
     }
     by_code_[code] = std::min(table.ratio[i], table.max_ratio);
     if (i > 0) {
-      widest_ = std::max(widest_, table.ratio[i] - table.ratio[i - 1]);
+      widest_ = std::max(widest_, by_code_[code] - std::min(table.ratio[i - 1], table.max_ratio));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <bench/hostile/scene.hpp>
+#include <bench/hostile/variant.hpp>
 #include <fmt/format.h>
 
 #include <steadyrest/kernel/units/constants.hpp>
@@ -25,29 +26,6 @@ constexpr double kShortIdle_s = 0.5;
 
 bool thread(Motion motion) {
   return motion == Motion::thread || motion == Motion::tap;
-}
-
-/// Another machine of the same kind: other wires, rights and rates; wishes come without a room.
-void vary(machine::Machine& m, Dice& dice) {
-  for (auto* table : {&m.feed_override, &m.spindle_override}) {
-    table->layer_may_exceed_panel = dice.one_in(4);
-    if (table->coding == machine::Coding::gray) {
-      table->latched_word = dice.one_in(2);
-    }
-    if (dice.one_in(3)) {
-      table->scan_period_s = dice.of({0.0, 0.002, 0.01, 0.05});
-    }
-  }
-  if (dice.one_in(2)) {
-    m.envelope.feed_fall_1_s = dice.of({0.5, 2.0, 10.0, 100.0});
-    m.envelope.feed_rise_1_s = dice.of({0.2, 1.0, 5.0, 50.0});
-    m.envelope.spindle_slew_1_s = dice.of({0.5, 2.0, 10.0});
-    m.envelope.offset_slew_mm_s = dice.of({0.01, 0.05, 1.0});
-  }
-  m.envelope.max_path_offset_mm = dice.of({0.0, 0.1, 0.5});
-  m.envelope.path_offset_slew_mm_s = dice.of({1.0, 50.0});
-  m.mode = dice.of({Mode::observe, Mode::advise, Mode::act, Mode::act});
-  m.contour.enabled = false;
 }
 
 OverrideWatch::Rules rules(const machine::OverrideTable& table, bool latched, bool available,
@@ -75,10 +53,16 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
   auto made = supervisor::Supervisor::make(machine_, can_);
   if (!made) {  // a table that cannot be walked needs a port that latches
     can_.latched_word = true;
+    machine_.feed_override.latched_word = machine_.spindle_override.latched_word = true;
+    made = supervisor::Supervisor::make(machine_, can_);
+  }
+  if (!made) {  // no step of the varied table is within the envelope
+    machine_.feed_override = of.feed_override;
+    machine_.spindle_override = of.spindle_override;
     made = supervisor::Supervisor::make(machine_, can_);
   }
   layer_.emplace(std::move(made.value()));
-  cycle_s_ = machine_.control.interpolator_period_s;
+  cycle_s_ = layer_cycle_s(machine_);
   watchdog_s_ = machine_.envelope.stale_after_s;
   const double slack_s = kLateSteps * cycle_s_;
   const auto& e = machine_.envelope;
@@ -90,13 +74,6 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
     spindle_.emplace(rules(machine_.spindle_override, can_.latched_word, can_.spindle_override,
                            e.spindle_slew_1_s, e.spindle_slew_1_s, slack_s));
   }
-  const auto limits = [this](bool available, double max_mm) {
-    signal::AxisValues out{};
-    for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
-      out[i] = available && !machine_.axes[i].rotary ? max_mm : 0.0;
-    }
-    return out;
-  };
   offset_.emplace(
       OffsetWatch::Rules{limits(can_.axis_offset, e.max_offset_mm), e.offset_slew_mm_s, slack_s});
   path_offset_.emplace(OffsetWatch::Rules{limits(can_.path_offset, e.max_path_offset_mm),
@@ -104,6 +81,20 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
   port_.emplace(machine_, can_, cycle_s_, dice_);
   wanted_ = machine_.mode;
   may_write_ = wanted_ == Mode::act;
+}
+
+signal::AxisValues Scene::limits(bool available, double max_mm) const {
+  signal::AxisValues out{};
+  for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+    out[i] = available && !machine_.axes[i].rotary ? max_mm : 0.0;
+  }
+  return out;
+}
+
+void Scene::other_limits() {
+  vary_limits(machine_, dice_);
+  offset_->limit(limits(can_.axis_offset, machine_.envelope.max_offset_mm));
+  path_offset_->limit(limits(can_.path_offset, machine_.envelope.max_path_offset_mm));
 }
 
 void Scene::broken(const std::string& what) {
@@ -168,9 +159,22 @@ void Scene::let_pass(double real_s) {
   }
 }
 
-/// A new process takes over the state of the old one; the machine may have waited for minutes.
+/// A changed machine file takes over between two cycles.
+void Scene::reload() {
+  const machine::Machine before = machine_;
+  other_limits();
+  auto old = std::move(*layer_);
+  layer_.emplace(supervisor::Supervisor::make(machine_, can_).value());
+  layer_->take_over(old, supervisor::kept(before, machine_));
+}
+
+/// A new process takes over the state of the old one, perhaps with another machine file; the
+/// machine may have waited for minutes.
 void Scene::restart(double away_s) {
   const supervisor::Supervisor::State state = layer_->state();
+  if (dice_.one_in(2)) {
+    other_limits();
+  }
   layer_.emplace(supervisor::Supervisor::make(machine_, can_).value());
   layer_->restore(state);
   if (away_s > 0.0) {
@@ -232,8 +236,20 @@ void Scene::check_write() {
   // An offset may move in the cut only while requested with valid input in mode act.
   const bool asks = !offset_wish_.empty() || machine_.thermal.enabled;
   const bool heard = !port_->unfit && wanted_ == Mode::act;
+  const signal::AxisValues heat_mm = offset_->held_mm();
+  const signal::AxisValues path_mm = path_offset_->held_mm();
   broken(offset_->write(c.offset_mm, asks && heard, cut_));
   broken(path_offset_->write(c.path_offset_mm, !path_offset_wish_.empty() && heard, cut_));
+  // Both together within the path's limit, unless heat alone is beyond it or a limit was lowered.
+  for (std::size_t i = 0; i < heat_mm.size(); ++i) {
+    const double most_mm =
+        std::max({path_offset_->limit_mm(i), std::abs(c.offset_mm[i]),
+                  std::abs(c.path_offset_mm[i]), std::abs(heat_mm[i] + path_mm[i])});
+    if (!(std::abs(c.offset_mm[i] + c.path_offset_mm[i]) <= most_mm + kTolerance)) {
+      broken(
+          fmt::format("sum: axis {} at {:g} and {:g} mm", i, c.offset_mm[i], c.path_offset_mm[i]));
+    }
+  }
 }
 
 /// observe and advise write nothing, but returning to neutral does: until that is done, a write
@@ -289,6 +305,9 @@ void Scene::events() {
     layer_->set_mode(wanted_);
     may_write_ = may_write_ || wanted_ == Mode::act;
   }
+  if (dice_.one_in(2000)) {
+    reload();
+  }
   if (dice_.one_in(2000) && port_->keeps_time()) {
     restart(0.0);
   }
@@ -325,62 +344,6 @@ void Scene::act() {
   }
   for (int i = 0; i < 5 && tally_.broken == 0; ++i) {
     cycle();  // what ended is known before the next act begins
-  }
-}
-
-/// Liveness: after long enough with good input a wish is in force, whatever happened before. A
-/// layer that always stays neutral would pass every safety rule.
-void Scene::settle_on_a_wish() {
-  if (!feed_ || !can_.feed_override || port_->outage > 0) {
-    return;
-  }
-  port_->behave(Motion::feed);
-  wanted_ = Mode::act;
-  layer_->set_mode(wanted_);
-  may_write_ = true;
-  spindle_wish_.clear();
-  offset_wish_.clear();
-  path_offset_wish_.clear();
-  const double wished = dice_.within(0.05, 0.9);
-  feed_wish_ = {{signal::Room::contour, wished, Reason::contour_limit}};
-  // Twice the longest way, 0.2 s for the neutral times after a fault, 40 cycles of slack.
-  const auto cycles =
-      static_cast<std::size_t>((2.0 * feed_->longest_way_s() + 0.2) / cycle_s_) + 40;
-  for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
-    cycle();
-  }
-  // The lowest value that a wish can reach: the envelope's minimum, floored to a step, and one step
-  // of tolerance.
-  const double least = feed_->floor(machine_.envelope.min_feed_ratio) + feed_->widest_step();
-  const double most = std::max(wished, std::min(least, feed_->panel()));
-  if (tally_.broken == 0 && !(feed_->in_force() <= most + kTolerance)) {
-    broken(fmt::format("ends: a wish of {:g} for {} cycles, in force is {:g}, panel {:g}", wished,
-                       cycles, feed_->in_force(), feed_->panel()));
-  }
-}
-
-/// The other liveness rule: with good input, no cut and mode observe, nothing of the layer remains.
-void Scene::settle_on_observe() {
-  if (port_->outage > 0) {
-    return;
-  }
-  port_->behave(dice_.of({Motion::idle, Motion::rapid, Motion::tool_change}));
-  wanted_ = dice_.of({Mode::observe, Mode::advise});
-  layer_->set_mode(wanted_);
-  double for_s = 2.0 + machine_.envelope.max_offset_mm / machine_.envelope.offset_slew_mm_s;
-  for (const auto* watch : {&feed_, &spindle_}) {
-    for_s = *watch ? std::max(for_s, 2.0 * (*watch)->longest_way_s()) : for_s;
-  }
-  const auto cycles = static_cast<std::size_t>(for_s / cycle_s_) + 40;
-  for (std::size_t i = 0; i < cycles && tally_.broken == 0; ++i) {
-    cycle();
-    if (!port_->taken && i > 40 && !may_write_) {
-      return;
-    }
-  }
-  if (tally_.broken == 0 && may_write_) {
-    broken(fmt::format(
-        "ends: observe for {} cycles of good input without a cut, and it still writes", cycles));
   }
 }
 

@@ -29,6 +29,9 @@ class Scene {
   void settle_on_observe();
   void let_pass(double real_s);
   void restart(double away_s);
+  void reload();
+  void other_limits();
+  [[nodiscard]] kernel::signal::AxisValues limits(bool available, double max_mm) const;
   void cycle();
   void know();
   void check_write();

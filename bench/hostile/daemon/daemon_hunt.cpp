@@ -10,6 +10,7 @@
 #include <bench/hostile/daemon/wild_port.hpp>
 #include <bench/hostile/offset_watch.hpp>
 #include <bench/hostile/override_watch.hpp>
+#include <bench/hostile/variant.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <tests/rig/even_pace.hpp>
@@ -32,6 +33,7 @@ constexpr double kLateSteps = 0.5;  ///< a stamp may be late by this much of a c
 /// Another machine of the same kind: other wires, rights, rates and rooms.
 Machine varied(Machine m, Dice& dice) {
   for (auto* table : {&m.feed_override, &m.spindle_override}) {
+    repeat_steps(*table, dice);
     table->layer_may_exceed_panel = dice.one_in(4);
     table->latched_word = table->coding != machine::Coding::gray || dice.one_in(2);
     table->scan_period_s = dice.of({0.0, 0.002, 0.01, 0.05});
@@ -127,7 +129,7 @@ DaemonScene::DaemonScene(const DaemonHunt& hunt, const Machine& base,
   can_.path_offset = can_.path_offset && !dice_.one_in(10);
   port_.emplace(*inner_, can_, machine_, dice_);
   layer_.emplace(rig::listening(machine_, can_));
-  const double period_s = machine_.control.interpolator_period_s;
+  const double period_s = layer_cycle_s(machine_);
   pace_.emplace(period_s);
   loop_.emplace(*port_, *layer_, *pace_,
                 live::Loop::Config{.period_s = period_s,
@@ -161,7 +163,7 @@ void DaemonScene::broken(const std::string& what) {
 /// Real time passes on the machine's side; modes and questions come from other threads.
 void DaemonScene::begin_cycle() {
   const std::size_t before = allocations();
-  const double period_s = machine_.control.interpolator_period_s;
+  const double period_s = layer_cycle_s(machine_);
   ++cycle_;
   unheard_s_ += period_s;
   const bool dropped = unheard_s_ > machine_.envelope.stale_after_s;
