@@ -34,9 +34,6 @@ Result<std::unique_ptr<SimulatedMachine>> SimulatedMachine::make(const Config& c
   if (config.path == nullptr) {
     return std::unexpected(refusal("the simulated machine has no planned path"));
   }
-  if (config.periods_per_cycle == 0) {
-    return std::unexpected(refusal("periods_per_cycle is 0; allowed: 1 or more"));
-  }
   auto body =
       MachineBody::make({.machine = config.machine, .operator_actions = config.operator_actions});
   if (!body) {
@@ -64,7 +61,8 @@ SimulatedMachine::SimulatedMachine(const Config& config, MachineBody body,
                                    nc::plan::Interpolator interpolator,
                                    std::optional<CuttingVibration> cutting)
     : path_(config.path),
-      periods_per_cycle_(config.periods_per_cycle),
+      periods_per_cycle_(std::max(
+          1.0, layer_cycle_s(config.machine) / config.machine.control.interpolator_period_s)),
       period_s_(config.machine.control.interpolator_period_s),
       turning_(config.cutting && config.cutting->cut.turning),
       body_(std::move(body)),
@@ -103,19 +101,28 @@ void SimulatedMachine::vibrate(const nc::plan::Setpoint& setpoint, double before
   cutting_->advance(input);
 }
 
-Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
-  if (cutting_) {
+bool SimulatedMachine::step() noexcept {
+  constexpr double kRounding = 1e-9;  // of the quotient of two periods
+  const auto end_of = [this](std::uint64_t cycle) {
+    return static_cast<std::uint64_t>(
+        std::ceil(static_cast<double>(cycle) * periods_per_cycle_ * (1.0 - kRounding)));
+  };
+  if (cutting_ && periods_ == end_of(cycles_)) {
     cutting_->begin_cycle();
   }
   // The interpolator needs this period's overrides, the body the resulting setpoint.
-  for (std::uint32_t i = 0; i < periods_per_cycle_; ++i) {
-    const double before_rev_s = body_.truth().spindle_rev_s;
-    const nc::plan::Setpoint setpoint = interpolator_.update(body_.begin(command_));
-    body_.end(setpoint);
-    if (cutting_) {
-      vibrate(setpoint, before_rev_s);
-    }
+  const double before_rev_s = body_.truth().spindle_rev_s;
+  const nc::plan::Setpoint setpoint = interpolator_.update(body_.begin(command_));
+  body_.end(setpoint);
+  if (cutting_) {
+    vibrate(setpoint, before_rev_s);
   }
+  const bool ends = ++periods_ == end_of(cycles_ + 1);
+  cycles_ += ends ? 1 : 0;
+  return ends;
+}
+
+kernel::signal::Frame SimulatedMachine::frame() const noexcept {
   kernel::signal::Frame frame = body_.frame();
   if (cutting_) {
     frame.vibration = cutting_->samples();
@@ -123,6 +130,12 @@ Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
   }
   frame.path = path_->segments;
   return frame;
+}
+
+Result<kernel::signal::Frame> SimulatedMachine::read() noexcept {
+  while (!step()) {
+  }
+  return frame();
 }
 
 Result<void> SimulatedMachine::write(const kernel::signal::Command& command) noexcept {

@@ -18,11 +18,14 @@ namespace steadyrest::sim {
 
 /// The simulated machine: runs a planned program behind the same port as a real control.
 ///
-/// read() runs one cycle of the layer (one interpolator period, or `periods_per_cycle` of them) and
-/// returns its Frame, including the planned path. write() latches the layer's words; they act from
-/// the next read() on, as machine_body.hpp describes. Time stops between calls, so the simulation
-/// is as fast as the processor allows. Deterministic: same machine, path, script, commands and seed
-/// give the same bytes.
+/// read() runs one cycle of the layer (machine::layer_cycle_s: one interpolator period, or as many
+/// as the port of the machine file leaves between two readings) and returns its Frame, including
+/// the planned path. write() latches the layer's words; they act from the next period on, as
+/// machine_body.hpp describes. A judge that looks in every period calls step() and frame().
+/// Where the two periods do not divide, cycles end with the first period that is not before them; a
+/// layer that would look more often than the interpolator moves looks once a period.
+/// Time stops between calls, so the simulation is as fast as the processor allows. Deterministic:
+/// same machine, path, script, commands and seed give the same bytes.
 class SimulatedMachine final : public kernel::port::Port {
  public:
   struct Config {
@@ -31,7 +34,6 @@ class SimulatedMachine final : public kernel::port::Port {
     // Designated initialisers may leave it out.
     // NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<OperatorAction> operator_actions = {};
-    std::uint32_t periods_per_cycle = 1;  ///< interpolator periods in one cycle of the layer, ≥ 1
     /// What the tool cuts during G1–G3 in the XY plane (turning: any), including vibration; a
     /// plunge along Z cuts nothing. Empty: air.
     std::optional<CuttingVibration::Config> cutting = std::nullopt;
@@ -44,9 +46,13 @@ class SimulatedMachine final : public kernel::port::Port {
   kernel::outcome::Result<kernel::signal::Frame> read() noexcept override;
   kernel::outcome::Result<void> write(const kernel::signal::Command& command) noexcept override;
 
+  /// One interpolator period. True: with it a cycle of the layer ends.
+  bool step() noexcept;
+  /// As the control shows it after the last period.
+  [[nodiscard]] kernel::signal::Frame frame() const noexcept;
   /// The program has ended: the command has reached the last setpoint (the axes still lag).
   [[nodiscard]] bool finished() const noexcept { return interpolator_.finished(); }
-  /// What really happened at the end of the last cycle.
+  /// What really happened at the end of the last period.
   [[nodiscard]] const Truth& truth() const noexcept { return body_.truth(); }
   /// The cut in the last cycle; nullptr when cutting air.
   [[nodiscard]] const CuttingVibration* cutting() const noexcept {
@@ -61,7 +67,9 @@ class SimulatedMachine final : public kernel::port::Port {
 
   std::shared_ptr<const nc::plan::PlannedPath> path_;
   kernel::port::Capability capability_;
-  std::uint32_t periods_per_cycle_;
+  double periods_per_cycle_;
+  std::uint64_t periods_ = 0;
+  std::uint64_t cycles_ = 0;  ///< that have ended
   double period_s_;
   bool turning_;
   MachineBody body_;

@@ -34,6 +34,14 @@ TEST(Doctor, FindsAGoodMachineWell) {
   EXPECT_LE(timing["decision_p999_us"], timing["cycle_us"]);
 }
 
+// Read and written over the port every 20 ms; the interpolator's 4 ms are the control's.
+TEST(Doctor, JudgesTheLayerByItsOwnCycle) {
+  const Finished finished =
+      run_line("doctor --machine examples/machines/vmc-840d-opcua.toml --json");
+  const json answer = json::parse(finished.out);
+  EXPECT_EQ(answer["timing"]["cycle_us"], 20000.0) << finished.err;
+}
+
 // A feed range without any step of the switch: the layer refuses it, and doctor reports it as a
 // finding.
 TEST(Doctor, FindsThatTheLayerRefusesAMachine) {

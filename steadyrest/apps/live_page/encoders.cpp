@@ -151,7 +151,7 @@ web::Response show_encoders(const Desk& desk) {
   Json axes = Json::array();
   for (const Axis& axis : machine.axes) {
     if (axis.present) {
-      axes.push_back(encoder_json(axis, machine.control.interpolator_period_s));
+      axes.push_back(encoder_json(axis, layer_cycle_s(machine)));
     }
   }
   return answer({{"motion", {{"axes", std::move(axes)}}}});

@@ -84,20 +84,32 @@ TEST(SimulatedMachine, FrameCarriesThePathAndWhereTheCommandStands) {
   EXPECT_EQ(last, 1U);
 }
 
-// Four periods in one layer cycle must end where four cycles of one period end, to the bit.
-TEST(SimulatedMachine, ALayerCycleMayBeSeveralPeriods) {
-  const Machine machine = mill();
+// The port of the machine file says how often the layer looks: it then sees, to the bit, what it
+// would see of every period, in those in which its own cycle ends. 2.5 periods end in the third and
+// the fifth; a layer faster than the interpolator looks in every one.
+TEST(SimulatedMachine, TheLayersCycleIsThatOfItsPort) {
+  Machine machine = mill();
+  const double period_s = machine.control.interpolator_period_s;
   const auto path = plan(machine, {circle(2)});
-  auto fine = machine_of(machine, path);
-  auto coarse = *SimulatedMachine::make({.machine = machine, .path = path, .periods_per_cycle = 4});
-  for (int i = 0; i < 200; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      ASSERT_TRUE(fine->read());
+  for (const double periods : {0.5, 1.0, 2.5, 4.0, 5.0}) {
+    for (const auto port : {kernel::machine::PortKind::opcua, kernel::machine::PortKind::lines}) {
+      auto every = machine_of(machine, path);
+      Machine slow = machine;
+      slow.port = port;
+      slow.opcua.cycle_s = slow.lines.cycle_s = periods * period_s;
+      auto seldom = machine_of(slow, path);
+      for (int cycle = 1; cycle < 200; ++cycle) {
+        const auto seen = seldom->read();
+        const double due = std::ceil(cycle * std::max(1.0, periods) - 1e-6) * period_s;
+        ASSERT_NEAR(seen->time_s, due, 1e-9) << periods;
+        auto a = every->read();
+        while (a->time_s < seen->time_s) {
+          a = every->read();
+        }
+        ASSERT_EQ(a->time_s, seen->time_s);
+        ASSERT_EQ(a->axis[0].actual_mm, seen->axis[0].actual_mm);
+      }
     }
-    const auto a = fine->read();
-    const auto b = coarse->read();
-    ASSERT_EQ(a->time_s, b->time_s);
-    ASSERT_EQ(a->axis[0].actual_mm, b->axis[0].actual_mm);
   }
 }
 
@@ -167,7 +179,6 @@ TEST(SimulatedMachine, RefusesWhatItCannotRun) {
   const Machine machine = mill();
   const auto path = plan(machine, {circle(1)});
   EXPECT_FALSE(SimulatedMachine::make({.machine = machine, .path = nullptr}));
-  EXPECT_FALSE(SimulatedMachine::make({.machine = machine, .path = path, .periods_per_cycle = 0}));
   EXPECT_FALSE(SimulatedMachine::make({.machine = Machine{}, .path = path}));
 }
 

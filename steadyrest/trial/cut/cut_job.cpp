@@ -198,16 +198,15 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
   Standstill standstill;
   kernel::signal::Arriving arriving(slowest_gain_1_s(job.machine));
   const double length_mm = std::max(length_of(*job.path), 1e-9);
+  auto reason = kernel::outcome::Reason::none;
   while (!machine.finished() || arriving.cuts_on()) {
     const bool after_end = machine.finished();
-    auto frame = machine.read();
-    if (!frame) {
-      return std::unexpected(frame.error());
-    }
-    job.on_frame(*frame);
-    auto reason = kernel::outcome::Reason::none;
-    if (layer) {
-      const kernel::signal::Command command = layer(*frame);
+    // The judge looks in every period, the layer as often as on the real machine.
+    const bool layers_turn = machine.step();
+    Frame frame = machine.frame();
+    job.on_frame(frame);
+    if (layer && layers_turn) {
+      const kernel::signal::Command command = layer(frame);
       reason = command.feed_reason;
       if (command.write) {
         if (auto written = machine.write(command); !written) {
@@ -216,24 +215,23 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
       }
     }
     // After the layer has seen the frame: its estimates are scored.
-    if (motion != nullptr && !after_end) {
-      motion->add(*frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
+    if (motion != nullptr && layers_turn && !after_end) {
+      motion->add(frame, machine.truth().motor_mm_s, machine.truth().motor_mm_s2);
     }
-    if (vibration != nullptr && machine.cutting() != nullptr && !after_end) {
-      vibration->add(frame->time_s, frame->spindle_actual_rev_s, machine.cutting()->cycle());
+    if (vibration != nullptr && layers_turn && machine.cutting() != nullptr && !after_end) {
+      vibration->add(frame.time_s, frame.spindle_actual_rev_s, machine.cutting()->cycle());
     }
     // The truth is that at the end of this cycle; the command acts in the next.
-    Sample sample =
-        sample_of(*frame, arriving.update(frame->motion, frame->time_s), machine.truth(),
-                  error->update(*frame, machine.truth()), job.against.get(), reason);
+    Sample sample = sample_of(frame, arriving.update(frame.motion, frame.time_s), machine.truth(),
+                              error->update(frame, machine.truth()), job.against.get(), reason);
     sample.after_end = after_end;
     on_sample(sample);
-    if (standstill.too_long(*frame)) {
-      return refuse("", frame->program_line, "no motion for ten simulated minutes in this line",
+    if (standstill.too_long(frame)) {
+      return refuse("", frame.program_line, "no motion for ten simulated minutes in this line",
                     "look for a 0 % override or a very long dwell");
     }
-    if (frame->cycle % kCyclesBetweenProgress == 0) {
-      job.progress(frame->path_position_mm / length_mm);
+    if (frame.cycle % kCyclesBetweenProgress == 0) {
+      job.progress(frame.path_position_mm / length_mm);
     }
   }
   return {};
@@ -259,7 +257,7 @@ Result<Recorder> run(const Job& job) {
   }
   Recorder record({.limit_mm = job.machine.contour.limit_mm,
                    .cycle_s = job.machine.control.interpolator_period_s});
-  auto motion = MotionScore::make(job.machine.axes, job.machine.control.interpolator_period_s);
+  auto motion = MotionScore::make(job.machine.axes, layer_cycle_s(job.machine));
   if (!motion) {
     return std::unexpected(motion.error());
   }

@@ -77,7 +77,7 @@ Result<void> run_round(const Machine& machine, const Path& path, std::size_t mos
 Result<LayerTiming> time_layer(const Machine& machine, const Effort& effort,
                                const std::function<void(double share)>& on_progress) {
   LayerTiming timing;
-  timing.cycle_s = machine.control.interpolator_period_s;
+  timing.cycle_s = layer_cycle_s(machine);
   timing.rounds = effort.rounds;
   // Long enough for the requested number of decisions to fall due.
   const double apart_s = std::max(timing.cycle_s, kDecision_s);

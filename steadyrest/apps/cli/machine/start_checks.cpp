@@ -24,7 +24,7 @@ std::vector<Finding> check_clock(const Machine& machine) {
   }
   const double resolution_s =
       static_cast<double>(resolution.tv_sec) + 1e-9 * static_cast<double>(resolution.tv_nsec);
-  if (resolution_s > 0.01 * machine.control.interpolator_period_s) {
+  if (resolution_s > 0.01 * layer_cycle_s(machine)) {
     return {{Severity::warning, "clock",
              fmt::format("the clock's resolution is {:.3g} ms, more than 1 % of a cycle",
                          resolution_s * 1e3),

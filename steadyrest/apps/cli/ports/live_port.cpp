@@ -54,7 +54,7 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
     return sim::SimulatedMachine::make(config);
   };
   LivePort out;
-  out.period_s = machine.control.interpolator_period_s;
+  out.period_s = layer_cycle_s(machine);
   out.sensor = *cutting ? trial::listener::simulated_sensor() : trial::listener::Sensor();
   out.cutting_speeds_rev_s = trial::cut::cutting_speeds(*planned->path);
   if (of.repeats) {

@@ -81,7 +81,7 @@ inline RecordedCut record_cut(const std::string& file, const kernel::machine::Ma
   info.machine = machine.name;
   info.program = heard.program;
   info.listener = heard.listener ? listener::text_of(*heard.listener) : "";
-  info.cycle_s = machine.control.interpolator_period_s;
+  info.cycle_s = layer_cycle_s(machine);
   info.capability = simulated->capability();
   const auto writer = record::RecordWriter::make({.file = file, .info = info}).value();
   auto layer = layer_of(machine, simulated->capability(), heard);
