@@ -34,6 +34,7 @@
 #include <steadyrest/live/status_json.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/record/run_folder.hpp>
+#include <steadyrest/supervisor/settings.hpp>
 
 // The loop runs in this thread, the socket and the reloader each in another. SIGINT and SIGTERM ask
 // for the end, and the layer hands back first; SIGHUP has the machine file read again.
@@ -98,6 +99,9 @@ Loop::Config loop_config(const Options& options, const kernel::machine::Machine&
                          const LivePort& port) {
   Loop::Config config{.period_s = port.period_s,
                       .contour_limit_mm = machine.contour.limit_mm,
+                      // Twice the longest way: the link may lose cycles.
+                      .handback_s = std::max(Loop::Config{}.handback_s,
+                                             2.0 * supervisor::longest_hand_back_s(machine)),
                       .mode = steadyrest::live::mode_of(options.mode).value_or(machine.mode),
                       .port_paces = port.paces,
                       .holds_s = port.holds_s,
