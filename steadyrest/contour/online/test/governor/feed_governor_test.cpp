@@ -28,6 +28,7 @@ using test::largest_step;
 using test::LoopResult;
 using test::LoopSample;
 using test::Machine;
+using test::PathMaker;
 using test::pocket;
 
 TEST(FeedGovernor, HoldsTenMicrometresOnTheCircleOfThePaperWithTheLargestStep) {
