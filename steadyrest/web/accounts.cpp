@@ -94,6 +94,9 @@ Result<std::string> private_text(const std::string& file) {
   if (::stat(file.c_str(), &status) != 0) {
     return refuse(file, std::strerror(errno), kAdd);
   }
+  if (!S_ISREG(status.st_mode)) {
+    return refuse(file, "is not a file", kAdd);
+  }
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     return refuse(file, "other users may open it", "chmod 600 it");
   }
@@ -117,7 +120,9 @@ Result<Accounts> Accounts::read(const std::string& file) {
   if (!root || root->value("version", Json()) != Json(kVersion) ||
       !read_list(*root, "users", "argon2id", out.users_) ||
       !read_list(*root, "tokens", "sha256", out.tokens_)) {
-    return refuse(file, "is not a file of accounts", kAdd);
+    const auto fault = kernel::file::json_fault(*text);
+    return refuse(file, fault ? fault->line : 0,
+                  "is not a file of accounts" + (fault ? ": " + fault->what : ""), kAdd);
   }
   return out;
 }

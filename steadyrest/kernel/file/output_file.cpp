@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <optional>
 #include <random>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -69,6 +71,25 @@ void sync_folder(const std::filesystem::path& folder) {
   }
 }
 
+/// Waits for a pipe's reader, but not without end, as open() would. Below 0: errno says why.
+int open_stream(const std::string& target) {
+  constexpr auto kPatience = std::chrono::seconds(2);
+  constexpr auto kTry = std::chrono::milliseconds(10);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  int descriptor = -1;
+  for (;;) {
+    descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (descriptor >= 0 || errno != ENXIO || std::chrono::steady_clock::now() >= until) {
+      break;
+    }
+    std::this_thread::sleep_for(kTry);
+  }
+  if (descriptor >= 0) {
+    ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+  }
+  return descriptor;
+}
+
 }  // namespace
 
 Result<OutputFile> OutputFile::open(const std::string& target) {
@@ -89,7 +110,12 @@ Result<OutputFile> OutputFile::open(const std::string& target) {
     return made;
   }
   // A pipe or a device is written in place: a rename would replace it.
-  made.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  made.descriptor_ = open_stream(target);
+  if (made.descriptor_ < 0 && errno == ENXIO) {
+    return std::unexpected(Refusal{Kind::unavailable, target, 0,
+                                   "is a pipe from which no program reads",
+                                   "start the program that reads it first, or name a file"});
+  }
   if (made.descriptor_ < 0) {
     return std::unexpected(made.refusal(errno));
   }

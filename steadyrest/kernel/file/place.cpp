@@ -59,8 +59,9 @@ Result<Place> of_existing(const std::string& name, const struct ::stat& found) {
   if (S_ISDIR(found.st_mode)) {
     return refuse(name, Kind::bad_input, "is a folder", "name a file in it");
   }
-  if (S_ISBLK(found.st_mode)) {
-    return refuse(name, Kind::bad_input, "is a block device", "name a file");
+  if (S_ISBLK(found.st_mode) || S_ISSOCK(found.st_mode)) {
+    return refuse(name, Kind::bad_input,
+                  S_ISBLK(found.st_mode) ? "is a block device" : "is a socket", "name a file");
   }
   if (is_standard_output(found)) {
     return Place{Place::Kind::standard_output, name, true};

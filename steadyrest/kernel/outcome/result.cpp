@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/kernel/outcome/shown.hpp>
 
 namespace steadyrest::kernel::outcome {
 
@@ -20,7 +21,7 @@ std::string text(const Refusal& refusal) {
     out += "; ";
     out += refusal.to_do;
   }
-  return out;
+  return shown(out);
 }
 
 }  // namespace steadyrest::kernel::outcome

@@ -11,6 +11,7 @@
 #include "process.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace steadyrest::test {
 
@@ -186,6 +187,31 @@ TEST_P(Outputs, ThatCannotBeAreRefusedBeforeTheWork) {
     EXPECT_EQ(folder_.results(), Texts{});
   }
   EXPECT_EQ(folder_.examples(), examples_);
+}
+
+// Opening such a pipe waits without end.
+TEST_P(Outputs, ThatArePipesNobodyReadsAreRefused) {
+  const std::string pipe = folder_.at("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const OutputOption& option : GetParam().outputs) {
+    if (option.files.front() == option.value) {
+      EXPECT_NE(run(folder_.command({{option.flag, "pipe"}})), 0) << option.flag;
+      EXPECT_THAT(err_, HasSubstr("pipe")) << option.flag;
+      EXPECT_TRUE(fs::is_fifo(pipe));
+    }
+  }
+}
+
+TEST_P(Outputs, OfInputsThatArePipesNobodyWritesAreRefused) {
+  ASSERT_EQ(::mkfifo(folder_.at("pipe").c_str(), 0600), 0);
+  for (const std::string& input : GetParam().inputs) {
+    auto command = folder_.command();
+    if (const auto at = std::ranges::find(command, input); at != command.end()) {
+      *at = "pipe";
+      EXPECT_EQ(run(command), 2) << input;
+      EXPECT_THAT(err_, HasSubstr("pipe: is a named pipe")) << input;
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAllVerbs, Outputs,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import { shown } from './shown';
 
 export function escapeHtml(text: string): string {
-  return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
+  return shown(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
 /** As the first word of a sentence. */

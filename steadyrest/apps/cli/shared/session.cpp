@@ -10,6 +10,7 @@
 #include <steadyrest/apps/page/shared/write_files.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/file/temporary.hpp>
+#include <steadyrest/kernel/outcome/shown.hpp>
 
 // One place for everything that all verbs do alike: parsing, checking files, provenance, running,
 // putting all outputs in place together, printing, exit code.
@@ -57,7 +58,8 @@ bool print_out(std::string_view text) {
 /// Indented by two: people read it too.
 bool print_json(const Json& json) {
   // A file name need not be UTF-8; JSON must.
-  return print_out(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return print_out(
+      kernel::outcome::shown_json(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"));
 }
 
 int unwritten() {
@@ -224,7 +226,8 @@ int Session::run_verb() {
     return exit_code_of(outcome.error());
   }
   print_refusals(outcome->refusals);
-  const bool written = json_ ? print_json(outcome->json) : print_out(outcome->text);
+  const bool written =
+      json_ ? print_json(outcome->json) : print_out(kernel::outcome::shown_lines(outcome->text));
   return written ? outcome->exit_code : unwritten();
 }
 

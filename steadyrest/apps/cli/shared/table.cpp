@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/outcome/shown.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -28,8 +29,12 @@ void append(std::string& out, const std::vector<std::string>& cells,
 
 }  // namespace
 
-/// Two passes: widths first, then lines.
+/// Two passes: widths first, then lines. A cell may be a name that others chose.
 std::string Table::text() const {
+  auto rows = rows_;
+  for (auto& cells : rows) {
+    std::ranges::transform(cells, cells.begin(), kernel::outcome::shown);
+  }
   std::vector<std::size_t> widths(head_.size(), 0);
   const auto widen = [&widths](const std::vector<std::string>& cells) {
     widths.resize(std::max(widths.size(), cells.size()), 0);
@@ -38,14 +43,14 @@ std::string Table::text() const {
     }
   };
   widen(head_);
-  for (const auto& cells : rows_) {
+  for (const auto& cells : rows) {
     widen(cells);
   }
   std::string out;
   if (!head_.empty()) {
     append(out, head_, widths);
   }
-  for (const auto& cells : rows_) {
+  for (const auto& cells : rows) {
     append(out, cells, widths);
   }
   return out;

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -47,6 +48,23 @@ std::string role_of(const CLI::Option& option) {
              ? (option.get_name() == "FILE" ? "the input file itself"
                                             : "the " + option.get_name() + " itself")
              : "the file of " + option.get_name() + " itself";
+}
+
+/// A named pipe is read once, and holds up who opens it until somebody writes; a verb may read its
+/// inputs twice. The pipes of a shell, `<(…)` and `|`, have their writer.
+Refusals unreadable(const std::vector<std::string>& files) {
+  Refusals out;
+  for (const std::string& file : files) {
+    const bool of_shell = file == "-" || file.starts_with("/dev/") || file.starts_with("/proc/");
+    std::error_code error;
+    const auto kind = std::filesystem::status(file, error).type();
+    const bool pipe = kind == std::filesystem::file_type::fifo && !of_shell;
+    if (pipe || kind == std::filesystem::file_type::socket) {
+      out.push_back(bad_input(file, pipe ? "is a named pipe" : "is a socket",
+                              "write it into a file first, and give that"));
+    }
+  }
+  return out;
 }
 
 /// The existing content: 8 MB are enough to tell its kind, and a huge file is not read whole.
@@ -196,6 +214,7 @@ page::Provenance Verb::provenance(const std::string& command) const {
 }
 
 /// An empty name is nearly always an unset shell variable, and "" would mean the current folder.
+/// Also inputs that are no files.
 Refusals Verb::empty_names() const {
   Refusals out;
   const auto look = [&out](const CLI::Option& option, const char* to_do) {
@@ -205,6 +224,7 @@ Refusals Verb::empty_names() const {
   };
   for (const CLI::Option* option : inputs_) {
     look(*option, "name a file");
+    std::ranges::copy(unreadable(option->results()), std::back_inserter(out));
   }
   for (const Output& output : outputs_) {
     look(*output.option, output.folder ? "name a folder" : "name a file");

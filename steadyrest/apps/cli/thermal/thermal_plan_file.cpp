@@ -6,7 +6,6 @@
 
 #include <steadyrest/apps/cli/thermal/thermal_plan_file.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/passport/text/text_file.hpp>
 
 // The rewriter's reader supplies the plan's own keys. This file adds what `thermal plan` noted
 // about its making, so that `thermal adapt` need not be given it again.
@@ -29,15 +28,15 @@ std::string beside(const std::string& plan, const std::string& named) {
 
 }  // namespace
 
-/// Read twice: once as the rewriter reads it, with all its checks, once for the notes, which may be
+/// Parsed twice: once as the rewriter does it, with all its checks, once for the notes, which may be
 /// missing in a plan written by hand.
 Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
-  auto plan = nc::rewrite::read_plan(path);
-  const auto text = passport::read_text(path);
+  const auto text = nc::rewrite::read_plan_text(path);
   if (!text) {  // a wrong path is the caller's mistake, whatever the reason
     return refuse(path, text.error().what,
                   "give the path of a plan (JSON): thermal plan -o writes it");
   }
+  auto plan = nc::rewrite::parse_plan(*text, path);
   if (!plan) {
     return std::unexpected(plan.error());
   }

@@ -3,12 +3,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <string>
+#include <utility>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -176,6 +180,42 @@ TEST_F(Output, AFullDiskLeavesTheOldFile) {
   });
   EXPECT_EQ(WEXITSTATUS(status), 7);
   EXPECT_EQ(text_of(file), "old\n");
+}
+
+TEST_F(Output, APipeIsWrittenOnceItHasAReaderAndRefusedWithoutOne) {
+  const std::string pipe = at("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto nobody = OutputFile::open(pipe);
+  ASSERT_FALSE(nobody);
+  EXPECT_NE(nobody.error().what.find("no program reads"), std::string::npos);
+  auto got = std::async(std::launch::async, [&] { return text_of(pipe); });
+  auto file = OutputFile::open(pipe);
+  ASSERT_TRUE(file) << file.error().what;
+  const std::string large(1 << 20, 'x');  // more than a pipe holds
+  file->write(large);
+  EXPECT_TRUE(file->commit());
+  {
+    const OutputFile closed = std::move(*file);
+  }
+  EXPECT_EQ(got.get(), large);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
+TEST_F(Output, ASocketOrAFolderIsRefused) {
+  const std::string name = at("socket");
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  name.copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  for (const std::string& target : {name, folder_.path().string(), at("none/file")}) {
+    EXPECT_FALSE(OutputFile::open(target)) << target;
+  }
+  ::close(socket);
+  auto full = OutputFile::open("/dev/full");
+  ASSERT_TRUE(full);
+  full->write("text");
+  EXPECT_FALSE(full->commit());
 }
 
 TEST_F(Output, AClosedPipeIsARefusal) {

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/file/json_object.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/outcome/nearest.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
@@ -80,14 +81,9 @@ class PlanReader {
       }
       return true;
     };
-    // The JSON library throws; no exception leaves this room.
-    try {
-      json_ = Json::parse(text, watch);
-    } catch (const Json::parse_error& error) {
-      // byte is one past the last character read; the lines before it are counted.
-      const auto seen = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
-      const auto line = 1 + static_cast<std::size_t>(std::ranges::count(seen, '\n'));
-      return refuse("not JSON", "write the plan as JSON; see nc/rewrite/README.md", line);
+    json_ = Json::parse(text, watch, false);
+    if (const auto fault = json_.is_discarded() ? kernel::file::json_fault(text) : std::nullopt) {
+      return refuse(fault->what, "write the plan as JSON; see nc/rewrite/README.md", fault->line);
     }
     return twice.empty() || refuse_key(twice, "a key that appears twice", "keep one of them");
   }
@@ -242,7 +238,7 @@ Result<Plan> parse_plan(std::string_view text, const std::string& path) {
   return PlanReader(path).read(text);
 }
 
-Result<Plan> read_plan(const std::string& path) {
+Result<std::string> read_plan_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text;
   if (in) {
@@ -255,7 +251,12 @@ Result<Plan> read_plan(const std::string& path) {
     return std::unexpected(Refusal{Kind::unavailable, path, 0, "cannot be read",
                                    "check the path and the permissions"});
   }
-  return parse_plan(text, path);
+  return text;
+}
+
+Result<Plan> read_plan(const std::string& path) {
+  const auto text = read_plan_text(path);
+  return text ? parse_plan(*text, path) : std::unexpected(text.error());
 }
 
 }  // namespace steadyrest::nc::rewrite

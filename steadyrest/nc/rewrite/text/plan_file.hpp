@@ -42,6 +42,9 @@ struct Plan {
 /// Reads PLAN.json (README.md has its keys). Refused with the line or the key: invalid JSON,
 /// unknown keys, a key twice, lists whose length is not n, numbers out of range.
 [[nodiscard]] kernel::outcome::Result<Plan> read_plan(const std::string& path);
+/// The text alone, for whoever also reads the plan maker's own remarks; one byte more than allowed
+/// of a file that is too large. Refused: a file that cannot be read.
+[[nodiscard]] kernel::outcome::Result<std::string> read_plan_text(const std::string& path);
 [[nodiscard]] kernel::outcome::Result<Plan> parse_plan(std::string_view text,
                                                        const std::string& path);
 

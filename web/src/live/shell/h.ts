@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elements made from parts. Text is always text, so nothing from outside turns into HTML.
+import { shown } from '../../frame/shown';
 
 export type Child = Node | string | null | undefined | false;
 type Listener = (event: Event) => void;
@@ -15,14 +16,17 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, attributes:
       made.setAttribute(name, value === true ? '' : String(value));
     }
   }
-  made.append(...children.filter((c): c is Node | string => c instanceof Node || (typeof c === 'string' && c !== '')));
+  // What is edited stays as it is.
+  const text = (c: string): string => (tag === 'textarea' ? c : shown(c));
+  made.append(...children.filter((c): c is Node | string => c instanceof Node || (typeof c === 'string' && c !== '')).map((c) => (typeof c === 'string' ? text(c) : c)));
   return made;
 }
 
 /** Only if it differs: the page sets its figures many times a second. */
 export function setText(where: HTMLElement, text: string): void {
-  if (where.textContent !== text) {
-    where.textContent = text;
+  const safe = shown(text);
+  if (where.textContent !== safe) {
+    where.textContent = safe;
   }
 }
 
