@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+
+#include <steadyrest/kernel/file/temporary.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/record/chunk_store.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/in_turn.hpp>
@@ -11,6 +20,7 @@
 namespace steadyrest::record {
 namespace {
 
+using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 enum Sql : std::uint8_t {
@@ -33,6 +43,7 @@ constexpr const char* kText[sql_count] = {
 };
 
 constexpr double kMicrosecond_s = 1e-6;
+constexpr const char* kBegun = ".begun";
 
 std::int64_t bits(const kernel::port::Capability& capability) {
   return (capability.feed_override ? 1 : 0) | (capability.spindle_override ? 2 : 0) |
@@ -42,26 +53,8 @@ std::int64_t bits(const kernel::port::Capability& capability) {
          (std::llround(capability.path_offset_acceleration_mm_s2) << kAccelerationShift);
 }
 
-}  // namespace
-
-Result<std::unique_ptr<ChunkStore>> ChunkStore::create(const std::string& file,
-                                                       const RunInfo& info) {
-  auto database = Database::create(file);
-  if (!database) {
-    return std::unexpected(std::move(database.error()));
-  }
-  std::unique_ptr<ChunkStore> store(new ChunkStore(std::move(*database)));
-  if (auto ready =
-          in_turn([&] { return store->database_.run(kSchema); },
-                  [&] { return store->write_run(info); }, [&] { return store->prepare(); });
-      !ready) {
-    return std::unexpected(std::move(ready.error()));
-  }
-  return store;
-}
-
-Result<void> ChunkStore::write_run(const RunInfo& info) {
-  auto insert = database_.prepare("INSERT INTO run VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+Result<void> write_run(Database& database, const RunInfo& info) {
+  auto insert = database.prepare("INSERT INTO run VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   if (!insert) {
     return std::unexpected(std::move(insert.error()));
   }
@@ -71,6 +64,76 @@ Result<void> ChunkStore::write_run(const RunInfo& info) {
     insert->bind(at++, *text);
   }
   return insert->bind(6, info.cycle_s).bind(7, bits(info.capability)).bind(8, info.listener).run();
+}
+
+}  // namespace
+
+ChunkStore::ChunkStore(Database database, const std::string& file)
+    : database_(std::move(database)), file_(file), there_(file) {}
+
+/// Under another name until it says what is recorded: a layer that is killed as it starts leaves no
+/// record that cannot be read.
+Result<void> ChunkStore::begin_file(const std::string& file, const RunInfo& info) {
+  const std::string begun = file + kBegun;
+  std::error_code fault;
+  for (const char* const beside : {"", "-journal"}) {
+    std::filesystem::remove(begun + beside, fault);
+  }
+  auto database = Database::create(begun);
+  if (!database) {
+    return std::unexpected(std::move(database.error()));
+  }
+  return in_turn([&] { return database->run("BEGIN"); }, [&] { return database->run(kSchema); },
+                 [&] { return write_run(*database, info); },
+                 [&] { return database->run("COMMIT"); });
+}
+
+Result<std::unique_ptr<ChunkStore>> ChunkStore::create(const std::string& file,
+                                                       const RunInfo& info) {
+  if (auto free = Database::check_new(file); !free) {
+    return std::unexpected(std::move(free.error()));
+  }
+  const kernel::file::Temporary begun(file + kBegun, kernel::file::Temporary::Kind::file);
+  if (auto made = begin_file(file, info); !made) {
+    made.error().file = file;
+    return std::unexpected(std::move(made.error()));
+  }
+  // Not over a file that has come there since.
+  const bool named =
+      ::renameat2(AT_FDCWD, begun.path().c_str(), AT_FDCWD, file.c_str(), RENAME_NOREPLACE) == 0 ||
+      (errno == EINVAL && ::rename(begun.path().c_str(), file.c_str()) == 0);
+  if (!named) {
+    return refuse(file, std::string("cannot be made: ") + std::strerror(errno),
+                  "check the permissions of the folder");
+  }
+  auto database = Database::open_to_change(file);
+  if (!database) {
+    return std::unexpected(std::move(database.error()));
+  }
+  std::unique_ptr<ChunkStore> store(new ChunkStore(std::move(*database), file));
+  if (auto ready =
+          in_turn([&] { return store->database_.run(kWriting); }, [&] { return store->prepare(); });
+      !ready) {
+    return std::unexpected(std::move(ready.error()));
+  }
+  return store;
+}
+
+bool ChunkStore::is_removed() const noexcept {
+  return there_.is_removed() || (log_ && log_->is_removed());
+}
+
+Result<void> ChunkStore::check_there() const {
+  if (is_removed()) {
+    return kernel::outcome::unavailable(
+        file_ + ": was removed while it was written: nothing of this run is kept",
+        "start the run again, and leave the folder of its record alone");
+  }
+  return {};
+}
+
+std::uint64_t ChunkStore::lost() const noexcept {
+  return added_ - (is_removed() ? 0 : committed_);
 }
 
 Result<void> ChunkStore::prepare() {
@@ -89,6 +152,7 @@ Result<void> ChunkStore::prepare() {
 }
 
 void ChunkStore::add(Sample& sample) {
+  ++added_;
   if (samples_++ == 0) {
     first_cycle_ = sample.frame.cycle;
   }
@@ -190,9 +254,14 @@ Result<void> ChunkStore::write_all(std::uint64_t dropped, bool closed) {
       .bind(0, static_cast<std::int64_t>(stored_))
       .bind(1, static_cast<std::int64_t>(dropped))
       .bind(2, std::int64_t{closed ? 1 : 0});
-  return in_turn([&done] { return done; }, [this] { return write_events(); },
+  done = in_turn([&done] { return done; }, [this] { return write_events(); },
                  [this] { return statements_[update_totals].run(); },
-                 [this] { return database_.run("COMMIT"); });
+                 [this] { return database_.run("COMMIT"); }, [this] { return check_there(); });
+  committed_ = done ? stored_ : committed_;
+  if (done && !log_) {
+    log_.emplace(file_ + "-wal");
+  }
+  return done;
 }
 
 Result<void> ChunkStore::commit(std::uint64_t dropped) {

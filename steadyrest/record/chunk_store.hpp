@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <steadyrest/kernel/file/presence.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/record/database.hpp>
 #include <steadyrest/record/sample.hpp>
@@ -32,6 +34,9 @@ class ChunkStore {
   void add(PathPiece& piece);
   void add(Event event) { events_.push_back(std::move(event)); }
   [[nodiscard]] std::size_t waiting() const noexcept { return samples_; }
+  /// Samples that were added and are in no file: those of a transaction that failed, and all where
+  /// the file was removed.
+  [[nodiscard]] std::uint64_t lost() const noexcept;
   /// One transaction with all that was added since the last.
   kernel::outcome::Result<void> commit(std::uint64_t dropped);
   /// The last one. Leaves a single file, without SQLite's log beside it.
@@ -40,9 +45,12 @@ class ChunkStore {
  private:
   using Column = std::vector<std::uint64_t>;
 
-  explicit ChunkStore(Database database) : database_(std::move(database)) {}
+  ChunkStore(Database database, const std::string& file);
+  static kernel::outcome::Result<void> begin_file(const std::string& file, const RunInfo& info);
+  /// SQLite does not notice: the open file goes on taking what is written.
+  [[nodiscard]] bool is_removed() const noexcept;
+  kernel::outcome::Result<void> check_there() const;
   kernel::outcome::Result<void> prepare();
-  kernel::outcome::Result<void> write_run(const RunInfo& info);
   kernel::outcome::Result<void> write_all(std::uint64_t dropped, bool closed);
   kernel::outcome::Result<void> write_chunk();
   kernel::outcome::Result<void> write_column(const std::string& name, const Column& column);
@@ -50,6 +58,9 @@ class ChunkStore {
   kernel::outcome::Result<void> write_events();
 
   Database database_;
+  std::string file_;
+  kernel::file::Presence there_;
+  std::optional<kernel::file::Presence> log_;  ///< SQLite's log, once there is one
   std::vector<Statement> statements_;
   std::vector<std::string> names_;
   std::vector<Column> columns_;
@@ -57,6 +68,8 @@ class ChunkStore {
   std::size_t samples_ = 0;
   std::uint64_t first_cycle_ = 0;
   std::uint64_t stored_ = 0;
+  std::uint64_t added_ = 0;
+  std::uint64_t committed_ = 0;
   std::int64_t chunk_ = 0;
   std::vector<PathPiece> pieces_;
   std::vector<Event> events_;

@@ -134,11 +134,18 @@ Result<Database> Database::open(const std::string& file, int flags) {
   return database;
 }
 
-Result<Database> Database::create(const std::string& file) {
+Result<void> Database::check_new(const std::string& file) {
   std::error_code error;
   if (file.empty() || std::filesystem::exists(file, error)) {
     return refuse(file, file.empty() ? "a record needs a name" : "the file exists",
                   "give the record another name");
+  }
+  return {};
+}
+
+Result<Database> Database::create(const std::string& file) {
+  if (auto is_new = check_new(file); !is_new) {
+    return std::unexpected(std::move(is_new.error()));
   }
   return open(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
 }
@@ -146,7 +153,9 @@ Result<Database> Database::create(const std::string& file) {
 Result<Database> Database::open(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    return refuse(file, "there is no such file", "name a file that Steadyrest has recorded");
+    return refuse(file,
+                  std::filesystem::exists(file, error) ? "is not a file" : "there is no such file",
+                  "name a file that Steadyrest has recorded");
   }
   auto database = open(file, SQLITE_OPEN_READONLY);
   if (database) {

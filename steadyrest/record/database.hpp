@@ -52,6 +52,8 @@ class Statement {
 class Database {
  public:
   /// Makes the file; refuses one that exists.
+  /// Refused: no name, or one that a file has.
+  static kernel::outcome::Result<void> check_new(const std::string& file);
   static kernel::outcome::Result<Database> create(const std::string& file);
   /// For reading. A file that is no database is refused by the first statement.
   static kernel::outcome::Result<Database> open(const std::string& file);

@@ -15,10 +15,37 @@ namespace {
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
+Result<bool> is_zero(const Result<std::int64_t>& count) {
+  return count ? Result<bool>(*count == 0) : std::unexpected(count.error());
+}
+
+/// Older versions named the file before they had made its tables.
+Result<bool> holds_nothing(Database& database, bool ours) {
+  auto nothing = is_zero(database.number("SELECT count(*) FROM sqlite_master"));
+  if (nothing && !*nothing && ours) {
+    nothing = is_zero(database.number("SELECT count(*) FROM sqlite_master WHERE name = 'chunk'"));
+    if (nothing && !*nothing) {
+      return is_zero(
+          database.number("SELECT (SELECT count(*) FROM run) + (SELECT count(*) FROM chunk)"));
+    }
+  }
+  return nothing;
+}
+
 Result<void> check_format(Database& database, const std::string& file) {
   const auto application = database.number("PRAGMA application_id");
   if (!application) {
     return std::unexpected(application.error());
+  }
+  const auto nothing = holds_nothing(database, *application == kApplication);
+  if (!nothing) {
+    return std::unexpected(nothing.error());
+  }
+  if (*nothing) {
+    return refuse(file,
+                  "holds nothing: the layer that began this record ended before it had written "
+                  "anything",
+                  "delete it");
   }
   if (*application != kApplication) {
     return refuse(file, "is no record of a run", "name a file that Steadyrest has recorded");

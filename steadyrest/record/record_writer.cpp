@@ -167,7 +167,9 @@ class RecordWriter::Thread {
       if (!sample) {
         break;
       }
-      if (!cycle_.failed) {
+      if (cycle_.failed) {
+        cycle_.drop();
+      } else {
         store_->add(*sample);
       }
       if (!cycle_.failed && store_->waiting() >= kMostInChunk) {
@@ -211,6 +213,7 @@ class RecordWriter::Thread {
     {
       const std::scoped_lock lock(mutex_);
       fault_ = fault;
+      cycle_.dropped.fetch_add(store_->lost());
       cycle_.failed = true;
     }
     if (config_.on_fault) {

@@ -19,12 +19,13 @@ inline constexpr std::int64_t kListenerFormat = 4;
 inline constexpr int kDelayShift = 16;
 inline constexpr int kAccelerationShift = 32;
 
+/// How a record is written: a power cut costs no more than the last transactions.
+inline constexpr const char* kWriting = "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL";
+
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;
 PRAGMA user_version = 4;
-PRAGMA journal_mode = WAL;
-PRAGMA synchronous = NORMAL;
 CREATE TABLE run (
   start_utc TEXT NOT NULL, version TEXT NOT NULL, machine TEXT NOT NULL,
   machine_text TEXT NOT NULL, program TEXT NOT NULL, program_text TEXT NOT NULL,

@@ -54,11 +54,25 @@ TEST(RefusedRecord, WholeOnesAreNot) {
 TEST(RefusedRecord, WhatIsNoRecordSaysSo) {
   const test::Folder folder;
   EXPECT_THAT(refusal(folder.file("none.sqlite")), testing::HasSubstr("no such file"));
-  EXPECT_THAT(refusal(folder.path()), testing::HasSubstr("no such file"));
+  EXPECT_THAT(refusal(folder.path()), testing::HasSubstr("is not a file"));
   std::ofstream(folder.file("text.sqlite")) << std::string(5000, 'x');
   EXPECT_THAT(refusal(folder.file("text.sqlite")), testing::HasSubstr("is no record of a run"));
   std::ofstream(folder.file("empty.sqlite")).flush();
-  EXPECT_THAT(refusal(folder.file("empty.sqlite")), testing::HasSubstr("is no record of a run"));
+  EXPECT_THAT(refusal(folder.file("empty.sqlite")), testing::HasSubstr("holds nothing"));
+}
+
+// As layers of older versions left it when they were killed as they started.
+TEST(RefusedRecord, OneThatWasOnlyBegunHoldsNothing) {
+  const std::string clear = "DELETE FROM run; DELETE FROM chunk; DELETE FROM chunk_column; ";
+  for (const std::string& left :
+       {clear, clear + "DROP TABLE event", clear + "DROP TABLE chunk; DROP TABLE event",
+        std::string("DROP TABLE run; DROP TABLE totals; DROP TABLE chunk; DROP TABLE "
+                    "chunk_column; DROP TABLE path; DROP TABLE path_part; DROP TABLE event")}) {
+    const test::Folder folder;
+    const std::string file = record(folder);
+    change(file, left);
+    EXPECT_THAT(refusal(file), testing::HasSubstr("holds nothing")) << left;
+  }
 }
 
 TEST(RefusedRecord, ADatabaseOfAnotherProgram) {

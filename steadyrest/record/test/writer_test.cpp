@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -67,6 +71,67 @@ TEST(RecordWriter, ARunIsReadWhileItIsWritten) {
   EXPECT_FALSE(reader.next(sample).value());
 }
 
+// SQLite goes on writing a file that has no name any more.
+TEST(RecordWriter, SaysThatItsFileWasRemovedAndCountsWhatThatCosts) {
+  for (const char* const removed : {"a.sqlite", "a.sqlite-wal", ""}) {
+    test::Folder folder;
+    int told = 0;
+    const auto writer =
+        RecordWriter::make({.file = folder.file("a.sqlite"),
+                            .on_fault = [&told](const kernel::outcome::Refusal&) { ++told; }})
+            .value();
+    for (int i = 0; i < 5; ++i) {
+      test::add(*writer, {});
+    }
+    writer->flush();
+    EXPECT_EQ(writer->dropped(), 0U);
+    std::filesystem::remove_all(*removed == '\0' ? folder.path() : folder.file(removed));
+    test::add(*writer, {});
+    writer->flush();
+    test::add(*writer, {});
+    ASSERT_TRUE(writer->failed()) << removed;
+    EXPECT_NE(writer->fault()->what.find("removed"), std::string::npos);
+    EXPECT_EQ(writer->dropped(), 7U) << removed;
+    EXPECT_EQ(told, 1);
+  }
+}
+
+TEST(RecordWriter, AFileThatIsMovedGoesOn) {
+  const test::Folder folder;
+  {
+    const auto writer = test::quiet_writer(folder.file("a.sqlite"));
+    test::add(*writer, {});
+    writer->flush();
+    std::filesystem::rename(folder.file("a.sqlite"), folder.file("b.sqlite"));
+    std::filesystem::rename(folder.file("a.sqlite-wal"), folder.file("b.sqlite-wal"));
+    test::add(*writer, {});
+    writer->flush();
+    EXPECT_FALSE(writer->failed());
+  }
+  EXPECT_EQ(RecordReader::open(folder.file("b.sqlite")).value().totals().samples, 2U);
+}
+
+// A layer that is killed as it starts leaves a record that opens, or none.
+TEST(RecordWriter, TheFileHasItsNameOnlyOnceItSaysWhatIsRecorded) {
+  const test::Folder folder;
+  for (int i = 0; i < 40; ++i) {
+    const std::string file = folder.file(std::to_string(i) + ".sqlite");
+    const pid_t child = fork();
+    if (child == 0) {
+      const auto writer = RecordWriter::make({.file = file});
+      pause();
+      _exit(1);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500 * i));
+    kill(child, SIGKILL);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    if (std::filesystem::exists(file)) {
+      const auto opened = RecordReader::open(file);
+      EXPECT_TRUE(opened) << kernel::outcome::text(opened.error());
+    }
+  }
+}
+
 TEST(RecordWriter, RefusesAFileThatExistsAndAFolderThatDoesNot) {
   const test::Folder folder;
   test::quiet_writer(folder.file("a.sqlite"));
@@ -92,7 +157,8 @@ int record_until_full(const std::string& file) {
   const std::uint64_t before = writer->dropped();
   test::add(*writer, {});
   writer->flush();
-  return writer->failed() && writer->fault() && writer->dropped() == before + 1 ? 0 : 1;
+  return writer->failed() && writer->fault() && before > 0 && writer->dropped() == before + 1 ? 0
+                                                                                              : 1;
 }
 
 // In a child process, since the limit holds for the whole process.

@@ -45,14 +45,16 @@ TEST(DiskFull, EndsTheRecordAndNotTheRun) {
   });
   // No file may be larger than 160 blocks of 512 bytes: enough to begin.
   const std::string text =
-      printed("ulimit -f 160; cd '" + scratch.at("") + "' && exec " + STEADYREST_PROGRAM +
+      printed("ulimit -f 160; cd '" + scratch.at("") + "' && { " + STEADYREST_PROGRAM +
               " run --json --for-s 3 --mode act --socket s --record runs --machine " +
               project_file("examples/machines/vmc-840d.toml") + " --program " +
-              project_file("examples/programs/circle-r10.mpf") + " 2>said");
+              project_file("examples/programs/circle-r10.mpf") +
+              " 2>said; test $? -eq 1; }");  // what was asked for is not done
   const auto answer = nlohmann::json::parse(text, nullptr, false);
   ASSERT_TRUE(answer.is_object()) << text;
   EXPECT_GE(answer["cycles"], 750) << "3 s of 4 ms";
   ASSERT_TRUE(answer["record"]["fault"].is_string()) << answer["record"].dump();
+  EXPECT_GT(answer["record"]["dropped"], 0);
   EXPECT_EQ(answer["port_faults"], 0);
   EXPECT_TRUE(is_ended(status)) << status;
   const std::string said = text_of_file(scratch.at("said"));

@@ -105,6 +105,7 @@ void RunRecord::put(Answer& answer) {
                            {"fault", fault ? Json(fault->what) : Json(nullptr)}};
   answer.text += fmt::format("record: {}, {} cycles lost\n", file_, writer_->dropped());
   if (fault) {
+    answer.exit_code = kFailed;
     answer.text += "the record ended before the run: " + fault->what + "\n";
   }
 }
