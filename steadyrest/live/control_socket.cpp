@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <list>
 #include <thread>
 #include <utility>
 
@@ -27,6 +29,7 @@ using boost::system::error_code;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
+constexpr double kCheck_s = 2.0;
 constexpr auto kPauseAfterFault = std::chrono::milliseconds(100);
 constexpr std::string_view kTooLong =
     R"({"version":1,"error":{"what":"the line is too long; allowed: 4096 bytes","to_do":"send one request in a line"}})";
@@ -34,13 +37,22 @@ constexpr std::string_view kTooLong =
 /// One client: a line, its answer, the next line.
 class Client : public std::enable_shared_from_this<Client> {
  public:
-  Client(stream_protocol::socket socket, const ControlSocket::Answer& answer, std::size_t& count)
-      : socket_(std::move(socket)), answer_(answer), count_(count), buffer_(kMostLine) {
-    ++count_;
+  using All = std::list<Client*>;  ///< the one that has said nothing for longest is first
+
+  Client(stream_protocol::socket socket, const ControlSocket::Answer& answer, All& all)
+      : socket_(std::move(socket)), answer_(answer), all_(all), buffer_(kMostLine) {
+    all_.push_back(this);
   }
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
-  ~Client() { --count_; }
+  ~Client() { std::erase(all_, this); }
+
+  /// Each answer is made at once: whoever is here waits for the client alone.
+  void give_way() {
+    std::erase(all_, this);
+    error_code ignored;
+    socket_.close(ignored);
+  }
 
   void next() {
     asio::async_read_until(socket_, buffer_, '\n',
@@ -61,6 +73,9 @@ class Client : public std::enable_shared_from_this<Client> {
     const auto* const data = static_cast<const char*>(buffer_.data().data());
     const std::string line(data, size - 1);
     buffer_.consume(size);
+    if (const auto at = std::ranges::find(all_, this); at != all_.end()) {
+      all_.splice(all_.end(), all_, at);
+    }
     say(answer_(line), false);
   }
 
@@ -77,7 +92,7 @@ class Client : public std::enable_shared_from_this<Client> {
 
   stream_protocol::socket socket_;
   const ControlSocket::Answer& answer_;
-  std::size_t& count_;
+  All& all_;
   asio::streambuf buffer_;
   std::string out_;
 };
@@ -131,7 +146,10 @@ class Server final : public ControlSocket {
  private:
   void accept() {
     acceptor_.async_accept([this](error_code fault, stream_protocol::socket socket) {
-      if (!fault && clients_ < kMostClients) {
+      if (!fault) {
+        if (clients_.size() >= kMostClients) {
+          clients_.front()->give_way();
+        }
         std::make_shared<Client>(std::move(socket), answer_, clients_)->next();
       }
       if (!acceptor_.is_open()) {
@@ -150,13 +168,26 @@ class Server final : public ControlSocket {
 
   std::string path_;
   Answer answer_;
-  std::size_t clients_ = 0;
+  Client::All clients_;
   asio::io_context io_{1};
   stream_protocol::acceptor acceptor_;
   asio::steady_timer pause_;
   std::thread thread_;
   bool bound_ = false;
 };
+
+/// By the system's own timeout, as all calls of this socket: they block, connect() too.
+error_code connected(stream_protocol::socket& socket, const std::string& path, double timeout_s) {
+  error_code fault;
+  fault = socket.open(stream_protocol(), fault);
+  const auto whole = static_cast<time_t>(timeout_s);
+  const timeval most{
+      .tv_sec = whole,
+      .tv_usec = static_cast<suseconds_t>(1e6 * (timeout_s - static_cast<double>(whole)))};
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
+  return fault ? fault : socket.connect(stream_protocol::endpoint(path), fault);
+}
 
 bool fits(const std::string& path) noexcept {
   return !path.empty() && path.size() < sizeof(sockaddr_un::sun_path);
@@ -186,12 +217,14 @@ Result<void> ControlSocket::check(const std::string& path) {
   asio::io_context io;
   stream_protocol::socket other(io);
   error_code fault;
-  fault = other.connect(stream_protocol::endpoint(path), fault);
-  if (!fault) {
-    return refuse(path, "another layer answers on this socket",
-                  "stop it first, or give another --socket");
+  fault = connected(other, path, kCheck_s);
+  if (fault == asio::error::connection_refused || fault == error_code(ENOENT, fault.category())) {
+    return {};
   }
-  return {};
+  return refuse(path,
+                !fault ? "another layer answers on this socket"
+                       : "another layer may be on this socket: " + fault.message(),
+                "stop it first, or give another --socket");
 }
 
 Result<std::unique_ptr<ControlSocket>> ControlSocket::open(const std::string& path, Answer answer) {
@@ -210,34 +243,44 @@ Result<std::string> ask(const std::string& path, const std::string& line, double
     return kernel::outcome::unavailable(fmt::format("no layer answers on {}: {}", path, why),
                                         "start one with `steadyrest run`, or give its --socket");
   };
+  // Whoever is told that there is none starts a second one.
+  const auto silent = [&](const std::string& why) {
+    return kernel::outcome::unavailable(
+        fmt::format("the layer on {} runs but {}", path, why),
+        "try again; where it goes on like this, take the machine over at its panel before you end "
+        "the layer");
+  };
   if (!fits(path)) {
     return refuse(path, "is no path of a socket", "give the --socket of the layer");
   }
   asio::io_context io;
   stream_protocol::socket socket(io);
   error_code fault;
-  fault = socket.connect(stream_protocol::endpoint(path), fault);
+  fault = connected(socket, path, timeout_s);
+  if (fault == asio::error::no_buffer_space) {  // what Asio makes of EAGAIN
+    return silent("does not take the connection");
+  }
+  if (fault == asio::error::access_denied) {
+    return kernel::outcome::unavailable(
+        fmt::format("the layer on {} belongs to another user", path),
+        "ask it as that user: sudo -u USER steadyrest …");
+  }
   if (fault) {
     return none(fault.message());
   }
-  // The system's own timeout: this is a blocking call.
-  const auto whole = static_cast<time_t>(timeout_s);
-  const timeval most{
-      .tv_sec = whole,
-      .tv_usec = static_cast<suseconds_t>(1e6 * (timeout_s - static_cast<double>(whole)))};
-  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
-  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
   const std::string out = line + '\n';
   std::string in;
   if (::send(socket.native_handle(), out.data(), out.size(), MSG_NOSIGNAL) !=
       static_cast<ssize_t>(out.size())) {
-    return none("it does not take the request");
+    return silent("does not take the request");
   }
   std::array<char, 1024> part{};
   while (in.find('\n') == std::string::npos) {
     const ssize_t got = ::recv(socket.native_handle(), part.data(), part.size(), 0);
     if (got <= 0) {
-      return none("it does not answer in time");
+      return silent(got == 0 || errno == ECONNRESET
+                        ? "has closed the connection: others ask it without end"
+                        : fmt::format("has not answered within {} s", timeout_s));
     }
     in.append(part.data(), static_cast<std::size_t>(got));
   }

@@ -13,7 +13,7 @@ namespace steadyrest::live {
 
 /// The longest line of a client, bytes.
 inline constexpr std::size_t kMostLine = 4096;
-/// Clients at a time; further ones are turned away.
+/// Clients at a time; for a further one, the one that has said nothing for longest gives way.
 inline constexpr std::size_t kMostClients = 16;
 
 /// `$XDG_RUNTIME_DIR/steadyrest.sock`, or `/run/steadyrest.sock` where that is not set.
@@ -41,8 +41,8 @@ class ControlSocket {
   virtual ~ControlSocket() = default;
 };
 
-/// Sends a line to the socket and waits for the answer. Refused (unavailable): nobody answers
-/// within `timeout_s`.
+/// Sends a line to the socket and waits for the answer. Refused (unavailable): there is no layer,
+/// one of another user, or one that does not answer within `timeout_s`.
 [[nodiscard]] kernel::outcome::Result<std::string> ask(const std::string& path,
                                                        const std::string& line,
                                                        double timeout_s = 2.0);

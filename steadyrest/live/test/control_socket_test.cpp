@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -73,6 +74,20 @@ using ::testing::HasSubstr;
 
 std::string echo(std::string_view line) {
   return "seen: " + std::string(line);
+}
+
+sockaddr_un name_of(const std::string& path) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  path.copy(name.sun_path, sizeof name.sun_path - 1);
+  return name;
+}
+
+int connected_to(const std::string& path) {
+  const int client = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  const sockaddr_un name = name_of(path);
+  EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+  return client;
 }
 
 class OnSocket : public ::testing::Test {
@@ -177,6 +192,52 @@ TEST_F(OnSocket, WithoutADescriptorItWaitsBeforeItAcceptsAgain) {
   EXPECT_EQ(::recv(client, answer.data(), answer.size(), MSG_WAITALL), 11);
   EXPECT_EQ(answer, "seen: late\n") << "and the client that waited is answered";
   ::close(client);
+}
+
+TEST_F(OnSocket, WhoeverOnlyHoldsConnectionsKeepsNobodyOut) {
+  const auto socket = ControlSocket::open(path, echo);
+  std::vector<int> idle;
+  for (std::size_t i = 0; i < 3 * kMostClients; ++i) {
+    idle.push_back(connected_to(path));
+    const std::string part = i % 2 == 0 ? "" : "half a line";
+    ::send(idle.back(), part.data(), part.size(), MSG_NOSIGNAL);
+  }
+  const auto answer = ask(path, "hand back", 20.0);
+  ASSERT_TRUE(answer.has_value()) << answer.error().what;
+  EXPECT_EQ(*answer, "seen: hand back");
+  std::ranges::for_each(idle, ::close);
+}
+
+// Their answers fill the sockets' buffers.
+TEST_F(OnSocket, WhoeverAsksAndNeverReadsKeepsNobodyOut) {
+  const auto socket = ControlSocket::open(
+      path, [](std::string_view /*line*/) { return std::string(1 << 20, 'x'); });
+  std::vector<int> hogs;
+  for (std::size_t i = 0; i < 2 * kMostClients; ++i) {
+    hogs.push_back(connected_to(path));
+    ::send(hogs.back(), "a\n", 2, MSG_NOSIGNAL);
+  }
+  const auto answer = ask(path, "hand back", 20.0);
+  EXPECT_TRUE(answer.has_value()) << answer.error().what;
+  std::ranges::for_each(hogs, ::close);
+}
+
+// Whoever is told that there is no layer starts a second one.
+TEST_F(OnSocket, ALayerThatHangsIsNotTakenForNone) {
+  const int hangs = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  const sockaddr_un name = name_of(path);
+  ASSERT_EQ(::bind(hangs, reinterpret_cast<const sockaddr*>(&name), sizeof name), 0);
+  ASSERT_EQ(::listen(hangs, 1), 0);
+  const int first = connected_to(path);
+  for (int i = 0; i < 2; ++i) {  // with a place in the queue, and without
+    const auto answer = ask(path, "hand back", 0.2);
+    ASSERT_FALSE(answer.has_value());
+    EXPECT_THAT(answer.error().what, HasSubstr("runs but"));
+    EXPECT_THAT(answer.error().to_do, ::testing::Not(HasSubstr("steadyrest run")));
+  }
+  EXPECT_FALSE(ControlSocket::check(path).has_value());
+  ::close(first);
+  ::close(hangs);
 }
 
 TEST_F(OnSocket, NobodyThereIsUnavailable) {
