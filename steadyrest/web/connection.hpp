@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
-#include <list>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -30,34 +29,30 @@ using TlsTransport = beast::ssl_stream<beast::tcp_stream>;
 
 /// One client's requests, each answered before the next is read.
 template <class Transport>
-class Connection final : public Waiting,
-                         public std::enable_shared_from_this<Connection<Transport>> {
+class Connection final : public Guest, public std::enable_shared_from_this<Connection<Transport>> {
  public:
   static constexpr bool kSecure = std::is_same_v<Transport, TlsTransport>;
 
-  Connection(Traffic& traffic, Transport transport, std::string address)
+  /// In a kept place only urgent requests are answered.
+  Connection(Traffic& traffic, Transport transport, std::string address, bool kept)
       : traffic_(traffic), transport_(std::move(transport)), address_(std::move(address)) {
-    ++traffic_.connections;
+    seat_.emplace(traffic_.guests, address_, kept, *this);
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
-  ~Connection() override {
-    goes_on();
-    --traffic_.connections;
-  }
+  ~Connection() override = default;
 
   void give_way() override {
-    goes_on();
+    seat_.reset();
     beast::get_lowest_layer(transport_).close();
   }
 
   void begin() {
     if constexpr (kSecure) {
       be_patient();
-      wait();
+      waits();
       transport_.async_handshake(asio::ssl::stream_base::server,
                                  [self = this->shared_from_this()](beast::error_code fault) {
-                                   self->goes_on();
                                    if (!fault) {
                                      self->read();
                                    }
@@ -71,12 +66,25 @@ class Connection final : public Waiting,
   using Parser = http::request_parser<http::string_body>;
   static constexpr unsigned kNoContent = 204;
 
+  using Clock = std::chrono::steady_clock;
+
+  /// A message on its way, and how much of it the client has taken.
+  template <class Body>
+  struct Outgoing {
+    http::response<Body> message;
+    http::response_serializer<Body> serializer{message};
+    Clock::time_point begun = Clock::now();
+    std::size_t taken = 0;
+  };
+
   /// The whole of what follows, not each of its bytes, must come within this time.
-  void be_patient(std::uint64_t bytes = 0) {
+  void be_patient() { be_patient(Clock::now(), 0); }
+  /// A client that takes nothing is cut off after this time; one that goes on taking has more.
+  void be_patient(Clock::time_point begun, std::size_t taken) {
     const double s =
-        traffic_.config.patience_s + static_cast<double>(bytes) / traffic_.config.slowest_bytes_s;
+        traffic_.config.patience_s + static_cast<double>(taken) / traffic_.config.slowest_bytes_s;
     beast::get_lowest_layer(transport_)
-        .expires_after(std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * s)));
+        .expires_at(begun + std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * s)));
   }
 
   void read() {
@@ -84,27 +92,30 @@ class Connection final : public Waiting,
     parser_->header_limit(static_cast<std::uint32_t>(traffic_.config.most_head));
     parser_->body_limit(traffic_.config.most_body);
     be_patient();
-    wait();
+    waits();
     http::async_read(transport_, buffer_, *parser_,
                      [self = this->shared_from_this()](beast::error_code fault, std::size_t) {
                        self->got(fault);
                      });
   }
 
-  void wait() { place_ = traffic_.waiting.insert(traffic_.waiting.end(), this); }
-  void goes_on() {
-    if (place_) {
-      traffic_.waiting.erase(*std::exchange(place_, std::nullopt));
+  void waits() {
+    if (seat_) {
+      seat_->waits();
     }
   }
+  [[nodiscard]] bool is_kept() const { return seat_ && seat_->is_kept(); }
 
   void got(beast::error_code fault) {
-    goes_on();
     if (fault) {
       unreadable(fault);
       return;
     }
-    if (auto refused = repeated()) {
+    auto refused = repeated();
+    if (!refused) {
+      refused = refuse_framing(framing());
+    }
+    if (refused) {
       last_ = true;
       write(std::move(*refused));
       return;
@@ -115,17 +126,28 @@ class Connection final : public Waiting,
       write(error(400, "bad_request", "the address cannot be read", "see the API's description"));
       return;
     }
+    client_ = request.address;
     const bool stream = websocket::is_upgrade(parser_->get());
     const bool writes = stream || (request.method != "GET" && request.method != "HEAD");
-    if (auto refused = traffic_.gate.refuse(request, writes, traffic_.handlers.now_s()); refused) {
+    refused = traffic_.gate.refuse(request, writes, traffic_.handlers.now_s());
+    const bool urgent = traffic_.gate.is_urgent(request);
+    if (!refused && is_kept() && !urgent) {
+      last_ = true;
+      refused = busy("all connections are being answered");
+    }
+    if (refused) {
       write(std::move(*refused));
       return;
     }
-    asio::post(traffic_.answers,
-               [self = this->shared_from_this(), stream, request = std::move(request)]() mutable {
-                 self->answer(request, stream);
-                 leave(std::move(self));
-               });
+    if (seat_) {
+      seat_->works();
+    }
+    traffic_.answers.take(
+        [self = this->shared_from_this(), stream, request = std::move(request)]() mutable {
+          self->answer(request, stream);
+          leave(std::move(self));
+        },
+        urgent);
   }
 
   void unreadable(beast::error_code fault) {
@@ -146,10 +168,30 @@ class Connection final : public Waiting,
     return fmt::format("send at most {} bytes", bytes);
   }
 
+  static Response busy(const std::string& what) {
+    Response out = error(503, "busy", what, "wait for them, or ask again later");
+    out.head.emplace_back("Retry-After", "5");
+    return out;
+  }
+
+  /// How the request says where its body ends.
+  [[nodiscard]] Framing framing() const {
+    const auto& from = parser_->get();
+    Framing out;
+    out.length = std::string(from[http::field::content_length]);
+    out.knows_chunks = from.version() >= 11;
+    const auto [begin, end] = from.equal_range(http::field::transfer_encoding);
+    for (auto at = begin; at != end; ++at) {
+      out.codings.emplace_back(at->value());
+    }
+    return out;
+  }
+
   /// A proxy in front might go by the other one.
   [[nodiscard]] std::optional<Response> repeated() const {
     constexpr std::array kOnce = {http::field::host, http::field::origin,
-                                  http::field::authorization, http::field::content_type};
+                                  http::field::authorization, http::field::content_type,
+                                  http::field::content_length};
     for (const http::field name : kOnce) {
       if (const std::size_t count = parser_->get().count(name); count > 1) {
         return error(400, "bad_request",
@@ -204,20 +246,19 @@ class Connection final : public Waiting,
       deliver(std::move(response));
       return;
     }
-    SlowAnswers& makes = response.minutes ? traffic_.slowest : traffic_.slow;
-    const bool taken =
-        makes.take([self = this->shared_from_this(),
-                    later = std::move(response.later)](const std::stop_token& stop) mutable {
+    SlowAnswers& makes = response.takes == Takes::minutes   ? traffic_.slowest
+                         : response.takes == Takes::hashing ? traffic_.hashing
+                                                            : traffic_.slow;
+    const bool taken = makes.take(
+        request.address, [self = this->shared_from_this(),
+                          later = std::move(response.later)](const std::stop_token& stop) mutable {
           return [self = std::move(self), made = later(stop)]() mutable {
             self->deliver(std::move(made));
             leave(std::move(self));
           };
         });
     if (!taken) {
-      Response busy = error(503, "busy", "other long answers are being made",
-                            "wait for them, or ask again later");
-      busy.head.emplace_back("Retry-After", "5");
-      deliver(std::move(busy));
+      deliver(busy("other long answers are being made"));
     }
   }
 
@@ -239,12 +280,12 @@ class Connection final : public Waiting,
   void upgrade(std::variant<Server::Admitted, Response> admitted) {
     if (auto* refused = std::get_if<Response>(&admitted); refused != nullptr) {
       write(std::move(*refused));
-    } else if (traffic_.streams.size() >= traffic_.config.most_streams) {
+    } else if (!traffic_.has_room_for_stream(client_)) {
       write(error(503, "too_many_streams", "too many pages are open", "close one of them"));
     } else {
       beast::get_lowest_layer(transport_).expires_never();  // the stream has its own times
-      std::make_shared<StreamClient<Transport>>(traffic_, std::move(transport_),
-                                                std::move(std::get<Server::Admitted>(admitted)))
+      std::make_shared<StreamClient<Transport>>(
+          traffic_, std::move(transport_), std::move(std::get<Server::Admitted>(admitted)), client_)
           ->accept(parser_->get());
     }
   }
@@ -260,18 +301,32 @@ class Connection final : public Waiting,
     for (const auto& [name, value] : of.head) {
       message.insert(name, value);
     }
-    const bool goes_on = message.keep_alive();
-    auto kept = std::make_shared<http::response<Body>>(std::move(message));
-    be_patient(of.file.empty() ? 0 : kept->payload_size().value_or(0));
-    http::async_write(transport_, *kept,
-                      [self = this->shared_from_this(), kept, goes_on](beast::error_code fault,
-                                                                       std::size_t /*size*/) {
-                        if (!fault && goes_on) {
-                          self->read();
-                        } else {
-                          self->close();
-                        }
-                      });
+    waits();
+    write_some(std::make_shared<Outgoing<Body>>(std::move(message)));
+  }
+
+  template <class Body>
+  void write_some(std::shared_ptr<Outgoing<Body>> out) {
+    be_patient(out->begun, out->taken);
+    auto& serializer = out->serializer;
+    http::async_write_some(transport_, serializer,
+                           [self = this->shared_from_this(), out = std::move(out)](
+                               beast::error_code fault, std::size_t size) mutable {
+                             out->taken += size;
+                             self->wrote(fault, std::move(out));
+                           });
+  }
+
+  template <class Body>
+  void wrote(beast::error_code fault, std::shared_ptr<Outgoing<Body>> out) {
+    waits();
+    if (!fault && !out->serializer.is_done()) {
+      write_some(std::move(out));
+    } else if (!fault && out->message.keep_alive()) {
+      read();
+    } else {
+      close();
+    }
   }
 
   void write(Response response) {
@@ -314,6 +369,7 @@ class Connection final : public Waiting,
 
   void close() {
     if constexpr (kSecure) {
+      waits();
       beast::get_lowest_layer(transport_).expires_after(std::chrono::seconds(2));
       transport_.async_shutdown([self = this->shared_from_this()](beast::error_code) {});
     } else {
@@ -327,8 +383,9 @@ class Connection final : public Waiting,
   std::string address_;
   beast::flat_buffer buffer_;
   std::optional<Parser> parser_;
-  bool last_ = false;                                   ///< no request is read after this one
-  std::optional<std::list<Waiting*>::iterator> place_;  ///< among those that wait
+  std::string client_;                ///< address of who asks, behind a proxy too
+  bool last_ = false;                 ///< no request is read after this one
+  std::optional<Guests::Seat> seat_;  ///< none: it has given way
 };
 
 }  // namespace steadyrest::web

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/listen.hpp>
 
 namespace steadyrest::web {
 namespace {
@@ -25,6 +26,10 @@ bool is_number(const std::string& host) {
   const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
   return bracketed ? ::inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), &address) == 1
                    : ::inet_pton(AF_INET, host.c_str(), &address) == 1;
+}
+
+bool is_proxy(const Gate::Config& config, const std::string& from) {
+  return config.proxies.empty() || std::ranges::find(config.proxies, from) != config.proxies.end();
 }
 
 }  // namespace
@@ -52,9 +57,12 @@ bool Gate::is_own(const Request& request) const {
          (!config_.outer_origin.empty() && origin == config_.outer_origin);
 }
 
+bool Gate::is_urgent(const Request& request) const {
+  return !config_.urgent_path.empty() && request.path == config_.urgent_path;
+}
+
 std::optional<Response> Gate::refuse(const Request& request, bool writes, double now_s) {
-  const bool is_urgent = !config_.urgent_path.empty() && request.path == config_.urgent_path;
-  RateLimit& rate = is_urgent ? urgent_ : rate_;
+  RateLimit& rate = is_urgent(request) ? urgent_ : rate_;
   if (!rate.take(request.address, now_s)) {
     Response out = error(429, "too_many_requests", "too many requests", "wait, then ask again");
     out.head.emplace_back("Retry-After",
@@ -72,6 +80,22 @@ std::optional<Response> Gate::refuse(const Request& request, bool writes, double
   return std::nullopt;
 }
 
+std::optional<Response> refuse_framing(const Framing& framing) {
+  if (framing.codings.empty() &&
+      framing.length.find_first_not_of("0123456789") == std::string::npos) {
+    return std::nullopt;
+  }
+  if (!framing.length.empty() || framing.codings.size() > 1 || !framing.knows_chunks) {
+    return error(400, "bad_request", "it is not clear where the body ends",
+                 "send one of Content-Length and Transfer-Encoding: chunked, once");
+  }
+  if (lower(framing.codings.front()) != "chunked") {
+    return error(501, "unknown_coding", "the transfer coding is not known; allowed: chunked",
+                 "send the body with its Content-Length");
+  }
+  return std::nullopt;
+}
+
 std::string without_port(const std::string& host) {
   const std::size_t bracket = host.rfind(']');
   const std::size_t colon = host.rfind(':');
@@ -85,7 +109,11 @@ std::string client_address(const Gate::Config& config, const std::string& from,
   const std::size_t before = forwarded.find_last_of(", ");
   const std::string last = before == std::string::npos ? forwarded : forwarded.substr(before + 1);
   const bool known = is_number(last) || is_number("[" + last + "]");
-  return !config.outer_origin.empty() && known ? last : from;
+  return !config.outer_origin.empty() && is_proxy(config, from) && known ? last : from;
+}
+
+bool may_connect(const Gate::Config& config, const std::string& from) {
+  return config.outer_origin.empty() || is_proxy(config, from) || is_loopback(from);
 }
 
 void add_security_heads(Response& response, bool secure) {

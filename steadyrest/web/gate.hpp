@@ -29,6 +29,8 @@ class Gate {
     std::string urgent_path = {};
     /// As the browser sees it through a proxy, in lower case; empty: no proxy.
     std::string outer_origin = {};
+    /// The addresses of the proxies; empty: any that can connect.
+    std::vector<std::string> proxies = {};
     RateLimit::Config rate = {};
     // NOLINTEND(readability-redundant-member-init)
   };
@@ -39,6 +41,7 @@ class Gate {
   /// Nothing: it may pass. A write, and a stream, must come from the server's own pages or from no
   /// page at all.
   [[nodiscard]] std::optional<Response> refuse(const Request& request, bool writes, double now_s);
+  [[nodiscard]] bool is_urgent(const Request& request) const;
 
  private:
   [[nodiscard]] bool knows_host(const std::string& host) const;
@@ -49,8 +52,24 @@ class Gate {
   RateLimit urgent_;
 };
 
+/// How a request says where its body ends.
+struct Framing {
+  std::string length;                ///< Content-Length; empty: none
+  bool knows_chunks = true;          ///< HTTP/1.1
+  std::vector<std::string> codings;  ///< each header Transfer-Encoding
+};
+
+/// Refused: a length that is not a number alone; any transfer coding but `chunked`, once and
+/// without a length. Somebody in front of this server could see the body end elsewhere, and another
+/// request in what is left.
+[[nodiscard]] std::optional<Response> refuse_framing(const Framing& framing);
+
 /// `[::1]:8080` → `[::1]`, `localhost:8080` → `localhost`.
 [[nodiscard]] std::string without_port(const std::string& host);
+
+/// Behind a proxy nobody else may come over the network: they could pretend to be a proxy, and
+/// would send their passwords unencrypted. `from` as web::address_of() spells it.
+[[nodiscard]] bool may_connect(const Gate::Config& config, const std::string& from);
 
 /// Who asks. A proxy that was named adds the address that it sees to the end of `forwarded`, the
 /// head X-Forwarded-For; without one, or where that is no address, `from` counts.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -28,6 +29,9 @@ struct Request {
   bool secure = false;  ///< over TLS
 };
 
+/// How long an answer takes that is made beside the others. None waits for one of another kind.
+enum class Takes : std::uint8_t { seconds, minutes, hashing };
+
 struct Response {
   unsigned status = 200;
   std::string content_type = "application/json";
@@ -39,7 +43,7 @@ struct Response {
   /// Makes the answer, which takes long: beside the others, and without looking at what they share.
   /// It gives up when it is told to stop. The rest of this response then counts for nothing.
   std::function<Response(std::stop_token)> later;
-  bool minutes = false;  ///< that is how long it may take; else seconds, which wait for no minutes
+  Takes takes = Takes::seconds;
 };
 
 /// Takes a request's target apart. False where it is none: it does not begin with `/`, has a wrong

@@ -8,17 +8,22 @@ namespace steadyrest::web {
 double RateLimit::left(const std::string& key, double now_s) const {
   const auto at = by_key_.find(key);
   if (at == by_key_.end()) {
-    return by_key_.size() < config_.most_keys ? config_.burst : 0.0;
+    return config_.burst;
   }
   const double more = std::max(0.0, now_s - at->second.at_s) * config_.per_s;
   return std::min(config_.burst, at->second.left + more);
 }
 
-/// Forgets those that are full again, where there is no room for a new key.
+/// Forgets those that are full again, where there is no room for a new key; else the fullest.
 void RateLimit::make_room(const std::string& key, double now_s) {
-  if (by_key_.size() >= config_.most_keys && !by_key_.contains(key)) {
-    const double full_s = config_.burst / config_.per_s;
-    std::erase_if(by_key_, [&](const auto& at) { return now_s - at.second.at_s > full_s; });
+  if (by_key_.size() < config_.most_keys || by_key_.contains(key)) {
+    return;
+  }
+  const double full_s = config_.burst / config_.per_s;
+  std::erase_if(by_key_, [&](const auto& at) { return now_s - at.second.at_s > full_s; });
+  if (by_key_.size() >= config_.most_keys) {
+    by_key_.erase(std::ranges::max_element(by_key_, {},
+                                           [&](const auto& at) { return left(at.first, now_s); }));
   }
 }
 
@@ -33,13 +38,12 @@ bool RateLimit::take(const std::string& key, double now_s) {
   return true;
 }
 
-bool RateLimit::has_room(const std::string& key, double now_s) {
+bool RateLimit::has_room(const std::string& key, double now_s) const {
   const std::scoped_lock lock(mutex_);
-  make_room(key, now_s);
   return left(key, now_s) >= 1.0;
 }
 
-double RateLimit::wait_s(const std::string& key, double now_s) {
+double RateLimit::wait_s(const std::string& key, double now_s) const {
   const std::scoped_lock lock(mutex_);
   return std::max(0.0, 1.0 - left(key, now_s)) / config_.per_s;
 }

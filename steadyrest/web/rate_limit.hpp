@@ -8,8 +8,9 @@
 
 namespace steadyrest::web {
 
-/// So many events at once and so many a second, for each key: a token bucket. Memory is bounded;
-/// beyond `most_keys` at work at the same time nobody new gets in. From any thread.
+/// So many events at once and so many a second, for each key: a token bucket. Memory is bounded:
+/// beyond `most_keys` the one that has most left is forgotten for a new one, so that many addresses
+/// shut nobody out and none that has used up its share gets it back. From any thread.
 class RateLimit {
  public:
   struct Config {
@@ -23,9 +24,9 @@ class RateLimit {
   /// Counts one event; false: too many.
   [[nodiscard]] bool take(const std::string& key, double now_s);
   /// Whether take() would be true, without counting.
-  [[nodiscard]] bool has_room(const std::string& key, double now_s);
+  [[nodiscard]] bool has_room(const std::string& key, double now_s) const;
   /// How long until there is room for one.
-  [[nodiscard]] double wait_s(const std::string& key, double now_s);
+  [[nodiscard]] double wait_s(const std::string& key, double now_s) const;
 
  private:
   struct Bucket {
@@ -36,7 +37,7 @@ class RateLimit {
   void make_room(const std::string& key, double now_s);
 
   Config config_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::unordered_map<std::string, Bucket> by_key_;
 };
 

@@ -8,6 +8,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/web/connection.hpp>
+#include <steadyrest/web/listen.hpp>
 #include <steadyrest/web/server.hpp>
 
 namespace steadyrest::web {
@@ -143,32 +144,26 @@ class BeastServer final : public Server {
   void take(tcp::socket socket) {
     beast::error_code fault;
     const auto from = socket.remote_endpoint(fault);
-    if (fault || !has_room()) {
+    // A client has one address, whichever protocol it came by.
+    const std::string address = fault ? "" : address_of(from.address().to_string()).value_or("");
+    if (fault || !may_connect(traffic_.config.gate, address)) {
       return;  // it is closed
     }
+    const auto place = traffic_.guests.find(address);
+    if (place == Guests::Place::none) {
+      return;
+    }
+    const bool kept = place == Guests::Place::kept;
     fault = socket.set_option(tcp::no_delay(true), fault);  // else a frame may come late
-    const std::string address = from.address().to_string();
     if (tls_) {
       std::make_shared<Connection<TlsTransport>>(
-          traffic_, TlsTransport(beast::tcp_stream(std::move(socket)), *tls_), address)
+          traffic_, TlsTransport(beast::tcp_stream(std::move(socket)), *tls_), address, kept)
           ->begin();
     } else {
       std::make_shared<Connection<PlainTransport>>(traffic_, PlainTransport(std::move(socket)),
-                                                   address)
+                                                   address, kept)
           ->begin();
     }
-  }
-
-  /// Clients that only hold connections keep nobody out.
-  bool has_room() {
-    if (traffic_.connections < traffic_.config.most_connections) {
-      return true;
-    }
-    if (traffic_.waiting.empty()) {
-      return false;
-    }
-    traffic_.waiting.front()->give_way();
-    return true;
   }
 
   void look() {

@@ -18,10 +18,11 @@ namespace steadyrest::web {
 
 /// HTTP and WebSocket, plain or over TLS, on Boost.Beast.
 ///
-/// One thread does the traffic, another makes the answers, one after the other; those that say they
-/// take long (Response::later) are made beside them. Bounded: connections, streams, sizes of head
-/// and body, time. A stream's client that is slower than the stream gets the newest message and is
-/// told how many it has missed; it never delays another.
+/// One thread does the traffic, another makes the answers, one after the other and urgent ones
+/// (Gate::Config::urgent_path) first; those that say they take long (Response::later) are made
+/// beside them. Bounded: connections, streams, sizes of head and body, time. A stream's client that
+/// is slower than the stream gets the newest message and is told how many it has missed; it never
+/// delays another.
 class Server {
  public:
   struct Config {
@@ -33,16 +34,17 @@ class Server {
     Gate::Config gate = {};
     std::string stream_path = {};
     // NOLINTEND(readability-redundant-member-init)
-    std::size_t most_connections = 64;  ///< beyond, the one that has waited longest for its
-                                        ///< client gives way
-    std::size_t most_streams = 32;
+    std::size_t most_connections =
+        64;                         ///< beyond, one that waits for its client gives way (Guests)
+    std::size_t most_kept = 8;      ///< further ones, for urgent requests alone
+    std::size_t most_streams = 32;  ///< beyond, one of an address that has more than the newcomer's
     std::size_t most_head = 16'384;
     std::size_t most_body = 262'144;
-    /// Answers that take seconds, and those that take minutes, are made in two threads each; so
-    /// many of each kind may be in work or wait.
+    /// Answers that take seconds, and those that take minutes, are made in two threads each,
+    /// passwords are hashed in one; so many of each kind may be in work or wait.
     std::size_t most_slow = 8;
-    double patience_s = 15.0;          ///< for a whole request, or the next one
-    double slowest_bytes_s = 100'000;  ///< a file is given as much time more as this takes
+    double patience_s = 15.0;          ///< for a whole request, the next one, or an answer
+    double slowest_bytes_s = 100'000;  ///< an answer has more time for what its client has taken
   };
   /// A stream may begin: its first message, and whether it may still go on, asked every second.
   struct Admitted {

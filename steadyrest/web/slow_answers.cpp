@@ -21,15 +21,33 @@ void lower_priority() {
 
 }  // namespace
 
-bool SlowAnswers::take(Work work) {
-  if (taken_.fetch_add(1) >= most_) {
-    taken_.fetch_sub(1);
+bool SlowAnswers::has_room(const std::string& client) {
+  const std::scoped_lock lock(mutex_);
+  const auto at = taken_.find(client);
+  if (all_ >= config_.most || (at != taken_.end() && at->second >= config_.most_of_client)) {
     return false;
   }
-  boost::asio::post(pool_, [this, work = std::move(work)] {
+  ++all_;
+  ++taken_[client];
+  return true;
+}
+
+void SlowAnswers::free(const std::string& client) {
+  const std::scoped_lock lock(mutex_);
+  --all_;
+  if (--taken_[client] == 0) {
+    taken_.erase(client);
+  }
+}
+
+bool SlowAnswers::take(const std::string& client, Work work) {
+  if (!has_room(client)) {
+    return false;
+  }
+  boost::asio::post(pool_, [this, client, work = std::move(work)] {
     lower_priority();
     const auto deliver = work(stop_.get_token());
-    taken_.fetch_sub(1);
+    free(client);
     deliver();
   });
   return true;

@@ -26,8 +26,12 @@ template <class Transport>
 class StreamClient final : public Stream,
                            public std::enable_shared_from_this<StreamClient<Transport>> {
  public:
-  StreamClient(Traffic& traffic, Transport transport, Server::Admitted admitted)
-      : traffic_(traffic), socket_(std::move(transport)), admitted_(std::move(admitted)) {}
+  StreamClient(Traffic& traffic, Transport transport, Server::Admitted admitted,
+               std::string address)
+      : traffic_(traffic),
+        socket_(std::move(transport)),
+        admitted_(std::move(admitted)),
+        address_(std::move(address)) {}
   StreamClient(const StreamClient&) = delete;
   StreamClient& operator=(const StreamClient&) = delete;
   ~StreamClient() override { leave(); }
@@ -40,9 +44,16 @@ class StreamClient final : public Stream,
     socket_.set_option(timeout);
     socket_.read_message_max(kMostSaid);
     socket_.auto_fragment(false);
+    writing_ = true;  // nothing is sent before the handshake is
+    write_begun_ = Clock::now();
+    traffic_.streams.push_back(this);
+    traffic_.stream_count.store(traffic_.streams.size());
     socket_.async_accept(request, [self = this->shared_from_this()](beast::error_code fault) {
+      self->writing_ = false;
       if (!fault) {
         self->begin();
+      } else {
+        self->leave();
       }
     });
   }
@@ -69,24 +80,36 @@ class StreamClient final : public Stream,
   }
 
   void look() override {
-    if (!admitted_.goes_on()) {
+    const double patience_s = traffic_.config.patience_s;
+    if (writing_ &&
+        std::chrono::duration<double>(Clock::now() - write_begun_).count() > patience_s) {
+      give_way();
+    } else if (!admitted_.goes_on()) {
       close(websocket::close_code::policy_error);
     }
   }
 
+  /// Its client may not even take a word of farewell.
+  void give_way() override {
+    leave();
+    beast::get_lowest_layer(socket_).close();
+  }
+
+  [[nodiscard]] const std::string& address() const override { return address_; }
+
  private:
+  using Clock = std::chrono::steady_clock;
   static constexpr std::size_t kMostSaid = 4096;
   static constexpr std::size_t kMostWaiting = 8;
 
   void begin() {
-    traffic_.streams.insert(this);
-    traffic_.stream_count.store(traffic_.streams.size());
-    announce(std::make_shared<const std::string>(std::move(admitted_.first)));
+    waiting_.push_front(std::make_shared<const std::string>(std::move(admitted_.first)));
+    write();
     listen();
   }
 
   void leave() {
-    traffic_.streams.erase(this);
+    std::erase(traffic_.streams, this);
     traffic_.stream_count.store(traffic_.streams.size());
   }
 
@@ -95,13 +118,14 @@ class StreamClient final : public Stream,
         said_, [self = this->shared_from_this()](beast::error_code fault, std::size_t /*size*/) {
           if (!fault) {
             self->close(websocket::close_code::policy_error);
+          } else {
+            self->give_way();  // a write may still be waiting for it
           }
-          self->leave();
         });
   }
 
+  /// It is looked at until its client has heard of it.
   void close(websocket::close_code why) {
-    leave();
     if (!closing_) {
       closing_ = true;
       closes_for_ = why;
@@ -115,6 +139,7 @@ class StreamClient final : public Stream,
     }
     if (closing_) {
       writing_ = true;  // for good
+      write_begun_ = Clock::now();
       socket_.async_close(closes_for_, [self = this->shared_from_this()](beast::error_code) {});
       return;
     }
@@ -129,6 +154,7 @@ class StreamClient final : public Stream,
       return;
     }
     writing_ = true;
+    write_begun_ = Clock::now();
     socket_.text(true);
     socket_.async_write(asio::buffer(out_), [self = this->shared_from_this()](
                                                 beast::error_code fault, std::size_t /*size*/) {
@@ -144,12 +170,14 @@ class StreamClient final : public Stream,
   Traffic& traffic_;
   websocket::stream<Transport> socket_;
   Server::Admitted admitted_;
+  std::string address_;
   beast::flat_buffer said_;
   std::deque<std::shared_ptr<const std::string>> waiting_;
   std::shared_ptr<const std::string> newest_;
   std::size_t missed_ = 0;
   std::string out_;
   bool writing_ = false;
+  Clock::time_point write_begun_;
   bool closing_ = false;
   websocket::close_code closes_for_ = websocket::close_code::normal;
 };

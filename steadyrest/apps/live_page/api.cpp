@@ -99,7 +99,7 @@ web::Response later(std::function<web::Response(std::stop_token)> make) {
 }
 
 web::Response minutes(web::Response of) {
-  of.minutes = true;
+  of.takes = web::Takes::minutes;
   return of;
 }
 

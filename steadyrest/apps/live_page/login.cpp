@@ -20,6 +20,7 @@ namespace {
 constexpr std::string_view kCookie = "steadyrest_session";
 constexpr std::string_view kBearer = "bearer ";
 constexpr web::RateLimit::Config kFailures{.per_s = 5.0 / 60.0, .burst = 5.0, .most_keys = 4096};
+constexpr std::size_t kLongestLogIn = 8192;  ///< bytes: the longest password, escaped, and a name
 
 /// Browsers share cookies among the ports of a host, where other pages may be.
 std::string cookie_name(const web::Request& request) {
@@ -48,7 +49,8 @@ std::string text(const Json& from, const char* key) {
 Login::Login(const Config& config)
     : config_(config),
       key_(config.accounts_file.empty() ? web::new_secret() : ""),
-      failures_(kFailures) {}
+      failures_from_(kFailures),
+      failures_of_(kFailures) {}
 
 std::optional<web::Accounts> Login::accounts() const {
   auto read = web::Accounts::read(config_.accounts_file);
@@ -120,39 +122,68 @@ web::Response Login::show(const web::Request& request, double now_s) {
 }
 
 // Read each time: who was removed cannot log in again.
-std::optional<Login::Known> Login::check(const std::string& name, const std::string& password,
-                                         const std::string& key) const {
+std::optional<Login::Known> Login::check(const Shown& shown) const {
   if (!key_.empty()) {
-    return web::same_secret(key, key_)
+    return web::same_secret(shown.key, key_)
                ? std::optional(Known{{.name = "local", .role = web::Role::engineer}, ""})
                : std::nullopt;
   }
   const auto accounts = this->accounts();
-  const auto caller = accounts ? accounts->check(name, password) : std::nullopt;
-  return caller ? std::optional(Known{*caller, accounts->find_user(name)->hash}) : std::nullopt;
+  const auto caller = accounts ? accounts->check(shown.name, shown.password) : std::nullopt;
+  return caller ? std::optional(Known{*caller, accounts->find_user(shown.name)->hash})
+                : std::nullopt;
+}
+
+std::optional<web::Response> Login::too_many(const web::Request& request, const std::string& name,
+                                             double now_s) const {
+  if (failures_from_.has_room(request.address, now_s) && failures_of_.has_room(name, now_s)) {
+    return std::nullopt;
+  }
+  web::Response out = web::error(429, "too_many_failures", "too many failed log-ins",
+                                 "wait a minute, then try again");
+  const double wait_s =
+      std::max(failures_from_.wait_s(request.address, now_s), failures_of_.wait_s(name, now_s));
+  out.head.emplace_back("Retry-After", fmt::format("{}", std::ceil(wait_s)));
+  return out;
 }
 
 web::Response Login::begin(const web::Request& request, double now_s) {
+  if (request.body.size() > kLongestLogIn) {
+    return web::error(413, "too_large", "no log-in is that long",
+                      fmt::format("send at most {} bytes", kLongestLogIn));
+  }
   const auto asked = kernel::file::json_object(request.body);
   if (!asked) {
     return web::error(400, "bad_request", "the body is not a JSON object",
                       R"(send {"name":…,"password":…} or {"key":…})");
   }
-  const std::string name = text(*asked, "name");
-  // Of an account from anywhere, and of an address with any account. No account has a longer name.
-  const std::string of_name = "name " + name.substr(0, web::Accounts::kLongestName);
-  if (!failures_.has_room(request.address, now_s) || !failures_.has_room(of_name, now_s)) {
-    web::Response out = web::error(429, "too_many_failures", "too many failed log-ins",
-                                   "wait a minute, then try again");
-    const double wait_s =
-        std::max(failures_.wait_s(request.address, now_s), failures_.wait_s(of_name, now_s));
-    out.head.emplace_back("Retry-After", fmt::format("{}", std::ceil(wait_s)));
-    return out;
+  Shown shown{.name = text(*asked, "name"),
+              .password = text(*asked, "password"),
+              .key = text(*asked, "key")};
+  shown.name.resize(std::min(shown.name.size(), web::Accounts::kLongestName + 1));  // is no account
+  if (auto refused = too_many(request, shown.name, now_s)) {
+    return *refused;
   }
-  const auto known = check(name, text(*asked, "password"), text(*asked, "key"));
+  if (!key_.empty()) {
+    return decide(request, shown, now_s);
+  }
+  web::Response out;
+  out.takes = web::Takes::hashing;
+  out.later = [this, request, shown = std::move(shown), now_s](const std::stop_token& stop) {
+    return stop.stop_requested() ? web::Response{} : decide(request, shown, now_s);
+  };
+  return out;
+}
+
+// One at a time: whoever waits while others fail is counted after them.
+web::Response Login::decide(const web::Request& request, const Shown& shown, double now_s) {
+  if (auto refused = too_many(request, shown.name, now_s)) {
+    return *refused;
+  }
+  const auto known = check(shown);
   if (!known) {
-    static_cast<void>(failures_.take(request.address, now_s));
-    static_cast<void>(failures_.take(of_name, now_s));
+    static_cast<void>(failures_from_.take(request.address, now_s));
+    static_cast<void>(failures_of_.take(shown.name, now_s));
     return web::error(401, "wrong_password", "this is not a name with its password, nor the key",
                       "try again, or ask who keeps the accounts");
   }

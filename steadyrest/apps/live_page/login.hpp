@@ -38,6 +38,7 @@ class Login {
   [[nodiscard]] bool goes_on(const web::Request& request, double now_s) const;
 
   [[nodiscard]] web::Response show(const web::Request& request, double now_s);
+  /// A password is checked beside other answers (web::Takes::hashing): that takes long.
   [[nodiscard]] web::Response begin(const web::Request& request, double now_s);
   [[nodiscard]] web::Response end(const web::Request& request);
 
@@ -53,8 +54,16 @@ class Login {
   /// Of a session as the accounts are now: whoever was removed or has a new password must log in
   /// again, and a role that has changed counts.
   [[nodiscard]] std::optional<web::Caller> as_now(const web::Sessions::Session& session) const;
-  [[nodiscard]] std::optional<Known> check(const std::string& name, const std::string& password,
-                                           const std::string& key) const;
+  struct Shown {
+    std::string name;
+    std::string password;
+    std::string key;
+  };
+  [[nodiscard]] std::optional<Known> check(const Shown& shown) const;
+  /// Nothing: the address and the name may still try.
+  [[nodiscard]] std::optional<web::Response> too_many(const web::Request& request,
+                                                      const std::string& name, double now_s) const;
+  [[nodiscard]] web::Response decide(const web::Request& request, const Shown& shown, double now_s);
 
   Config config_;
   mutable std::mutex mutex_;
@@ -62,7 +71,8 @@ class Login {
   mutable std::string fault_;  ///< of the file, as it was said
   std::string key_;
   web::Sessions sessions_;
-  web::RateLimit failures_;
+  web::RateLimit failures_from_;  ///< an address, with any account
+  web::RateLimit failures_of_;    ///< an account, from anywhere
 };
 
 }  // namespace steadyrest::apps::live_page

@@ -137,5 +137,18 @@ TEST(SecurityHeads, AreOnEveryAnswer) {
   EXPECT_THAT(response.head, Contains(Pair("Strict-Transport-Security", HasSubstr("max-age"))));
 }
 
+TEST(AProxy, IsBelievedAndLetInByItsAddress) {
+  const Gate::Config none;
+  EXPECT_TRUE(may_connect(none, "10.0.0.9")) << "there is no proxy";
+  const Gate::Config any = {.outer_origin = "https://mill.example"};
+  EXPECT_TRUE(may_connect(any, "127.0.0.1"));
+  const Gate::Config named = {.outer_origin = "https://mill.example", .proxies = {"10.0.0.7"}};
+  EXPECT_TRUE(may_connect(named, "10.0.0.7"));
+  EXPECT_TRUE(may_connect(named, "127.0.0.1")) << "a script of this computer";
+  EXPECT_FALSE(may_connect(named, "10.0.0.9"));
+  EXPECT_EQ(client_address(named, "10.0.0.7", "192.168.1.7"), "192.168.1.7");
+  EXPECT_EQ(client_address(named, "127.0.0.1", "192.168.1.7"), "127.0.0.1") << "it may be forged";
+}
+
 }  // namespace
 }  // namespace steadyrest::web

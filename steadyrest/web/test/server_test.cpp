@@ -1,124 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <atomic>
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
-#include <thread>
-#include <variant>
 #include <vector>
 
 #include <boost/asio.hpp>
 #include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <steadyrest/web/server.hpp>
+#include <steadyrest/web/test/on_server.hpp>
 
 namespace steadyrest::web {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
 using asio::ip::tcp;
+using test::OnServer;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// A server that answers with what it was asked, and streams to whoever has the right cookie.
-class OnServer : public testing::Test {
- protected:
-  std::unique_ptr<Server> open(Server::Config config = {}) {
-    config.gate.hosts = {"127.0.0.1"};
-    config.stream_path = "/stream";
-    auto server = Server::open(
-        std::move(config),
-        {.answer =
-             [this](const Request& request) {
-               asked.fetch_add(1);
-               Response out;
-               out.body = request.method + " " + request.path + " " + request.body + " of " +
-                          request.address;
-               if (request.path == "/waits") {
-                 out.later = [this](const std::stop_token& stop) {
-                   until([&] { return answers.load() || stop.stop_requested(); });
-                   return Response{};
-                 };
-               }
-               return out;
-             },
-         .admit = [this](const Request& request) -> std::variant<Server::Admitted, Response> {
-           if (request.cookie != "in") {
-             return error(401, "not_logged_in", "no", "no");
-           }
-           return Server::Admitted{.first = "hello", .goes_on = [this] { return goes_on.load(); }};
-         },
-         .now_s = now_s});
-    EXPECT_TRUE(server.has_value());
-    return std::move(*server);
-  }
-
-  static tcp::socket connected(asio::io_context& io, const Server& server) {
-    tcp::socket socket(io);
-    socket.connect({asio::ip::make_address("127.0.0.1"), server.port()});
-    return socket;
-  }
-
-  /// Everything that comes back for these bytes.
-  static std::string said(const Server& server, const std::string& bytes) {
-    asio::io_context io;
-    tcp::socket socket = connected(io, server);
-    beast::error_code fault;
-    asio::write(socket, asio::buffer(bytes), fault);
-    std::string out;
-    asio::read(socket, asio::dynamic_buffer(out), fault);
-    return out;
-  }
-
-  static std::string request(const std::string& line, const std::string& head = {},
-                             const std::string& body = {}) {
-    return line + " HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n" + head +
-           (body.empty() ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
-           "\r\n" + body;
-  }
-
-  using Socket = websocket::stream<tcp::socket>;
-  static beast::error_code shake(Socket& socket, const std::string& cookie,
-                                 const std::string& origin = {}) {
-    socket.set_option(websocket::stream_base::decorator([&](websocket::request_type& head) {
-      head.set(http::field::cookie, cookie);
-      if (!origin.empty()) {
-        head.set(http::field::origin, origin);
-      }
-    }));
-    beast::error_code fault;
-    socket.handshake("127.0.0.1", "/stream", fault);
-    return fault;
-  }
-  static std::string next(Socket& socket) {
-    beast::flat_buffer buffer;
-    beast::error_code fault;
-    socket.read(buffer, fault);
-    return fault ? "closed" : beast::buffers_to_string(buffer.data());
-  }
-  static void until(const std::function<bool()>& done) {
-    while (!done()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  }
-
-  std::atomic<int> asked{0};
-  std::atomic<bool> goes_on{true};
-  std::atomic<bool> answers{false};  ///< to /waits
-};
 
 TEST_F(OnServer, AnswersWithTheHeadsThatKeepOthersOut) {
   const auto server = open();
@@ -149,8 +52,10 @@ TEST_F(OnServer, RefusesWhatIsWrongBeforeAnybodyIsAsked) {
 // A proxy in front may go by one of them, the server by the other.
 TEST_F(OnServer, RefusesAHeadThatComesTwice) {
   const auto server = open();
-  for (const std::string name : {"Host", "Origin", "Authorization", "Content-Type"}) {
-    const std::string heads = name + ": 127.0.0.1\r\n" + name + ": 127.0.0.1\r\n";
+  for (const std::string name :
+       {"Host", "Origin", "Authorization", "Content-Type", "Content-Length"}) {
+    const std::string value = name == "Content-Length" ? ": 0\r\n" : ": 127.0.0.1\r\n";
+    const std::string heads = name + value + name + value;
     const std::string got = said(*server, request("GET /", heads));
     EXPECT_THAT(got, StartsWith("HTTP/1.1 400")) << name;
     EXPECT_THAT(got, HasSubstr("the head " + name + " was sent ")) << name;
@@ -205,7 +110,7 @@ TEST_F(OnServer, WhoOnlyHoldsConnectionsKeepsNobodyOut) {
   EXPECT_TRUE(fault) << "the first has given way";
 }
 
-// Those that are being answered stay.
+// Those that are being answered stay; the places that are kept beside them are for urgent requests.
 TEST_F(OnServer, TakesNoMoreConnectionsThanItMay) {
   Server::Config config;
   config.most_connections = 2;
@@ -217,7 +122,8 @@ TEST_F(OnServer, TakesNoMoreConnectionsThanItMay) {
     asio::write(held.back(), asio::buffer(request("GET /waits")));
   }
   until([&] { return asked == 2; });
-  EXPECT_EQ(said(*server, request("GET /")), "");
+  EXPECT_THAT(said(*server, request("GET /")), HasSubstr(" 503 "));
+  EXPECT_THAT(said(*server, request("POST /hand-back")), HasSubstr(" 200 "));
   answers = true;
   for (tcp::socket& socket : held) {
     beast::error_code fault;

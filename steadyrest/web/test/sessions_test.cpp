@@ -72,14 +72,15 @@ TEST(RateLimit, LetsABurstThroughThenSoManyASecond) {
   EXPECT_TRUE(limit.has_room("a", 10.0));
 }
 
-TEST(RateLimit, HoldsABoundedNumberOfKeys) {
+TEST(RateLimit, HoldsABoundedNumberOfKeysAndForgetsTheFullest) {
   RateLimit limit({.per_s = 1.0, .burst = 2.0, .most_keys = 2});
   EXPECT_TRUE(limit.take("a", 0.0));
-  EXPECT_TRUE(limit.take("b", 0.0));
-  EXPECT_FALSE(limit.take("c", 0.0));
-  EXPECT_FALSE(limit.has_room("c", 0.0));
-  EXPECT_TRUE(limit.has_room("c", 3.0)) << "the others are full again, and forgotten";
-  EXPECT_TRUE(limit.take("c", 3.0));
+  EXPECT_TRUE(limit.take("a", 0.0));
+  for (const char* const other : {"b", "c", "d", "e"}) {
+    EXPECT_TRUE(limit.take(other, 0.0)) << "many keys shut nobody out";
+  }
+  EXPECT_FALSE(limit.has_room("a", 0.0)) << "nor is one that has used up its share forgotten";
+  EXPECT_TRUE(limit.take("a", 3.0));
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ class WithSlowAnswers : public testing::Test {
     Response out;
     out.body = "quick";
     if (request.path == "/slow" || request.path == "/slowest") {
-      out.minutes = request.path == "/slowest";
+      out.takes = request.path == "/slowest" ? Takes::minutes : Takes::seconds;
       out.later = [this](const std::stop_token& stop) {
         begun.fetch_add(1);
         until([&] { return let_go.load() || stop.stop_requested(); });

@@ -49,7 +49,7 @@ class PageDesk {
 
   /// Logs in; later requests belong to this log-in.
   void log_in(const std::string& body) {
-    const web::Response got = api_.answer(request("POST", "/api/v1/session", body));
+    const web::Response got = answered(request("POST", "/api/v1/session", body));
     for (const auto& [name, value] : got.head) {
       if (name == "Set-Cookie") {
         cookie_ = value.substr(0, value.find(';'));
@@ -60,11 +60,15 @@ class PageDesk {
   }
   void log_in() { log_in(R"({"key":")" + api_.key() + "\"}"); }
 
+  /// With what is made beside other answers.
+  web::Response answered(const web::Request& of) {
+    const web::Response got = api_.answer(of);
+    return got.later ? got.later({}) : got;
+  }
   web::Response ask(web::Request of) {
     of.cookie = cookie_;
     of.csrf = csrf_;
-    web::Response got = api_.answer(of);
-    return got.later ? got.later({}) : got;
+    return answered(of);
   }
   web::Response ask(const std::string& method, const std::string& path,
                     const std::string& body = {}) {
