@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -14,6 +16,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/web/accounts.hpp>
 #include <steadyrest/web/gate.hpp>
+#include <steadyrest/web/listen.hpp>
 #include <steadyrest/web/message.hpp>
 #include <steadyrest/web/server.hpp>
 
@@ -30,22 +33,42 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-bool is_loopback(const std::string& address) {
-  return address.starts_with("127.") || address == "::1";
-}
-
 std::string in_address(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
+/// Of labels, each with something in it.
+bool is_name(const std::string& host) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789-_.";
+  return !host.empty() && host.size() <= 253 && !host.starts_with('.') && !host.ends_with('.') &&
+         host.find("..") == std::string::npos &&
+         host.find_first_not_of(kAllowed) == std::string::npos;
+}
+
+bool is_host(const std::string& host) {
+  const bool bracketed = host.size() > 2 && host.starts_with('[') && host.ends_with(']');
+  return bracketed ? web::address_of(host.substr(1, host.size() - 2)).has_value() : is_name(host);
+}
+
+/// None, or `:8443`.
+bool is_port(const std::string& text) {
+  std::uint16_t port = 0;
+  const char* const end = text.data() + text.size();
+  if (text.empty()) {
+    return true;
+  }
+  const auto read = std::from_chars(text.data() + 1, end, port);
+  return read.ec == std::errc() && read.ptr == end && port > 0;
 }
 
 /// `mill.example` of `https://mill.example:8443`; none: that is no origin over TLS.
 std::optional<std::string> host_of(const std::string& origin) {
   constexpr std::string_view kScheme = "https://";
   const std::string small = web::lower(origin);
-  const std::string host = small.substr(std::min(small.size(), kScheme.size()));
-  return small.starts_with(kScheme) && !host.empty() &&
-                 host.find_first_of("/?#@ ") == std::string::npos
-             ? std::optional(web::without_port(host))
+  const std::string rest = small.substr(std::min(small.size(), kScheme.size()));
+  const std::string host = web::without_port(rest);
+  return small.starts_with(kScheme) && is_host(host) && is_port(rest.substr(host.size()))
+             ? std::optional(host)
              : std::nullopt;
 }
 
@@ -54,6 +77,12 @@ web::Gate::Config gate_of(const LivePage::Config& config) {
   gate.hosts = {in_address(config.address), "localhost", "127.0.0.1", "[::1]"};
   gate.any_number = config.address == "0.0.0.0" || config.address == "::";
   gate.outer_origin = web::lower(config.outer_origin);
+  for (const std::string& proxy : config.proxies) {
+    gate.proxies.push_back(web::address_of(proxy).value_or(""));
+  }
+  if (!config.name.empty()) {
+    gate.hosts.push_back(config.name);
+  }
   gate.urgent_path = Api::kHandBack;
   if (auto host = host_of(config.outer_origin)) {
     gate.hosts.push_back(std::move(*host));
@@ -99,7 +128,8 @@ class Page final : public LivePage {
 
   [[nodiscard]] std::string address() const override {
     return fmt::format("{}://{}:{}/", config_.certificate.empty() ? "http" : "https",
-                       in_address(config_.address), server_->port());
+                       config_.name.empty() ? in_address(config_.address) : config_.name,
+                       server_->port());
   }
   [[nodiscard]] std::string address_with_key() const override {
     return api_.key().empty() ? address() : address() + "#key=" + api_.key();
@@ -167,21 +197,44 @@ class Page final : public LivePage {
   std::thread thread_;
 };
 
-}  // namespace
-
-Result<void> LivePage::check(const Config& config) {
+Result<void> check_proxy(const LivePage::Config& config) {
   if (!config.outer_origin.empty() && !host_of(config.outer_origin)) {
     return refuse(fmt::format("--behind-proxy {} is no origin; allowed: https://NAME, "
                               "https://NAME:PORT",
                               config.outer_origin),
                   "give it as the browser's address line begins, without a path");
   }
-  const bool reached = !is_loopback(config.address) || !config.outer_origin.empty();
+  for (const std::string& proxy : config.proxies) {
+    if (!web::address_of(proxy)) {
+      return refuse(fmt::format("--trusted-proxy {} is no address", proxy),
+                    "give the address by which the proxy connects, as a number");
+    }
+  }
+  if (!config.proxies.empty() && config.outer_origin.empty()) {
+    return refuse("--trusted-proxy is for a page behind a proxy", "give --behind-proxy, too");
+  }
+  if (!config.outer_origin.empty() && config.proxies.empty() && !web::is_loopback(config.address)) {
+    return refuse(
+        fmt::format("--behind-proxy: others reach {} without the proxy", config.address),
+        "name the proxy with --trusted-proxy ADDRESS: nobody else may then connect; where it runs "
+        "on this computer, give --listen PORT alone");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> LivePage::check(const Config& config) {
+  if (auto fits = check_proxy(config); !fits) {
+    return fits;
+  }
+  const bool reached = !web::is_loopback(config.address) || !config.outer_origin.empty();
   if (reached && config.accounts_file.empty()) {
     return refuse("the page would be open to others without accounts",
                   "make accounts with `steadyrest page add-user` and give --users FILE");
   }
-  if (!is_loopback(config.address) && config.certificate.empty() && config.outer_origin.empty()) {
+  if (!web::is_loopback(config.address) && config.certificate.empty() &&
+      config.outer_origin.empty()) {
     return refuse("passwords would go over the network unencrypted",
                   "give --tls-certificate and --tls-key, or --behind-proxy ORIGIN where a proxy "
                   "encrypts");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <steadyrest/apps/live_page/desk.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -20,12 +21,14 @@ class LivePage {
     std::string accounts_file;  ///< empty: the key alone
     std::string certificate;    ///< file, PEM; empty: no TLS
     std::string key;
-    std::string outer_origin;  ///< `https://mill.example[:8443]`, behind a proxy
+    std::string outer_origin;          ///< `https://mill.example[:8443]`, behind a proxy
+    std::vector<std::string> proxies;  ///< addresses of the proxies; empty: on this computer alone
+    std::string name;                  ///< of the address; empty: it was given as a number
   };
 
-  /// Refused: an address that others reach without accounts or without TLS, unless it is
-  /// behind a proxy; an outer origin that is none; accounts, certificate or key that cannot be
-  /// used.
+  /// Refused: an address that others reach without accounts, without TLS or a proxy, or behind a
+  /// proxy that is not named; an outer origin that is none; accounts, certificate or key that
+  /// cannot be used.
   [[nodiscard]] static kernel::outcome::Result<void> check(const Config& config);
   /// `desk` outlives the page. Refused: as check(), and an address that cannot be had.
   [[nodiscard]] static kernel::outcome::Result<std::unique_ptr<LivePage>> open(const Config& config,

@@ -2,10 +2,12 @@
 #include <string>
 
 #include "expectations.hpp"
+#include "live_layer.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace steadyrest::test {
 namespace {
@@ -49,11 +51,56 @@ TEST(PageOfARun, IsRefusedWhereOthersCouldGetInOrListen) {
   EXPECT_EQ(run_line(kRun + "--listen 127.0.0.1:0 --users /none").code, 2);
 }
 
-TEST(PageOfARun, IsAnnouncedWithItsKeyOnStderrAlone) {
+// stderr may be the journal, which others read. tests of the page read the file while it is there.
+TEST(PageOfARun, TellsItsKeyToATerminalAloneAndElseToAFileOfItsUsers) {
   const Finished finished = run_line(kRun + "--listen 0");
   EXPECT_EQ(finished.code, 0) << finished.err;
-  EXPECT_THAT(finished.err, HasSubstr("Page: http://127.0.0.1:"));
-  EXPECT_EQ(finished.out.find("#key="), std::string::npos);
+  EXPECT_THAT(finished.err, AllOf(HasSubstr("Page: http://127.0.0.1:"),
+                                  HasSubstr("(its address with the key: s.page)")));
+  EXPECT_EQ((finished.out + finished.err).find("key="), std::string::npos);
+}
+
+TEST(PageOfARun, HasItsKeyInAFileOfItsUserBesideTheSocket) {
+  const LiveLayer layer("observe", {"--listen", "0"});
+  const std::string file = layer.at("steadyrest.sock.page");
+  ASSERT_TRUE(LiveLayer::until([&] { return text_of_file(file).ends_with("\n"); }));
+  struct ::stat status{};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0600U);
+  EXPECT_THAT(text_of_file(file), AllOf(HasSubstr("http://127.0.0.1:"), HasSubstr("/#key=")));
+}
+
+TEST(PageOfARun, IsRefusedItsOptionsWithoutAPage) {
+  for (const std::string option :
+       {"--users /none", "--tls-certificate /none", "--tls-key /none", "--past-runs .",
+        "--behind-proxy https://mill.example", "--trusted-proxy 10.0.0.7"}) {
+    const Finished finished = run_line(kRun + option);
+    EXPECT_EQ(finished.code, 2) << option;
+    EXPECT_THAT(finished.err, AllOf(HasSubstr(option.substr(0, option.find(' '))),
+                                    HasSubstr("give --listen, too")))
+        << option;
+  }
+}
+
+TEST(PageOfARun, ListensByANameOfThisComputer) {
+  const Finished named = run_line(kRun + "--listen localhost:0");
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_THAT(named.err, HasSubstr("Page: http://localhost:"));
+}
+
+TEST(PageOfARun, BehindAProxyThatOthersCanGoAroundTakesTheProxysAddress) {
+  const Scratch own;
+  const std::string password = own.file("password", "correct horse\n");
+  const std::string users = " --users " + own.at("users.json");
+  ASSERT_EQ(run_line_on("page add-user anna" + users, password).code, 0);
+  const std::string behind = kRun + "--behind-proxy https://mill.example --listen ";
+  const Finished open = run_line(behind + "0.0.0.0:0" + users);
+  EXPECT_EQ(open.code, 2);
+  EXPECT_THAT(open.err, HasSubstr("--trusted-proxy ADDRESS"));
+  EXPECT_EQ(run_line(behind + "0.0.0.0:0 --trusted-proxy proxy.example" + users).code, 2);
+  const Finished named = run_line(behind + "0.0.0.0:0 --trusted-proxy 10.0.0.7" + users);
+  EXPECT_EQ(named.code, 0) << named.err;
+  EXPECT_EQ(run_line(behind + "0" + users).code, 0);
 }
 
 }  // namespace

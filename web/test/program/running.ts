@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program on the simulated machine, with its page. STEADYREST_PROGRAM names it.
 import { type ChildProcess, execFileSync, spawn } from 'node:child_process';
-import { appendFileSync, copyFileSync, mkdtempSync, rmSync } from 'node:fs';
+import { appendFileSync, copyFileSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -46,9 +46,10 @@ export class Running {
       let said = '';
       run.stderr.on('data', (part: Buffer) => {
         said += part.toString();
-        const found = /Page: (http:\/\/[^/\s]+)\/?(?:#key=(\S+))?\n/.exec(said);
+        const found = /Page: (http:\/\/[^/\s]+)\/(?: \(its address with the key: (.+)\))?\n/.exec(said);
         if (found) {
-          resolve([found[1] ?? '', found[2] ?? '']);
+          const whole = found[2] === undefined ? '' : readFileSync(found[2], 'utf8');
+          resolve([found[1] ?? '', /#key=(\S+)/.exec(whole)?.[1] ?? '']);
         }
       });
       run.on('exit', () => reject(new Error(`the program ended: ${said}`)));

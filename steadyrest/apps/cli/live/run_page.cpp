@@ -1,57 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-#include <cstdint>
+#include <cerrno>
 #include <cstdio>
-#include <optional>
+#include <cstring>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <steadyrest/apps/cli/live/run_page.hpp>
 #include <steadyrest/apps/cli/machine/start_checks.hpp>
+#include <steadyrest/web/listen.hpp>
 
 namespace steadyrest::apps::cli::live {
 namespace {
 
-constexpr const char* kLoopback = "127.0.0.1";
-
-struct Place {
-  std::string address = kLoopback;
-  std::uint16_t port = 0;
-};
-
-/// `8080`, `0.0.0.0:8080`, `[::1]:8080`.
-std::optional<Place> place_of(const std::string& listen) {
-  Place out;
-  const std::size_t colon = listen.rfind(':');
-  const std::string port = colon == std::string::npos ? listen : listen.substr(colon + 1);
-  const char* const end = port.data() + port.size();
-  const auto read = std::from_chars(port.data(), end, out.port);
-  if (read.ec != std::errc() || read.ptr != end) {
-    return std::nullopt;
-  }
-  if (colon != std::string::npos) {
-    out.address = listen.substr(0, colon);
-    if (out.address.starts_with('[') && out.address.ends_with(']')) {
-      out.address = out.address.substr(1, out.address.size() - 2);
+/// The first option that was given for a page, without one.
+std::string without_page(const PageOptions& options) {
+  for (const auto& [name, is_given] : {std::pair("--users", !options.users.empty()),
+                                       std::pair("--tls-certificate", !options.certificate.empty()),
+                                       std::pair("--tls-key", !options.key.empty()),
+                                       std::pair("--behind-proxy", !options.behind_proxy.empty()),
+                                       std::pair("--trusted-proxy", !options.proxies.empty()),
+                                       std::pair("--past-runs", !options.records.empty())}) {
+    if (is_given) {
+      return name;
     }
   }
-  return out;
+  return {};
+}
+
+/// For its owner alone; in place of what a layer has left that was killed.
+Result<void> write_key(const std::string& file, const std::string& address) {
+  ::unlink(file.c_str());
+  const int descriptor =
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+  const std::string line = address + "\n";
+  const bool written = descriptor >= 0 && ::write(descriptor, line.data(), line.size()) ==
+                                              static_cast<ssize_t>(line.size());
+  const std::string why = std::strerror(errno);
+  if (descriptor >= 0) {
+    ::close(descriptor);
+  }
+  if (!written) {
+    return refuse(file, "the page's key cannot be written: " + why,
+                  "give --socket with a folder that you may write to, or --users");
+  }
+  return {};
 }
 
 Result<live_page::LivePage::Config> config_of(const PageOptions& options) {
-  const auto place = place_of(options.listen);
+  auto place = web::listen_place(options.listen);
   if (!place) {
-    return refuse(fmt::format("--listen {} is no port, nor ADDRESS:PORT", options.listen),
-                  "give --listen 8080, or --listen 127.0.0.1:8080");
+    return std::unexpected(std::move(place.error()));
   }
   live_page::LivePage::Config out;
   out.address = place->address;
+  out.name = place->name;
   out.port = place->port;
   out.accounts_file = options.users;
   out.certificate = options.certificate;
   out.key = options.key;
   out.outer_origin = options.behind_proxy;
+  out.proxies = options.proxies;
   return out;
 }
 
@@ -63,8 +75,8 @@ void add_page_options(Verb& verb, PageOptions& options) {
                   "free one")
       ->type_name("[ADDRESS:]PORT");
   verb.add_option("--users", options.users,
-                  "Who may log in to the page (steadyrest page add-user); without it a key that is "
-                  "printed at the start")
+                  "Who may log in to the page (steadyrest page add-user); without it a key that a "
+                  "terminal shows at the start, else the file SOCKET.page")
       ->type_name("FILE");
   verb.add_option("--tls-certificate", options.certificate, "Certificate of the page (PEM)")
       ->type_name("FILE");
@@ -72,6 +84,10 @@ void add_page_options(Verb& verb, PageOptions& options) {
   verb.add_option("--behind-proxy", options.behind_proxy,
                   "The page's origin as browsers see it, where a proxy encrypts for it")
       ->type_name("https://NAME");
+  verb.add_option("--trusted-proxy", options.proxies,
+                  "With --behind-proxy, where others reach --listen: the proxy's address, the only "
+                  "one that may connect; may be given several times")
+      ->type_name("ADDRESS");
   verb.add_option("--past-runs", options.records,
                   "Folder of the records that the page shows; default: that of --record")
       ->type_name("FOLDER");
@@ -79,11 +95,28 @@ void add_page_options(Verb& verb, PageOptions& options) {
 
 Result<void> check_page(const PageOptions& options) {
   if (options.listen.empty()) {
-    return {};
+    const std::string given = without_page(options);
+    return given.empty() ? Result<void>()
+                         : refuse(given + " is for the page, and there is none",
+                                  "give --listen, too, or leave it out");
   }
   const auto config = config_of(options);
   return config ? live_page::LivePage::check(*config)
                 : Result<void>(std::unexpected(config.error()));
+}
+
+std::vector<passport::Finding> page_findings(const PageOptions& options) {
+  struct ::stat key{};
+  if (options.key.empty() || ::stat(options.key.c_str(), &key) != 0 ||
+      (key.st_mode & (S_IRWXG | S_IRWXO)) == 0) {
+    return {};
+  }
+  return {{.severity = passport::Severity::warning,
+           .check = "page_key",
+           .what = fmt::format("other users may read the page's key {} (mode {:04o}), and with it "
+                               "pretend to be this page",
+                               options.key, key.st_mode & 07777U),
+           .to_do = "chmod 600 it"}};
 }
 
 Result<void> RunPage::open(const Of& of) {
@@ -110,7 +143,22 @@ Result<void> RunPage::open(const Of& of) {
     return std::unexpected(std::move(page.error()));
   }
   page_ = std::move(*page);
-  std::fputs(("Page: " + page_->address_with_key() + "\n").c_str(), stderr);
+  const std::string whole = page_->address_with_key();
+  const bool has_key = whole != page_->address();
+  if (!has_key || ::isatty(STDERR_FILENO) == 1) {
+    std::fputs(("Page: " + whole + "\n").c_str(), stderr);
+    return {};
+  }
+  // Not where a journal keeps it and others read it.
+  const std::string file = of.socket + ".page";
+  if (auto written = write_key(file, whole); !written) {
+    page_.reset();
+    return written;
+  }
+  key_file_ = kernel::file::Temporary(file, kernel::file::Temporary::Kind::file);
+  std::fputs(
+      fmt::format("Page: {} (its address with the key: {})\n", page_->address(), file).c_str(),
+      stderr);
   return {};
 }
 

@@ -25,6 +25,7 @@
 #include <steadyrest/apps/cli/ports/lossy_port.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/outcome/shown.hpp>
 #include <steadyrest/live/control_socket.hpp>
 #include <steadyrest/live/loop.hpp>
 #include <steadyrest/live/protocol.hpp>
@@ -164,6 +165,7 @@ std::expected<Prepared, Refusals> prepare(const Options& options, Progress& prog
         std::make_unique<LossyPort>(std::move(port->port), options.lose_link_at_s, kLost_s);
   }
   std::ranges::move(port->findings, std::back_inserter(findings));
+  std::ranges::move(page_findings(options.page), std::back_inserter(findings));
   auto listener = listener_of(*process, *machine, *port, progress);
   if (!listener) {
     return refused(listener.error());
@@ -183,7 +185,7 @@ std::expected<Prepared, Refusals> prepare(const Options& options, Progress& prog
 
 /// fmt::print() throws where stderr has gone with its terminal; a run must not end for that.
 void say(const std::string& line) noexcept {
-  std::fputs(line.c_str(), stderr);
+  std::fputs(kernel::outcome::shown_lines(line).c_str(), stderr);
 }
 
 /// At the start, since a run may take days.
@@ -304,6 +306,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (auto opened = page.open({.asked = asked,
                                .machine = prepared->machine,
                                .machine_file = options.machine,
+                               .socket = options.socket,
                                .record_folder = options.record,
                                .record = record,
                                .cycle_s = config.period_s,

@@ -30,13 +30,32 @@ class BehindAProxy : public testing::Test {
 };
 
 TEST_F(BehindAProxy, AnOriginIsASchemeAndANameAlone) {
-  for (const char* const origin : {"https://mill.example", "https://Mill.example:8443", ""}) {
+  for (const char* const origin :
+       {"https://mill.example", "https://Mill.example:8443", "https://[fe80::1]:8443",
+        "https://10.0.0.7", "https://mill_2", ""}) {
     EXPECT_TRUE(LivePage::check(config(origin))) << origin;
   }
-  for (const char* const origin : {"mill.example", "http://mill.example", "https://",
-                                   "https://mill.example/", "https://me@mill.example"}) {
+  for (const char* const origin :
+       {"mill.example", "http://mill.example", "https://", "https://mill.example/",
+        "https://me@mill.example", "https://*", "https://*.example", "https://mill..example",
+        "https://.example", "https://mill.example:", "https://mill.example:0",
+        "https://mill.example:99999", "https://mill.example:x", "https://[mill]",
+        "https://a,https://b", "https://mill\u202e.example", "https://mill example"}) {
     EXPECT_FALSE(LivePage::check(config(origin))) << origin;
   }
+}
+
+TEST_F(BehindAProxy, OthersMayNotGoAroundIt) {
+  LivePage::Config open = config("https://mill.example");
+  open.address = "0.0.0.0";
+  EXPECT_FALSE(LivePage::check(open));
+  open.proxies = {"10.0.0.7", "fe80::1"};
+  EXPECT_TRUE(LivePage::check(open));
+  open.proxies = {"10.0.0.0/8"};
+  EXPECT_FALSE(LivePage::check(open));
+  LivePage::Config without = config("");
+  without.proxies = {"10.0.0.7"};
+  EXPECT_FALSE(LivePage::check(without)) << "there is no proxy";
 }
 
 TEST_F(BehindAProxy, ThePageHasItsOuterNameOnAnyPort) {
