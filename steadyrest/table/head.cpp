@@ -6,6 +6,8 @@
 #include <fmt/core.h>
 
 #include <steadyrest/table/head.hpp>
+#include <steadyrest/table/number.hpp>
+#include <steadyrest/table/stamp.hpp>
 
 // Column names end in their unit, as everywhere in this project. Heads write units in brackets, in
 // a row below the names or in the name; all are converted to the same form.
@@ -73,7 +75,50 @@ bool balanced(std::string_view text, char open, char close) {
   return std::ranges::count(text, open) == std::ranges::count(text, close);
 }
 
+struct TimeUnit {
+  std::string_view name;
+  double s;
+};
+constexpr std::array kTimeUnits = {TimeUnit{"s", 1.0},    TimeUnit{"ms", 1e-3},
+                                   TimeUnit{"us", 1e-6},  TimeUnit{"ns", 1e-9},
+                                   TimeUnit{"min", 60.0}, TimeUnit{"h", 3600.0}};
+
+bool names_time(std::string_view word) {
+  constexpr std::array kWords = {"t"sv, "time"sv, "timestamp"sv, "epoch"sv, "unixtime"sv};
+  return std::ranges::find(kWords, word) != kWords.end();
+}
+
+/// Seconds per unit of a number that is a time since 1970, between 2001 and 2096; 0: it is none.
+double since_1970(std::string_view name, std::string_view field) {
+  constexpr double kEarliest_s = 1e9;
+  constexpr double kLatest_s = 4e9;
+  const auto value = plain_number(field);
+  if (!value) {
+    return 0.0;
+  }
+  const bool bare = names_time(lower(name));
+  const auto named = time_factor(name);
+  for (const TimeUnit& unit : kTimeUnits) {
+    const bool allowed = bare ? unit.s <= 1.0 : named && *named == unit.s && unit.s < 1.0;
+    if (allowed && *value * unit.s >= kEarliest_s && *value * unit.s <= kLatest_s) {
+      return unit.s;
+    }
+  }
+  return 0.0;
+}
+
 }  // namespace
+
+std::optional<double> time_factor(std::string_view name) {
+  const std::string low = lower(name);
+  const std::size_t mark = low.rfind('_');
+  if (mark == std::string::npos || !names_time(std::string_view(low).substr(0, mark))) {
+    return std::nullopt;
+  }
+  const auto* const unit =
+      std::ranges::find(kTimeUnits, std::string_view(low).substr(mark + 1), &TimeUnit::name);
+  return unit == kTimeUnits.end() ? std::nullopt : std::optional(unit->s);
+}
 
 std::optional<std::size_t> Head::place(std::string_view wanted) const {
   const auto at = std::ranges::find(name, wanted);
@@ -93,6 +138,31 @@ std::optional<Fault> Head::twice(std::string_view only) const {
     }
   }
   return std::nullopt;
+}
+
+void Head::find_times(const std::vector<std::string_view>& row) {
+  const auto only = [&](const auto& is) {
+    std::optional<std::size_t> out;
+    for (std::size_t i = 0; i < std::min(row.size(), name.size()); ++i) {
+      if (is(i)) {
+        // Two of them: indistinguishable.
+        out = out ? name.size() : i;
+      }
+    }
+    return out == name.size() ? std::nullopt : out;
+  };
+  const auto is_stamp = [&](std::size_t i) { return stamp_of(row[i]).has_value(); };
+  stamped = only(is_stamp);
+  const bool none =
+      std::ranges::none_of(row, [](std::string_view f) { return stamp_of(f).has_value(); });
+  const auto date = only([&](std::size_t i) { return is_date(row[i]); });
+  const auto time = only([&](std::size_t i) { return is_time_of_day(row[i]); });
+  if (none && date && time) {
+    stamped = date;
+    clocked = time;
+  }
+  epoch = only([&](std::size_t i) { return since_1970(name[i], row[i]) > 0.0; });
+  epoch_factor = epoch ? since_1970(name[*epoch], row[*epoch]) : 1.0;
 }
 
 // A word that is no unit is part of the name: `load (left)` stays as it is.

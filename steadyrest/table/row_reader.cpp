@@ -137,6 +137,13 @@ std::optional<Fault> RowReader::line(std::string_view text) {
   if (text.ends_with('\r')) {
     text.remove_suffix(1);
   }
+  if (!is_utf8(text)) {
+    converted_ = from_cp1252(text);
+    text = converted_;
+    if (!std::exchange(conversion_noted_, true)) {
+      notes_.push_back({line_, "is not UTF-8", "it is read as Windows' code page 1252"});
+    }
+  }
   const std::string_view content = trimmed(text);
   if (content.empty() || content.front() == '#') {
     return std::nullopt;
@@ -186,39 +193,91 @@ std::optional<Fault> RowReader::take_head(std::string_view text) {
   return std::nullopt;
 }
 
-/// The first line, if the command line names the columns.
-std::optional<Fault> RowReader::take_named(std::string_view text) {
+/// Splits by the separator: whether there are as many fields as names.
+bool RowReader::fits_names(std::string_view text, char separator) {
+  split_by(text, separator, fields_);
   const std::size_t wanted = format_.columns.size();
-  std::size_t best = 0;
+  const std::size_t found =
+      fields_.size() - (fields_.size() > wanted && fields_.back().empty() ? 1 : 0);
+  if (found != wanted || separator == ' ') {
+    return found == wanted;
+  }
+  // Two numbers in one field: another mark separates. What a skipped column holds does not matter.
+  bool inner_blank = false;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    inner_blank = inner_blank || (format_.columns[i] != "-" && !stamp_of(fields_[i]) &&
+                                  fields_[i].find_first_of(" \t") != std::string_view::npos);
+  }
+  return !inner_blank || std::ranges::none_of(fields_, like_a_number);
+}
+
+/// Whether a column that is read has letters where values should be.
+bool RowReader::has_words() const {
+  for (std::size_t i = 0; i < format_.columns.size(); ++i) {
+    const std::string low = lower(fields_[i]);
+    constexpr std::array kAbsent = {"nan"sv, "inf"sv, "-inf"sv, "null"sv, "na"sv, "n/a"sv};
+    const bool letters = std::ranges::any_of(low, [](char c) {
+      return (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80;
+    });
+    if (format_.columns[i] != "-" && letters && !holds_value(fields_[i]) && !is_date(fields_[i]) &&
+        !is_time_of_day(fields_[i]) && std::ranges::find(kAbsent, low) == kAbsent.end()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void RowReader::take_names(char separator) {
+  separator_ = separator;
+  for (const std::string& name : format_.columns) {
+    head_.name.push_back(name == "-" ? std::string() : name_of(name));
+  }
+  have_names_ = true;
+  units_may_follow_ = false;
+}
+
+/// A line before the first row, if the command line names the columns; the first row itself.
+std::optional<Fault> RowReader::take_named(std::string_view text) {
+  std::size_t most = 0;
   // In order of how rarely each occurs within a field.
   for (const char candidate : {'\t', ';', ',', ' '}) {
-    split_by(text, candidate, fields_);
-    const std::size_t found =
-        fields_.size() - (fields_.size() > wanted && fields_.back().empty() ? 1 : 0);
-    best = std::max(best, found);
-    const bool inner_blank = std::ranges::any_of(fields_, [](std::string_view field) {
-      return field.find_first_of(" \t") != std::string_view::npos && !stamp_of(field);
-    });
-    if (found != wanted ||
-        (candidate != ' ' && inner_blank && std::ranges::any_of(fields_, like_a_number))) {
+    const bool fits = fits_names(text, candidate);
+    most = std::max(most, fields_.size());
+    if (!fits) {
       continue;
     }
-    separator_ = candidate;
-    for (const std::string& name : format_.columns) {
-      head_.name.push_back(name == "-" ? std::string() : name_of(name));
+    if (skipped_ > 0 && are_units(fields_)) {
+      take_names(candidate);
+      return add_units(fields_, line_, head_);
     }
-    have_names_ = true;
-    if (std::ranges::none_of(fields_, holds_value)) {
-      notes_.push_back({line_, "the header is skipped", "--columns names the columns"});
-      return std::nullopt;
+    if (has_words() || std::ranges::none_of(fields_, holds_value)) {
+      break;
     }
-    units_may_follow_ = false;
+    take_names(candidate);
     return behind_head(text);
   }
-  return Fault{
-      line_,
-      fmt::format("--columns names {} columns, the row has {}: \"{}\"", wanted, best, shown(text)),
-      "name each column, with - for one to skip"};
+  return before_rows(text, most);
+}
+
+// The header, and the settings that oscilloscopes write above the data.
+std::optional<Fault> RowReader::before_rows(std::string_view text, std::size_t most_fields) {
+  constexpr std::size_t kMostSkipped = 64;
+  Fault fault{line_,
+              fmt::format("--columns names {} columns, the row has {}: \"{}\"",
+                          format_.columns.size(), most_fields, shown(text)),
+              "name each column, with - for one to skip"};
+  const char first = trimmed(text).front();
+  const bool row = (first >= '0' && first <= '9') || "+-."sv.find(first) != std::string_view::npos;
+  if (row || skipped_ == kMostSkipped) {
+    return fault;
+  }
+  if (!first_skipped_ && most_fields != format_.columns.size()) {
+    first_skipped_ = std::move(fault);
+  }
+  if (skipped_++ == 0) {
+    notes_.push_back({line_, "the header is skipped", "--columns names the columns"});
+  }
+  return std::nullopt;
 }
 
 /// The line after the head: the units, or the first row. Now the separator can be determined.
@@ -237,14 +296,7 @@ std::optional<Fault> RowReader::behind_head(std::string_view text) {
   }
   // Some programs end each row with a separator.
   open_end_ = fields_.size() == head_.name.size() + 1 && fields_.back().empty();
-  for (std::size_t i = 0; i < std::min(fields_.size(), head_.name.size()); ++i) {
-    if (stamp_of(fields_[i])) {
-      head_.stamped = head_.stamped ? head_.name.size() : i;  // two of them: indistinguishable
-    }
-  }
-  if (head_.stamped == head_.name.size()) {
-    head_.stamped = std::nullopt;
-  }
+  head_.find_times(fields_);
   if (auto fault = give_head()) {
     return fault;
   }
@@ -290,6 +342,12 @@ std::optional<Fault> RowReader::take_row(std::string_view text) {
 
 // A head without a row is still a head: its faults are worth reporting.
 std::optional<Fault> RowReader::finish() {
+  if (!have_names_ && skipped_ > 0) {
+    if (first_skipped_) {
+      return first_skipped_;
+    }
+    take_names(',');
+  }
   if (have_names_ && !head_given_) {
     if (head_.name.empty()) {
       separator_ = separator_of(head_text_, "");
@@ -320,31 +378,6 @@ std::optional<Fault> read_rows(std::string_view text, RowReader& reader) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return reader.finish();
-}
-
-std::optional<Fault> fault_of_kind(std::string_view first_bytes) {
-  struct Kind {
-    std::string_view magic;
-    std::string_view what;
-    std::string_view to_do;
-  };
-  static constexpr std::array kKinds{
-      Kind{"\x1f\x8b"sv, "is gzip-compressed", "unpack it: zcat LOG.gz > LOG"},
-      Kind{"\xfd"
-           "7zXZ"sv,
-           "is xz-compressed", "unpack it: xzcat LOG.xz > LOG"},
-      Kind{"\x28\xb5\x2f\xfd"sv, "is zstd-compressed", "unpack it: zstdcat LOG.zst > LOG"},
-      Kind{"BZh"sv, "is bzip2-compressed", "unpack it: bzcat LOG.bz2 > LOG"},
-      Kind{"PK\x03\x04"sv, "is a zip archive", "unpack it first"},
-      Kind{"\xff\xfe"sv, "is UTF-16 text", "save it as UTF-8"},
-      Kind{"\xfe\xff"sv, "is UTF-16 text", "save it as UTF-8"},
-  };
-  for (const Kind& kind : kKinds) {
-    if (first_bytes.starts_with(kind.magic)) {
-      return Fault{0, std::string(kind.what), std::string(kind.to_do)};
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace steadyrest::table

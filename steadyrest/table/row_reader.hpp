@@ -16,10 +16,11 @@
 ///
 /// Accepted: separator `,`, `;` or tab (the first in the head that splits head and first row
 /// alike); quoted fields; a decimal point, or a comma for the whole file (number.hpp); LF or CR LF;
-/// a byte order mark; blank lines; lines that begin with `#`; units in the names, `z [µm]`, or in a
-/// separate row after the head; a separator after the last field of every row. Without a head
-/// (Format::columns) blanks may separate the fields too, as halsampler(1) prints them; its line
-/// `overrun` is skipped and noted.
+/// a byte order mark; lines in Windows' code page 1252 (noted); blank lines; lines that begin with
+/// `#`; units in the names, `z [µm]`, or in a separate row after the head; a separator after the
+/// last field of every row. Without a head (Format::columns) blanks may separate the fields too, as
+/// halsampler(1) prints them; its line `overrun` is skipped and noted, and so are up to 64 lines of
+/// words before the first row.
 namespace steadyrest::table {
 
 /// What the file itself does not tell.
@@ -86,6 +87,10 @@ class RowReader {
   std::optional<Fault> first_line(std::string_view& text);
   std::optional<Fault> take_head(std::string_view text);
   std::optional<Fault> take_named(std::string_view text);
+  std::optional<Fault> before_rows(std::string_view text, std::size_t most_fields);
+  [[nodiscard]] bool fits_names(std::string_view text, char separator);
+  [[nodiscard]] bool has_words() const;
+  void take_names(char separator);
   std::optional<Fault> behind_head(std::string_view text);
   std::optional<Fault> give_head();
   std::optional<Fault> take_row(std::string_view text);
@@ -97,6 +102,10 @@ class RowReader {
   NumberReader numbers_;
   Head head_;
   std::string head_text_;
+  std::string converted_;  ///< the line, where it is not UTF-8
+  bool conversion_noted_ = false;
+  std::size_t skipped_ = 0;  ///< lines before the first row of named columns
+  std::optional<Fault> first_skipped_;
   std::size_t line_ = 0;
   char separator_ = ',';  ///< ' ' = any number of blanks and tabs
   bool have_names_ = false;
@@ -109,9 +118,5 @@ class RowReader {
 
 /// All lines of a text. `to_do` says what to give if it is no text at all.
 [[nodiscard]] std::optional<Fault> read_rows(std::string_view text, RowReader& reader);
-
-/// The fault of a file that is no text of columns, judged by its first bytes (packed, UTF-16); none
-/// when it may be one.
-[[nodiscard]] std::optional<Fault> fault_of_kind(std::string_view first_bytes);
 
 }  // namespace steadyrest::table

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,11 +15,22 @@ struct Fault {
   std::string to_do;
 };
 
+/// The fault of a file that is no text of columns, judged by its first bytes (packed, UTF-16); none
+/// when it may be one.
+[[nodiscard]] std::optional<Fault> fault_of_kind(std::string_view first_bytes);
+
 /// Without surrounding blanks, tabs and carriage returns.
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
 /// In lower case, ASCII only.
 [[nodiscard]] std::string lower(std::string_view text);
+
+/// Whether the bytes are UTF-8.
+[[nodiscard]] bool is_utf8(std::string_view text) noexcept;
+
+/// UTF-8 from Windows' code page 1252, which has the µ, ° and ² of ISO 8859-1; what that has not
+/// becomes `?`.
+[[nodiscard]] std::string from_cp1252(std::string_view text);
 
 /// At most 40 characters, with nothing that a terminal would interpret.
 [[nodiscard]] std::string shown(std::string_view text);

@@ -34,7 +34,7 @@ class Keeper final : public Sink {
 
   std::optional<Fault> head(const Head& head) override {
     said_.names = head.name;
-    clock_ = Clock::of(head, format_, head.place("t_s"));
+    clock_ = Clock::of(head, format_);
     return head.twice();
   }
   std::optional<Fault> row(const Row& row) override {

@@ -36,7 +36,7 @@ class SignalSink final : public table::Sink {
                          "name the columns t_s, value and, if recorded, speed_rpm in the first "
                          "line, or with --columns"};
     };
-    clock_ = table::Clock::of(head, format_, head.place("t_s"));
+    clock_ = table::Clock::of(head, format_);
     if (!clock_) {
       return missing("t_s");
     }

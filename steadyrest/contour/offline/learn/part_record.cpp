@@ -39,7 +39,7 @@ class PartSink final : public table::Sink {
     if (auto fault = head.twice("t_s")) {
       return fault;
     }
-    clock_ = table::Clock::of(head, format_, head.place("t_s"));
+    clock_ = table::Clock::of(head, format_);
     if (!clock_) {
       return missing("t_s");
     }

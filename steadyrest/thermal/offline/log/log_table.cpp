@@ -38,14 +38,6 @@ struct Named {
   double factor;
 };
 constexpr std::array kNamed = {
-    Named{"time_s", Quantity::time, 1.0},
-    Named{"t_s", Quantity::time, 1.0},
-    Named{"time_ms", Quantity::time, 1e-3},
-    Named{"t_ms", Quantity::time, 1e-3},
-    Named{"time_min", Quantity::time, 60.0},
-    Named{"t_min", Quantity::time, 60.0},
-    Named{"time_h", Quantity::time, 3600.0},
-    Named{"t_h", Quantity::time, 3600.0},
     Named{"spindle_rpm", Quantity::speed, 1 / 60.0},
     Named{"speed_rpm", Quantity::speed, 1 / 60.0},
 };
@@ -54,6 +46,11 @@ LogColumn column_named(std::string_view name) {
   LogColumn out;
   out.name = std::string(name);
   const std::string low = table::lower(name);
+  if (const auto factor = table::time_factor(name)) {
+    out.quantity = Quantity::time;
+    out.factor = *factor;
+    return out;
+  }
   if (const auto* found = std::ranges::find(kNamed, low, &Named::name); found != kNamed.end()) {
     out.quantity = found->quantity;
     out.factor = found->factor;
@@ -158,14 +155,7 @@ class TableReader final : public table::Sink {
   /// One column with a known name, or another source of a row's time.
   std::optional<Fault> find_clock(const table::Head& head) {
     const auto count = std::ranges::count(all_, Quantity::time, &LogColumn::quantity);
-    std::optional<std::size_t> own;
-    double factor = 1.0;
-    if (count > 0) {
-      const auto found = std::ranges::find(all_, Quantity::time, &LogColumn::quantity);
-      own = static_cast<std::size_t>(found - all_.begin());
-      factor = found->factor;
-    }
-    clock_ = table::Clock::of(head, format_, own, factor, table::Epoch::unix);
+    clock_ = table::Clock::of(head, format_, table::Epoch::unix);
     if (count > 1 || !clock_) {
       return wrong_number(count, "a time",
                           "name one column time_s (or t_s, time_min), or give stamps as "
@@ -177,8 +167,11 @@ class TableReader final : public table::Sink {
       all_.back().name = "row";
     }
     time_ = clock_->column().value_or(all_.size() - 1);
-    out_.stamped = head.stamped && clock_->column() == head.stamped;
+    out_.stamped = clock_->dated();
     all_[time_].quantity = Quantity::time;
+    if (head.clocked && clock_->column() == head.clocked) {
+      all_[*head.stamped].name.clear();  // read with the time of day
+    }
     return std::nullopt;
   }
 

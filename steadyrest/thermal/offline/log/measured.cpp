@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/table/clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
 #include <steadyrest/thermal/offline/log/packed_file.hpp>
@@ -60,8 +61,11 @@ class Reader final : public table::Sink {
       // Stamps may have a column of any name; a column without a name is a separator at the end of
       // the line.
       const bool stamp = head.stamped == column_.size();
-      if (name.empty() || stamp) {
+      if (name.empty() || stamp || head.clocked == column_.size()) {
         column_.push_back({"time", stamp ? Field::stamp : Field::passed_over, 1.0});
+        if (stamp) {
+          stamps_.emplace(head, column_.size() - 1);
+        }
         continue;
       }
       const auto* known = std::ranges::find(kKnown, name, &Known::name);
@@ -156,10 +160,13 @@ class Reader final : public table::Sink {
     return std::nullopt;
   }
 
-  std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) const {
-    const auto stamp = table::stamp_of(row.field(i));
+  std::optional<Fault> since_start(const table::Row& row, std::size_t i, double& to_s) {
+    const auto stamp = stamps_->read(row);
+    if (!stamp) {
+      return stamp.error();
+    }
     // With a zone on one side only, the difference of two stamps is off by hours.
-    if (!stamp || stamp->zoned != started_->zoned) {
+    if (stamp->zoned != started_->zoned) {
       return Fault{row.line(),
                    fmt::format("\"{}\" is not a date and time {} a time zone", shown(row.field(i)),
                                started_->zoned ? "with" : "without"),
@@ -193,6 +200,7 @@ class Reader final : public table::Sink {
   }
 
   const std::optional<table::Stamp>& started_;
+  std::optional<table::StampReader> stamps_;
   std::vector<Known> column_;
   std::vector<Measured> out_;
 };
