@@ -30,6 +30,23 @@ std::optional<Refusal> given_twice(std::span<const Frf> responses) {
   return std::nullopt;
 }
 
+std::optional<Refusal> other_point(std::span<const Frf> responses) {
+  const Frf* first = nullptr;
+  for (const Frf& response : responses) {
+    if (response.point.empty()) {
+      continue;
+    }
+    first = first == nullptr ? &response : first;
+    if (response.point != first->point) {
+      return bad_input(
+          response.file,
+          fmt::format("was measured at {}, {} at {}", response.point, first->file, first->point),
+          "give responses of one point in one direction");
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<Refusal> no_more_than_noise(const Eigen::ArrayXd& w, const Eigen::ArrayXcd& h,
                                           std::size_t modes, double residual) {
   // c and d are real: real parts only. Scaled, so that both columns are of the same order.

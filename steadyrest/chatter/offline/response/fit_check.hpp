@@ -16,6 +16,9 @@ namespace steadyrest::chatter::offline {
 /// A measurement given twice, whatever its copies are called.
 [[nodiscard]] std::optional<kernel::outcome::Refusal> given_twice(std::span<const Frf> responses);
 
+/// Responses of different points or directions, as far as universal files name them.
+[[nodiscard]] std::optional<kernel::outcome::Refusal> other_point(std::span<const Frf> responses);
+
 /// Modes that leave `residual` (RMS, as a share) of the responses h at ω = `w`, and so explain no
 /// more than they would of noise. The bound is an information criterion: without modes,
 /// c − d/ω² leaves s₀; fitted noise lowers −2 ln L = 4·N·ln s by 3·ln 2N for each mode and by up to

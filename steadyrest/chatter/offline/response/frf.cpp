@@ -12,6 +12,7 @@
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/chatter/offline/response/uff58.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
 
 // Names and units of a header are read separately, so that any order of differentiation and any
@@ -43,7 +44,6 @@ struct Unit {
   double mm_n;
   int order;
 };
-constexpr double kGravity_mm_s2 = 9806.65;
 constexpr std::array kUnits = {
     Unit{"m/n", 1e3, 0},     Unit{"mm/n", 1.0, 0},           Unit{"um/n", 1e-3, 0},
     Unit{"m/s/n", 1e3, 1},   Unit{"mm/s/n", 1.0, 1},         Unit{"m/s2/n", 1e3, 2},
@@ -151,8 +151,10 @@ class FrfSink final : public table::Sink {
   std::optional<std::size_t> coherence_;
 };
 
-/// The first line of a universal file has −1 in columns 5 and 6 and nothing else.
+/// The first line of a universal file, behind blank ones, has −1 in columns 5 and 6 and nothing
+/// else.
 bool universal(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
   const std::string_view line = text.substr(0, text.find('\n'));
   const std::size_t begin = line.find_first_not_of(' ');
   return begin != std::string_view::npos && line.substr(begin, 2) == "-1" &&
@@ -184,6 +186,10 @@ Result<std::vector<Frf>> read_frf(const std::string& path, const table::Format& 
   if (!text) {
     text.error().to_do = "give a measured response: CSV or universal file format 58";
     return std::unexpected(text.error());
+  }
+  if (text->size() > passport::kMaxFileBytes) {
+    return refuse(path, fmt::format("larger than {} MB", passport::kMaxFileBytes >> 20U),
+                  "export the response of the drive point alone");
   }
   std::vector<Frf> out;
   if (universal(*text)) {

@@ -25,6 +25,8 @@ struct Frf {
   std::vector<double> coherence;  ///< 0 … 1, as many; empty: not recorded
   int measured_order = 0;  ///< 0: a displacement was measured, 1: a velocity, 2: an acceleration
   std::string file;        ///< its source
+  std::string point;       ///< node and direction of a universal file; empty: not stated
+  std::vector<std::string> notes;  ///< what was chosen, converted or skipped in the file
 };
 
 /// All responses of a file, universal file format 58 or CSV, recognised by its first line. Refused
@@ -37,6 +39,7 @@ struct Frf {
                                                          const table::Format& format = {});
 
 inline constexpr std::size_t kLeastPoints = 8;
+inline constexpr double kGravity_mm_s2 = 9806.65;
 
 /// The response of the displacement where that of its `order`th derivative was measured.
 [[nodiscard]] inline std::complex<double> displacement_of(std::complex<double> measured,

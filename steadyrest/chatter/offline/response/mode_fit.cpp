@@ -315,8 +315,10 @@ Complex response_mm_n(const ModeFit& fit, double frequency_hz) noexcept {
 }
 
 Result<ModeFit> fit_modes(std::span<const Frf> responses, const ModeFitConfig& config) {
-  if (auto refusal = given_twice(responses)) {
-    return std::unexpected(std::move(*refusal));
+  for (const auto check : {other_point, given_twice}) {
+    if (auto refusal = check(responses)) {
+      return std::unexpected(std::move(*refusal));
+    }
   }
   Data data = gather(responses, config);
   const std::size_t most = config.order > 0 ? config.order : config.most_modes;

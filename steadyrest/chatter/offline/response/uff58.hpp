@@ -8,18 +8,20 @@
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
-/// Universal file format, dataset 58 (function at nodal degree of freedom) as text: what tap-test
-/// programs write.
+/// Universal file format, dataset 58 (function at nodal degree of freedom): what tap-test programs
+/// write, as text or in the binary form 58b.
 ///
-/// Datasets lie between lines of −1; all but 58 are skipped. Reads frequency responses (function
-/// type 4), complex, single or double, with even or uneven abscissa, of displacement, velocity or
-/// acceleration over force; velocity is divided by iω, acceleration by −ω². Units from the axes'
-/// labels (m, mm, um, m/s, mm/s, m/s^2, mm/s^2, g; N, kN); SI without a label. Source: SDRC
-/// Universal File Datasets Summary, dataset 58.
+/// Of the frequency responses (function type 4) those of the drive point are taken: response and
+/// force at one node, along one line. A direction with a minus on one side reverses the sign. The
+/// coherence of the same points is used; other functions are skipped. Both with a note. Complex,
+/// single or double, with even or uneven abscissa in Hz, kHz, rad/s or rpm; displacement, velocity
+/// (divided by iω) or acceleration (by −ω²) over force, in the units of the labels, of dataset 164
+/// or SI (uff_units.hpp). Source: SDRC Universal File Datasets Summary, datasets 58, 58b, 164.
 namespace steadyrest::chatter::offline {
 
-/// All responses of the text. Refused by line: a truncated text, the binary form 58b, another
-/// function, data that is not complex, unknown units, no response at all.
+/// The responses of the text; the notes are with the first. Refused by line: a truncated text, no
+/// response, none at its own point, drive points of several places or directions, numbers that are
+/// not complex or not IEEE, unknown units.
 [[nodiscard]] kernel::outcome::Result<std::vector<Frf>> parse_uff58(std::string_view text,
                                                                     const std::string& file);
 

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/chatter/offline/signal/signal_parts.hpp>
+#include <steadyrest/chatter/offline/signal/signal_rate.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::chatter::offline {
@@ -53,14 +54,14 @@ bool named_wav(const std::string& file) {
   return end == ".wav";
 }
 
-OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file,
-                              const table::Format& format) {
+OrFault<RecordedChannels> parse(std::string_view bytes, const std::string& file,
+                                const table::Format& format) {
   if (bytes.size() > kMaxBytes) {
     return std::unexpected(SignalFault{0, fmt::format("larger than {} MB", kMaxBytes >> 20U),
                                        "cut out the minutes that matter"});
   }
   if (bytes.starts_with("RIFF")) {
-    return parse_wav_signal(bytes);
+    return parse_wav_signals(bytes);
   }
   if (named_wav(file)) {
     return std::unexpected(SignalFault{
@@ -71,7 +72,13 @@ OrFault<RecordedSignal> parse(std::string_view bytes, const std::string& file,
     return std::unexpected(
         SignalFault{0, "is neither text nor RIFF", "give CSV in UTF-8, or WAV (RIFF, PCM)"});
   }
-  return parse_csv_signal(bytes, format);
+  auto one = parse_csv_signal(bytes, format);
+  if (!one) {
+    return std::unexpected(std::move(one.error()));
+  }
+  RecordedChannels out;
+  out.push_back(std::move(*one));
+  return out;
 }
 
 }  // namespace
@@ -80,27 +87,29 @@ std::optional<SignalFault> unfit_rate(double rate_hz) {
   if (rate_hz >= kLeastRateHz * (1.0 - kRateSlack) && rate_hz <= kMostRateHz * (1.0 + kRateSlack)) {
     return std::nullopt;
   }
-  return SignalFault{0, fmt::format("{:.6g} samples a second; allowed: 1000 … 50000", rate_hz),
-                     rate_hz > kMostRateHz
-                         ? "resample it to 50 kHz or less, through a low-pass filter"
-                         : "record at 1 kHz or more"};
+  return SignalFault{0, fmt::format("{:.6g} samples a second; allowed: 1000 … 1000000", rate_hz),
+                     rate_hz > kMostRateHz ? "record at 1 MHz or less; 50 kHz is ample"
+                                           : "record at 1 kHz or more"};
 }
 
-Result<RecordedSignal> parse_signal(std::string_view bytes, const std::string& file,
-                                    const table::Format& format) {
+Result<RecordedChannels> parse_signals(std::string_view bytes, const std::string& file,
+                                       const table::Format& format) {
   auto out = parse(bytes, file, format);
   if (!out) {
     return std::unexpected(refusal_of(std::move(out.error()), file));
   }
+  for (RecordedSignal& signal : *out) {
+    reduce_rate(signal);
+  }
   return std::move(*out);
 }
 
-Result<RecordedSignal> read_signal(const std::string& path, const table::Format& format) {
+Result<RecordedChannels> read_signals(const std::string& path, const table::Format& format) {
   auto bytes = bytes_of(path);
   if (!bytes) {
     return std::unexpected(refusal_of(std::move(bytes.error()), path));
   }
-  return parse_signal(*bytes, path, format);
+  return parse_signals(*bytes, path, format);
 }
 
 std::optional<Refusal> no_signal(const RecordedSignal& signal, const std::string& file) {

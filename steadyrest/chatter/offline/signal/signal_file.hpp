@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,26 +16,34 @@
 /// by table::RowReader; times may also be stamps (ISO 8601) or sample numbers. Each time step must
 /// be within 25 % of the median: no sample may be missing.
 ///
-/// WAV: RIFF with PCM of 16, 24 or 32 bits or floats of 32; of several channels the first; values
-/// in ±1. It has no speed. Layout: Multimedia Programming Interface and Data Specifications 1.0
+/// WAV: RIFF with PCM of 16, 24 or 32 bits or floats of 32, of any number of channels; values in
+/// ±1. It has no speed. Layout: Multimedia Programming Interface and Data Specifications 1.0
 /// (IBM, Microsoft, 1991).
 ///
+/// Rates above the detector's 50 kHz are divided by the least whole number that brings them below
+/// it, through a low-pass filter (signal_rate.hpp).
+///
 /// Refused, with line or byte: any other format, a value that is not finite, a truncated file, a
-/// rate outside 1 … 50 kHz, over 256 MB. Nothing throws.
+/// rate outside 1 kHz … 1 MHz, over 256 MB. Nothing throws.
 namespace steadyrest::chatter::offline {
 
 struct RecordedSignal {
-  double rate_hz = 0.0;             ///< 1e3 … 50e3
+  std::size_t channel = 1;          ///< of the file, from 1
+  double recorded_hz = 0.0;         ///< 1e3 … 1e6
+  double rate_hz = 0.0;             ///< of the values: 1e3 … 50e3
   double start_s = 0.0;             ///< time of the first sample
   std::vector<double> value;        ///< ≥ 2, any unit
   std::vector<double> speed_rev_s;  ///< ≥ 0, as many; empty: not recorded
 };
 
-[[nodiscard]] kernel::outcome::Result<RecordedSignal> read_signal(const std::string& path,
-                                                                  const table::Format& format = {});
+/// The file's channels, one at least, all of one length and rate.
+using RecordedChannels = std::vector<RecordedSignal>;
+
+[[nodiscard]] kernel::outcome::Result<RecordedChannels> read_signals(
+    const std::string& path, const table::Format& format = {});
 
 /// The same from bytes; `file` is the name in refusals.
-[[nodiscard]] kernel::outcome::Result<RecordedSignal> parse_signal(
+[[nodiscard]] kernel::outcome::Result<RecordedChannels> parse_signals(
     std::string_view bytes, const std::string& file, const table::Format& format = {});
 
 /// Signals that can be read but not judged: every sample the same (a dead, saturated or unplugged

@@ -12,18 +12,18 @@
 namespace steadyrest::chatter::offline {
 
 inline constexpr double kLeastRateHz = 1e3;
-inline constexpr double kMostRateHz = 50e3;
+inline constexpr double kMostRateHz = 1e6;
 
 using SignalFault = table::Fault;
 template <class T>
 using OrFault = std::expected<T, SignalFault>;
 
-/// A rate outside the detector's range, with room for rounded time stamps.
+/// A rate that is not read, with room for rounded time stamps.
 [[nodiscard]] std::optional<SignalFault> unfit_rate(double rate_hz);
 
 [[nodiscard]] OrFault<RecordedSignal> parse_csv_signal(std::string_view text,
                                                        const table::Format& format);
 /// `bytes` begin with RIFF.
-[[nodiscard]] OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes);
+[[nodiscard]] OrFault<RecordedChannels> parse_wav_signals(std::string_view bytes);
 
 }  // namespace steadyrest::chatter::offline

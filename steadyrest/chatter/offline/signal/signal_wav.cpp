@@ -84,8 +84,8 @@ double sample_at(std::string_view bytes, std::size_t at, const WavFormat& format
   return static_cast<double>(static_cast<std::int32_t>(word << shift)) / 2147483648.0;
 }
 
-OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::size_t size,
-                                   const WavFormat& format) {
+OrFault<RecordedChannels> samples_of(std::string_view bytes, std::size_t at, std::size_t size,
+                                     const WavFormat& format) {
   const std::size_t frame = format.channels * format.sample_bytes;
   if (size % frame != 0 || size < 2 * frame) {
     return std::unexpected(
@@ -94,16 +94,23 @@ OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::
                                 size, frame),
                     "record again, or re-save it in an audio editor"});
   }
-  RecordedSignal out;
-  out.rate_hz = format.rate_hz;
-  out.value.resize(size / frame);
-  for (std::size_t i = 0; i < out.value.size(); ++i) {
-    // Only the first channel: a mean over microphones would cancel what they hear in antiphase.
-    out.value[i] = sample_at(bytes, at + i * frame, format);
-    if (!std::isfinite(out.value[i])) {
-      return std::unexpected(SignalFault{
-          0, fmt::format("byte {}: sample {} is not a finite number", at + i * frame, i + 1),
-          "fix the recorder"});
+  // Channels apart: a mean over microphones would cancel what they hear in antiphase.
+  RecordedChannels out(format.channels);
+  const std::size_t samples = size / frame;
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    out[c].channel = c + 1;
+    out[c].rate_hz = format.rate_hz;
+    out[c].value.resize(samples);
+  }
+  for (std::size_t i = 0; i < samples; ++i) {
+    for (std::size_t c = 0; c < out.size(); ++c) {
+      const std::size_t place = at + i * frame + c * format.sample_bytes;
+      out[c].value[i] = sample_at(bytes, place, format);
+      if (!std::isfinite(out[c].value[i])) {
+        return std::unexpected(
+            SignalFault{0, fmt::format("byte {}: sample {} is not a finite number", place, i + 1),
+                        "fix the recorder"});
+      }
     }
   }
   return out;
@@ -111,7 +118,7 @@ OrFault<RecordedSignal> samples_of(std::string_view bytes, std::size_t at, std::
 
 }  // namespace
 
-OrFault<RecordedSignal> parse_wav_signal(std::string_view bytes) {
+OrFault<RecordedChannels> parse_wav_signals(std::string_view bytes) {
   if (bytes.size() < kRiffHead) {
     return std::unexpected(cut_off(0, kRiffHead, bytes.size()));
   }

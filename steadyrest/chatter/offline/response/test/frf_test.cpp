@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/chatter/offline/response/frf.hpp>
-#include <steadyrest/chatter/offline/response/uff58.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
@@ -115,122 +114,6 @@ TEST(FrfCsv, RefusesByLine) {
 
 TEST(Frf, RefusesNoFile) {
   EXPECT_THAT(text(read_frf("no/such.uff").error()), HasSubstr("no/such.uff: cannot be opened"));
-}
-
-struct Uff {
-  int function = 4;
-  int data = 5;
-  bool even = true;
-  int points = 8;
-  int kind = 8;
-  std::string unit = "m";
-  std::string force = "N";
-
-  /// Value 1 − 2i at each point, 100 Hz apart.
-  [[nodiscard]] std::string made() const {
-    std::string out = "    -1\n    58\n";
-    out += "Tool tip X/X\nNONE\n21-Nov-26\nNONE\nNONE\n";
-    out += fmt::format("{:5}{:10}{:5}{:10} {:10}{:10}{:4} {:10}{:10}{:4}\n", function, 1, 1, 0,
-                       "NONE", 1, 1, "NONE", 1, 1);
-    out += fmt::format("{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}\n", data, points, even ? 1 : 0,
-                       even ? 100.0 : 0.0, even ? 100.0 : 0.0, 0.0);
-    const auto axis = [](int type, const std::string& label, const std::string& u) {
-      return fmt::format("{:10}{:5}{:5}{:5} {:20} {:20}\n", type, 0, 0, 0, label, u);
-    };
-    out += axis(18, "Frequency", "Hz") + axis(kind, "Response", unit) + axis(13, "Force", force) +
-           axis(0, "NONE", "NONE");
-    std::string line;
-    for (int i = 0; i < 8; ++i) {
-      if (!even) {
-        line += fmt::format("{:13.5E}", 100.0 * (i + 1));
-      }
-      line += data == 6 ? fmt::format("{:20.12E}{:20.12E}", 1.0, -2.0)
-                        : fmt::format("{:13.5E}{:13.5E}", 1.0, -2.0);
-      if (i % 2 == 1) {
-        out += line + "\n";
-        line.clear();
-      }
-    }
-    return out + "    -1\n";
-  }
-};
-
-TEST(Uff58, ReadsSingleAndDoubleEvenAndUneven) {
-  for (const int data : {5, 6}) {
-    for (const bool even : {true, false}) {
-      Uff uff;
-      uff.data = data;
-      uff.even = even;
-      const auto read = parse_uff58(uff.made(), "tap.uff");
-      ASSERT_TRUE(read) << text(read.error());
-      ASSERT_EQ(read->size(), 1U);
-      ASSERT_EQ(read->front().frequency_hz.size(), 8U);
-      EXPECT_EQ(read->front().frequency_hz[7], 800.0);
-      expect_near(read->front().compliance_mm_n[7], {1000.0, -2000.0});
-    }
-  }
-}
-
-TEST(Uff58, TurnsVelocityAndAccelerationIntoDisplacement) {
-  const double w = 2.0 * std::numbers::pi * 300.0;
-  const auto third = [](int kind, const std::string& unit, const std::string& force) {
-    Uff uff;
-    uff.kind = kind;
-    uff.unit = unit;
-    uff.force = force;
-    const auto read = parse_uff58(uff.made(), "tap.uff");
-    EXPECT_TRUE(read) << text(read.error());
-    return read ? read->front().compliance_mm_n[2] : Complex();
-  };
-  const Complex h(1.0, -2.0);
-  expect_near(third(8, "mm", "NONE"), h);
-  expect_near(third(8, "um", "kN"), 1e-6 * h);
-  expect_near(third(11, "m/s", "N"), 1e3 * h / Complex(0.0, w));
-  expect_near(third(12, "NONE", "N"), -1e3 * h / (w * w));
-  expect_near(third(12, "g", "N"), -9806.65 * h / (w * w));
-}
-
-TEST(Uff58, ReadsSeveralAndPassesOverOtherDatasets) {
-  const std::string other = "    -1\n   164\n         1  SI units\n    -1\n";
-  const auto read = parse_uff58(other + Uff().made() + Uff().made(), "tap.uff");
-  ASSERT_TRUE(read) << text(read.error());
-  EXPECT_EQ(read->size(), 2U);
-}
-
-TEST(Uff58, RefusesByLine) {
-  const auto refusal = [](const std::string& given) {
-    const auto read = parse_uff58(given, "tap.uff");
-    return read ? "accepted" : text(read.error());
-  };
-  const std::string whole = Uff().made();
-  // A file cut off after any line is refused.
-  for (std::size_t end = whole.find('\n'); end + 1 < whole.size();
-       end = whole.find('\n', end + 1)) {
-    EXPECT_NE(refusal(whole.substr(0, end + 1)), "accepted") << end;
-  }
-  // Line 17 has the last two points.
-  EXPECT_THAT(refusal(whole.substr(0, whole.size() - 60)),
-              HasSubstr("tap.uff:16: the file ends within a dataset"));
-  Uff more;
-  more.points = 9;
-  EXPECT_THAT(refusal(more.made()), HasSubstr("tap.uff:18: the data end after 8 of 9 points"));
-  Uff time;
-  time.function = 1;
-  EXPECT_THAT(refusal(time.made()), HasSubstr("tap.uff:8: function type 1"));
-  Uff real;
-  real.data = 2;
-  EXPECT_THAT(refusal(real.made()), HasSubstr("tap.uff:9: ordinate data type 2"));
-  Uff inches;
-  inches.unit = "in";
-  EXPECT_THAT(refusal(inches.made()), HasSubstr("tap.uff:11: ordinate of type 8 in \"in\""));
-  Uff strain;
-  strain.kind = 3;
-  EXPECT_THAT(refusal(strain.made()), HasSubstr("ordinate of type 3"));
-  Uff pounds;
-  pounds.force = "lbf";
-  EXPECT_THAT(refusal(pounds.made()), HasSubstr("tap.uff:12: denominator of type 13 in \"lbf\""));
-  EXPECT_THAT(refusal("    -1\n    58b     1     2\n    -1\n"), HasSubstr("the binary form"));
-  EXPECT_THAT(refusal("    -1\n    15\n    -1\n"), HasSubstr("has no dataset 58"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -42,6 +43,17 @@ std::string wav(const Wav& how, const std::vector<std::uint32_t>& words) {
                            le(how.bits, 2) + how.extra + "data" +
                            le(static_cast<std::uint32_t>(data.size()), 4) + data;
   return "RIFF" + le(static_cast<std::uint32_t>(body.size()), 4) + body;
+}
+
+/// The first channel.
+kernel::outcome::Result<RecordedSignal> parse_signal(const std::string& bytes,
+                                                     const std::string& file,
+                                                     const table::Format& format = {}) {
+  auto all = parse_signals(bytes, file, format);
+  if (!all) {
+    return std::unexpected(all.error());
+  }
+  return std::move(all->front());
 }
 
 void expect_refused(const std::string& bytes, const std::string& why, std::size_t line = 0,
@@ -112,7 +124,7 @@ TEST(SignalFile, RefusesTextByLine) {
   expect_refused(head + "0.002,4\n", "t_s advances by 0 s", 5);
   expect_refused(head + "0.001,4\n0.002,1\n", "t_s advances by -0.001 s", 5);
   expect_refused("t_s,value\n0,1\n0.01,2\n", "100 samples a second");
-  expect_refused("t_s,value\n0,1\n0.00001,2\n", "100000 samples a second");
+  expect_refused("t_s,value\n0,1\n0.0000005,2\n", "2e+06 samples a second");
   expect_refused(std::string("t_s,value\n0,\0", 13), "neither text nor RIFF");
 }
 
@@ -138,6 +150,19 @@ TEST(SignalFile, ReadsPcmAndFloats) {
   EXPECT_TRUE(read->speed_rev_s.empty());
 }
 
+TEST(SignalFile, ReadsEveryChannel) {
+  const auto read =
+      parse_signals(wav({.channels = 3, .bits = 24},
+                        {0x400000, 0x800000, 0, 0x200000, 0x400000, 0, 0, 0x600000, 0x400000}),
+                    "a.wav");
+  ASSERT_TRUE(read) << read.error().what;
+  ASSERT_EQ(read->size(), 3U);
+  EXPECT_THAT(read->at(0).value, testing::ElementsAre(0.5, 0.25, 0.0));
+  EXPECT_THAT(read->at(1).value, testing::ElementsAre(-1.0, 0.5, 0.75));
+  EXPECT_THAT(read->at(2).value, testing::ElementsAre(0.0, 0.0, 0.5));
+  EXPECT_EQ(read->at(2).channel, 3U);
+}
+
 TEST(SignalFile, RefusesWavByByte) {
   const std::string whole = wav({}, {1, 2, 3, 4});
   for (std::size_t bytes = 4; bytes < whole.size(); ++bytes) {
@@ -151,7 +176,7 @@ TEST(SignalFile, RefusesWavByByte) {
   expect_refused("RIFF" + le(4, 4) + "AVI ", "not WAVE");
   expect_refused("RIFF" + le(4, 4) + "WAVE", "no fmt chunk");
   expect_refused(wav({.rate_hz = 800}, {1, 2}), "800 samples a second");
-  expect_refused(wav({.rate_hz = 96000}, {1, 2}), "96000 samples a second");
+  expect_refused(wav({.rate_hz = 1100000}, {1, 2}), "1.1e+06 samples a second");
   expect_refused(wav({.bits = 8}, {1, 2}), "format 1 of 8 bits");
   expect_refused(wav({.tag = 2}, {1, 2}), "format 2 of 16 bits");
   expect_refused(wav({.channels = 0}, {1, 2}), "0 channels");
@@ -161,8 +186,8 @@ TEST(SignalFile, RefusesWavByByte) {
 }
 
 TEST(SignalFile, RefusesWhatCannotBeRead) {
-  EXPECT_THAT(read_signal("no/such.csv").error().what, HasSubstr("cannot be read"));
-  EXPECT_THAT(read_signal("/").error().what, HasSubstr("is a folder"));
+  EXPECT_THAT(read_signals("no/such.csv").error().what, HasSubstr("cannot be read"));
+  EXPECT_THAT(read_signals("/").error().what, HasSubstr("is a folder"));
 }
 
 }  // namespace
