@@ -12,6 +12,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/motion/offline/log/edge_log.hpp>
+#include <steadyrest/motion/offline/log/rollover.hpp>
 #include <steadyrest/table/clock.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
@@ -114,6 +115,15 @@ class EdgeLogReader::Parser final : public table::Sink {
     for (const Fault& note : reader_.notes()) {
       report(note);
     }
+    log_.counter_bits = counter_.bits();
+    if (log_.rollovers > 0) {
+      report(
+          {first_rollover_,
+           fmt::format("the counter of {} bits rolls over here{}", log_.counter_bits,
+                       log_.rollovers > 1 ? fmt::format(", the first of {} times", log_.rollovers)
+                                          : std::string()),
+           "it is unwrapped: the count goes on"});
+    }
     std::ranges::stable_sort(log_.findings, {}, &Refusal::line);
     return std::move(log_);
   }
@@ -135,7 +145,7 @@ class EdgeLogReader::Parser final : public table::Sink {
         return fault;
       }
     }
-    clock_ = table::Clock::of(head, config_.format, head.place("t_s"));
+    clock_ = table::Clock::of(head, config_.format);
     if (!clock_) {
       return missing("t_s");
     }
@@ -163,7 +173,15 @@ class EdgeLogReader::Parser final : public table::Sink {
       return count.error();
     }
     const std::size_t time_size = clock_->column() ? row.field(*clock_->column()).size() : 0;
-    const LogRow next{*t_s, *count};
+    const LogRow next{*t_s, counter_.unwrapped(*t_s, *count)};
+    if (std::abs(next.count) > kMaxCount) {
+      return Fault{row.line(),
+                   fmt::format("the counter rolled over {} times, out of the range of ±{}",
+                               counter_.times(), kMaxCount),
+                   std::string(kRepair)};
+    }
+    first_rollover_ = counter_.times() == 1 && log_.rollovers == 0 ? row.line() : first_rollover_;
+    log_.rollovers = counter_.times();
     if (!ended_ && !goes_on(next, time_size)) {
       cut_off();
       return std::nullopt;
@@ -303,6 +321,8 @@ class EdgeLogReader::Parser final : public table::Sink {
   EdgeLog log_;
   std::optional<Refusal> refused_;
   std::optional<table::Clock> clock_;
+  Rollover counter_;
+  std::size_t first_rollover_ = 0;  ///< its line
   std::size_t count_ = 0;
   std::size_t all_ = 0;
   std::size_t time_size_ = 0;

@@ -24,7 +24,8 @@
 ///   not a number, NaN, ∞, a count with a fraction, time going back. The rows before it are kept,
 ///   the rest is not read: after such a row either side may be wrong. A stamp that leaps ahead and
 ///   back is itself the wrong one;
-/// - *reported only*: jumps of the count (lost edges), mixed line ends, repeated stamps of ticks, a
+/// - *reported only*: rollovers of the counter, which are unwrapped (rollover.hpp), jumps of the
+///   count (lost edges), mixed line ends, repeated stamps of ticks, a
 ///   last row without line end that is or may be truncated. A last row without line end is kept
 ///   when it is complete and continues like the rows before it.
 namespace steadyrest::motion::offline {
@@ -50,6 +51,8 @@ struct EdgeLog {
   std::vector<kernel::outcome::Refusal> findings;  ///< by rising line
   std::size_t finding_count = 0;                   ///< also those beyond max_findings
   std::size_t jumps = 0;                           ///< rows with lost edges
+  std::size_t rollovers = 0;                       ///< of the counter, unwrapped
+  int counter_bits = 0;                            ///< where it rolled over
   bool stopped = false;                            ///< the last finding ended the reading
   int decimals = 0;                                ///< most decimals of any time stamp
   double longest_step_s = 0.0;                     ///< between two rows
