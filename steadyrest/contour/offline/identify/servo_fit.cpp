@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <steadyrest/contour/offline/identify/servo_fit.hpp>
+#include <steadyrest/contour/offline/identify/servo_lag.hpp>
 #include <steadyrest/contour/offline/identify/servo_run.hpp>
 #include <steadyrest/contour/offline/identify/servo_steps.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -194,8 +195,7 @@ Result<void> check_determined(const Subject& subject, const Tried& tried) {
   const Axis& axis = subject.axis;
   if (tried.fit && !in_range(*tried.fit)) {
     return refuse_axis(axis, "the actual position does not follow the command",
-                       "check that commanded and actual positions are not swapped, and belong to "
-                       "the same axis");
+                       to_check(subject.log, subject.runs, subject.period_s));
   }
   if (!tried.fit || !(tried.gain_sd_1_s <= kMostGainSd * tried.gain_1_s) ||
       !(tried.feed_forward_sd <= kMostForwardSd)) {
@@ -241,14 +241,14 @@ Result<void> check_law(const Subject& subject, const Tried& tried, const ServoMi
   return {};
 }
 
-Result<void> check_range(const Axis& axis, const Tried& tried) {
+Result<void> check_range(const Subject& subject, const Tried& tried) {
   if (tried.feed_forward < -kBeside || tried.feed_forward > 1.0 + kBeside || tried.gain_1_s < 1.0 ||
       tried.gain_1_s > 1000.0) {
-    return refuse_axis(axis,
+    return refuse_axis(subject.axis,
                        fmt::format("gain {:.4g} 1/s with feed-forward {:.3g} is beyond what "
                                    "the layer takes; allowed: 1 … 1000 1/s, 0 … 1",
                                    tried.gain_1_s, tried.feed_forward),
-                       "check that commanded and actual positions are not swapped");
+                       to_check(subject.log, subject.runs, subject.period_s));
   }
   return {};
 }
@@ -282,13 +282,9 @@ Result<void> check_halves(const Subject& subject, const Tried& whole, int shift)
   return {};
 }
 
-Result<ServoFit> make_fit(const Subject& subject, const Tried& tried, int shift) {
-  // What spoils a fit leaves large deviations too, so that comes before them.
+Result<ServoFit> checked_fit(const Subject& subject, const Tried& tried, int shift) {
   ServoMisfit off;
   if (tried.fit && in_range(*tried.fit)) {
-    if (auto done = check_halves(subject, tried, shift); !done) {
-      return std::unexpected(done.error());
-    }
     off = misfit(subject.log, subject.runs, shift, tried.fit->step);
     if (auto done = check_law(subject, tried, off); !done) {
       return std::unexpected(done.error());
@@ -297,7 +293,7 @@ Result<ServoFit> make_fit(const Subject& subject, const Tried& tried, int shift)
   if (auto done = check_determined(subject, tried); !done) {
     return std::unexpected(done.error());
   }
-  if (auto done = check_range(subject.axis, tried); !done) {
+  if (auto done = check_range(subject, tried); !done) {
     return std::unexpected(done.error());
   }
   return ServoFit{.axis = subject.axis.name,
@@ -320,6 +316,19 @@ Result<ServoFit> make_fit(const Subject& subject, const Tried& tried, int shift)
 
 bool usable(const Tried& tried) {
   return tried.fit && in_range(*tried.fit) && tried.fit->samples > 0;
+}
+
+/// What spoils a fit comes before the deviations that it leaves, and before the lag they look like.
+Result<ServoFit> make_fit(const Subject& subject, const Tried& tried, int shift) {
+  if (auto done = check_halves(subject, tried, shift); usable(tried) && !done) {
+    return std::unexpected(done.error());
+  }
+  auto fit = checked_fit(subject, tried, shift);
+  if (const auto lag =
+          fit ? std::nullopt : velocity_lag(subject.log, subject.runs, subject.period_s, shift)) {
+    return refuse_axis(subject.axis, in_words(*lag), std::string(kKeepLagging));
+  }
+  return fit;
 }
 
 /// By how much shift 0 is less likely than shift 1, −2·ln. Of the residuals within a time constant
