@@ -77,6 +77,9 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   if (open) {
     out.push_back(open->finished(t_s));
   }
+  for (ChatterEvent& event : out) {
+    event.channels = {signal.channel};
+  }
   return out;
 }
 

@@ -23,12 +23,12 @@ Refusal not_allowed(const char* option, double value, const char* allowed) {
                    fmt::format("give a number {}", allowed));
 }
 
-Result<CutPoint> cut_point(const CutPointOptions& options) {
+std::expected<CutPoint, Refusals> cut_point(const CutPointOptions& options) {
   if (!(options.speed_rpm > 0.0 && std::isfinite(options.speed_rpm))) {
-    return std::unexpected(not_allowed("--speed-rpm", options.speed_rpm, "above 0"));
+    return refused(not_allowed("--speed-rpm", options.speed_rpm, "above 0"));
   }
   if (!(options.depth_mm > 0.0 && std::isfinite(options.depth_mm))) {
-    return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "above 0"));
+    return refused(not_allowed("--depth-mm", options.depth_mm, "above 0"));
   }
   // 0.001 … 1e5 rev/s and 10 m of depth: no machine gets near them, and within them no intermediate
   // result of the solver overflows.
@@ -36,19 +36,19 @@ Result<CutPoint> cut_point(const CutPointOptions& options) {
   constexpr double kMost_rpm = 6e6;
   constexpr double kMost_mm = 1e4;
   if (options.speed_rpm < kLeast_rpm || options.speed_rpm > kMost_rpm) {
-    return std::unexpected(not_allowed("--speed-rpm", options.speed_rpm, "within 0.06 … 6000000"));
+    return refused(not_allowed("--speed-rpm", options.speed_rpm, "within 0.06 … 6000000"));
   }
   if (options.depth_mm > kMost_mm) {
-    return std::unexpected(not_allowed("--depth-mm", options.depth_mm, "at most 10000"));
+    return refused(not_allowed("--depth-mm", options.depth_mm, "at most 10000"));
   }
-  auto process = chatter::offline::read_process(options.process);
+  auto process = chatter::offline::read_process_all_faults(options.process);
   if (!process) {
     return std::unexpected(process.error());
   }
   // The law needs the process: its period must span a whole number of tooth passes.
   auto law = chosen_law(options.law, *process, options.speed_rpm);
   if (!law) {
-    return std::unexpected(law.error());
+    return refused(law.error());
   }
   return CutPoint{.process = std::move(*process),
                   .law = *law,

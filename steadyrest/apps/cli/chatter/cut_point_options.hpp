@@ -28,8 +28,9 @@ struct CutPoint {
   double speed_rev_s = 0.0;  ///< mean
   double depth_mm = 0.0;
 };
-/// Reads the process. Refused: a speed or a depth that is not above 0, what chosen_law() refuses.
-[[nodiscard]] kernel::outcome::Result<CutPoint> cut_point(const CutPointOptions& options);
+/// Reads the process. Refused: a speed or a depth that is not above 0, every fault of the process
+/// file, what chosen_law() refuses.
+[[nodiscard]] std::expected<CutPoint, Refusals> cut_point(const CutPointOptions& options);
 
 /// `--option 3 is not above 0; give a number above 0`.
 [[nodiscard]] kernel::outcome::Refusal not_allowed(const char* option, double value,

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
-#include <steadyrest/apps/cli/chatter/chatter_events.hpp>
+#include <steadyrest/apps/cli/chatter/detect_channels.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_detect.hpp>
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
@@ -46,6 +47,7 @@ struct Options {
   std::optional<double> speed_rpm;
   std::optional<double> programmed_rpm;
   std::optional<double> depth_mm;
+  std::optional<std::size_t> channel;
   std::string report;
   LogOptions format;
 };
@@ -55,10 +57,6 @@ struct Event : ChatterEvent {
   online::SpeedTable::Advice advice;
   std::optional<offline::Plan> plan;  ///< where process and depth are known
 };
-
-Refusal bad(std::string what, std::string to_do, const std::string& file = {}) {
-  return bad_input(file, std::move(what), std::move(to_do));
-}
 
 /// Combinations and ranges that are wrong whatever the files contain.
 std::optional<Refusal> unfit(const Options& options) {
@@ -70,61 +68,20 @@ std::optional<Refusal> unfit(const Options& options) {
        {Given{"--speed-rpm", options.speed_rpm}, Given{"--programmed-rpm", options.programmed_rpm},
         Given{"--depth-mm", options.depth_mm}}) {
     if (given.value && !(*given.value > 0.0 && std::isfinite(*given.value))) {
-      return bad(fmt::format("{} {} is not above 0", given.option, *given.value),
-                 "give a number above 0");
+      return bad_input(fmt::format("{} {} is not above 0", given.option, *given.value),
+                       "give a number above 0");
     }
   }
   if (options.teeth && (*options.teeth < 1 || *options.teeth > 64)) {
-    return bad(fmt::format("--teeth {}; allowed: 1 … 64", *options.teeth),
-               "give the number of teeth, 1 in turning");
+    return bad_input(fmt::format("--teeth {}; allowed: 1 … 64", *options.teeth),
+                     "give the number of teeth, 1 in turning");
   }
   if (!options.teeth && options.process.empty()) {
-    return bad("the number of teeth is unknown", "give --teeth N or --process FILE");
+    return bad_input("the number of teeth is unknown", "give --teeth N or --process FILE");
   }
   if (options.depth_mm && options.process.empty()) {
-    return bad("--depth-mm without --process", "give the process file, or leave out the depth");
-  }
-  return std::nullopt;
-}
-
-/// A recording from the machine may contain its speed as a column. Otherwise the operator's number
-/// applies to all of it. Both at once would leave open which one wins.
-std::optional<Refusal> set_speed(const Options& options, const Machine& machine,
-                                 offline::RecordedSignal& signal) {
-  std::vector<double>& speed = signal.speed_rev_s;
-  if (!speed.empty() && options.speed_rpm) {
-    return bad("has a speed_rpm column, and --speed-rpm is given too", "leave out --speed-rpm",
-               options.signal);
-  }
-  if (speed.empty() && !options.speed_rpm) {
-    return bad("has no spindle speed", "give --speed-rpm N, or a CSV with a speed_rpm column",
-               options.signal);
-  }
-  // The first margin lets a speed pass that is the spindle's limit to the last digit printed, the
-  // second a spindle that overshoots.
-  const double most_rpm = rpm_from_rev_s(machine.spindle.max_rev_s);
-  constexpr double kRounding = 1.0 + 1e-9;
-  constexpr double kOvershoot = 1.2;
-  const auto above = [most_rpm](const char* what, double rpm, const std::string& file = {}) {
-    return bad(fmt::format("{} {:.6g} is above the spindle's {:.6g}", what, rpm, most_rpm),
-               "give the speed in rev/min, or the right machine file", file);
-  };
-  if (options.programmed_rpm && *options.programmed_rpm > most_rpm * kRounding) {
-    return above("--programmed-rpm", *options.programmed_rpm);
-  }
-  if (options.speed_rpm) {
-    if (*options.speed_rpm > most_rpm * kRounding) {
-      return above("--speed-rpm", *options.speed_rpm);
-    }
-    speed.assign(signal.value.size(), kernel::units::rev_s_from_rpm(*options.speed_rpm));
-  }
-  if (const double most = rpm_from_rev_s(std::ranges::max(speed)); most > most_rpm * kOvershoot) {
-    return above("speed_rpm", most, options.signal);
-  }
-  // All frequencies are judged by their order (frequency over speed), and at speed 0 there is none.
-  if (std::ranges::none_of(speed, [](double s) { return s > 0.0; })) {
-    return bad("speed_rpm is 0 throughout", "give a recording with the spindle running",
-               options.signal);
+    return bad_input("--depth-mm without --process",
+                     "give the process file, or leave out the depth");
   }
   return std::nullopt;
 }
@@ -237,8 +194,9 @@ std::string better_words(const Event& event) {
   return "none";
 }
 
-Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>& events,
-                 const Options& options) {
+Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Event>& events,
+                 const Options& options, const std::vector<std::string>& notes) {
+  const offline::RecordedSignal& signal = channels.front();
   Answer answer;
   answer.json["advice_by"] = adviser(options);
   answer.json["events"] = Json::array();
@@ -249,23 +207,42 @@ Answer answer_of(const offline::RecordedSignal& signal, const std::vector<Event>
     const bool better = advice.speed_rev_s > 0.0;
     const double percent = 100.0 * advice.request.ratio;
     const char* type = event.flip ? "flip" : "hopf";
+    const std::string where = channels.size() > 1
+                                  ? fmt::format(", channel {}", fmt::join(event.channels, ", "))
+                                  : std::string();
     answer.json["events"].push_back(
         {{"start_s", event.start_s},
          {"end_s", event.end_s},
          {"frequency_hz", event.frequency_hz},
          {"type", type},
+         {"channels", event.channels},
          {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
          {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
          {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
          {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}});
     table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
                fmt::format("{:.1f} Hz", event.frequency_hz), type,
-               fmt::format("{:.0f} rpm", rpm_from_rev_s(event.speed_rev_s)), better_words(event)});
+               fmt::format("{:.0f} rpm{}", rpm_from_rev_s(event.speed_rev_s), where),
+               better_words(event)});
   }
   const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
   answer.json["seconds"] = length_s;
-  answer.json["sample_rate_hz"] = signal.rate_hz;
-  answer.text = events.empty() ? fmt::format("no chatter in {:.3f} s\n", length_s) : table.text();
+  answer.json["sample_rate_hz"] = signal.recorded_hz;
+  answer.json["judged_rate_hz"] = signal.rate_hz;
+  answer.json["channels"] = Json::array();
+  for (const offline::RecordedSignal& channel : channels) {
+    answer.json["channels"].push_back(channel.channel);
+  }
+  answer.json["notes"] = notes;
+  answer.text = events.empty()
+                    ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
+                                  channels.size() > 1
+                                      ? fmt::format(", on none of {} channels", channels.size())
+                                      : std::string())
+                    : table.text();
+  for (const std::string& note : notes) {
+    answer.text += note + "\n";
+  }
   return answer;
 }
 
@@ -288,33 +265,36 @@ Json page_of(const Json& answer, const Options& options, const Machine& machine,
       signal);
 }
 
-/// Reads, listens from the first sample to the last, then asks for advice on each stretch.
+/// The channel that heard the first chatter, else the first.
+const offline::RecordedSignal& shown_channel(const offline::RecordedChannels& channels,
+                                             const std::vector<Event>& events) {
+  const std::size_t wanted = events.empty() ? 0 : events.front().channels.front();
+  const auto found = std::ranges::find(channels, wanted, &offline::RecordedSignal::channel);
+  return found == channels.end() ? channels.front() : *found;
+}
+
+/// Reads, listens to each channel, then asks for advice on each stretch.
 Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
                const std::optional<offline::Process>& process, Progress& progress) {
-  auto signal = offline::read_signal(options.signal, format_of(options.format));
-  if (!signal) {
-    return refused(signal.error());
+  auto read = offline::read_signals(options.signal, format_of(options.format));
+  auto channels = read ? chosen_channels(std::move(*read), options.channel, options.signal)
+                       : std::unexpected(read.error());
+  if (!channels) {
+    return refused(channels.error());
   }
-  if (auto refusal = set_speed(options, machine, *signal)) {
-    return refused(*refusal);
+  for (offline::RecordedSignal& signal : *channels) {
+    if (auto refusal = set_speed({options.speed_rpm, options.programmed_rpm}, machine,
+                                 options.signal, signal)) {
+      return refused(*refusal);
+    }
   }
-  auto detector = online::Detector::make({.sample_rate_hz = signal->rate_hz, .teeth = teeth});
-  if (!detector) {
-    return refused(detector.error());
-  }
-  // The detector answers after one full window. Shorter than that it would say "no chatter" about a
-  // signal that it never judged.
-  if (signal->value.size() < detector->window()) {
-    return refused(bad(fmt::format("has {} samples; one spectrum needs {}", signal->value.size(),
-                                   detector->window()),
-                       "give a longer recording: a few tenths of a second", options.signal));
-  }
-  if (auto refusal = offline::no_signal(*signal, options.signal)) {
-    return refused(*refusal);
+  auto heard = hear(*channels, teeth, options.signal, progress);
+  if (!heard) {
+    return refused(heard.error());
   }
   std::vector<Event> events;
-  for (const ChatterEvent& heard : chatter_events(*signal, *detector, progress)) {
-    events.push_back({heard, {}, {}});
+  for (ChatterEvent& event : heard->events) {
+    events.push_back({std::move(event), {}, {}});
   }
   // Plans are made on demand: a quiet recording needs none.
   std::optional<AskedPlans> plans;
@@ -327,10 +307,11 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
       return refused(*refusal);
     }
   }
-  Answer answer = answer_of(*signal, events, options);
+  Answer answer = answer_of(*channels, events, options, heard->notes);
   if (!options.report.empty()) {
     put_report(answer, options.report,
-               page_of(answer.json, options, machine, *signal, teeth, detector->window()));
+               page_of(answer.json, options, machine, shown_channel(*channels, events), teeth,
+                       heard->window));
   }
   return answer;
 }
@@ -346,9 +327,9 @@ Outcome run(const Options& options, Progress& progress) {
   }
   std::optional<offline::Process> process;
   if (!options.process.empty()) {
-    auto read = offline::read_process(options.process);
+    auto read = offline::read_process_all_faults(options.process);
     if (!read) {
-      return refused(read.error());
+      return std::unexpected(read.error());
     }
     process = std::move(*read);
   }
@@ -362,18 +343,21 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_chatter_detect(Session& session, Verb& verb) {
   auto options = std::make_shared<chatter_detect::Options>();
-  verb.reads("signal", options->signal, "CSV (t_s, value, optional speed_rpm) or WAV, 1 … 50 kHz")
+  verb.reads("signal", options->signal,
+             "CSV (t_s, value, optional speed_rpm) or WAV, 1 kHz … 1 MHz")
       ->required();
   add_machine_option(verb, options->machine);
   CLI::Option* const teeth =
       verb.add_option("--teeth", options->teeth, "Number of teeth, 1 in turning");
-  add_log_options(verb, options->format);
+  add_log_options(verb, options->format, "t_s,value,speed_rpm");
   verb.reads("--process", options->process,
              "Process file (TOML). With --depth-mm the better speed comes from `chatter plan`; "
              "without it, it is the deepest override step. With no process file it follows the "
              "rule of thumb: whole waves between two teeth")
       ->excludes(teeth);
   verb.also_reads([options] { return chatter::offline::response_files(options->process); });
+  verb.add_option("--channel", options->channel,
+                  "Judge this channel of a WAV alone, from 1 (left); default: all");
   verb.add_option("--speed-rpm", options->speed_rpm,
                   "Spindle speed in rev/min, for a signal without a speed_rpm column");
   verb.add_option("--programmed-rpm", options->programmed_rpm,

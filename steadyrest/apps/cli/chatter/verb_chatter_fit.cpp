@@ -104,6 +104,10 @@ void put_response(Answer& answer, const std::string& file, const offline::Frf& f
                                  low, frf.coherence.size());
     }
   }
+  one["notes"] = frf.notes;
+  for (const std::string& note : frf.notes) {
+    answer.text += fmt::format("{}: {}\n", file, note);
+  }
   answer.json["responses"].push_back(std::move(one));
 }
 
@@ -176,7 +180,7 @@ void add_verb_chatter_fit(Session& session, Verb& verb) {
   verb.add_option("--modes", options->fit.order,
                   "Number of modes, 1 … 16; chosen by the criterion by default")
       ->check(within(1, 16));
-  add_log_options(verb, options->format, false);
+  add_log_options(verb, options->format, "frequency_hz,real_um_N,imag_um_N", false);
   verb.add_option("--from-hz", options->fit.least_frequency_hz,
                   "Ignore everything below this frequency");
   verb.add_option("--to-hz", options->fit.most_frequency_hz,

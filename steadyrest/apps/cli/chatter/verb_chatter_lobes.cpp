@@ -235,9 +235,9 @@ std::expected<Task, Refusals> task_of(const Options& options) {
     return refused(std::move(*refusal));
   }
   Task out;
-  auto process = offline::read_process(options.process);
+  auto process = offline::read_process_all_faults(options.process);
   if (!process) {
-    return refused(process.error());
+    return std::unexpected(process.error());
   }
   out.process = std::move(*process);
   const auto speeds = grid("--speeds-rpm", options.speeds_rpm, kLeastSpeed_rpm);

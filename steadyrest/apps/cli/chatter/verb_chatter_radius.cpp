@@ -74,7 +74,7 @@ Answer answer_of(const CutPointOptions& options, const ChosenLaw& law,
 Outcome run(const Options& options, Progress& progress) {
   const auto cut = cut_point(options.cut);
   if (!cut) {
-    return refused(cut.error());
+    return std::unexpected(cut.error());
   }
   progress.update(0.0, "one point");
   auto cycle = offline::DelayCycle::make(cut->process, {.speed_rev_s = cut->speed_rev_s,

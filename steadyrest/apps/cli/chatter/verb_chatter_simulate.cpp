@@ -208,7 +208,7 @@ Outcome run(const Options& options, Progress& progress) {
   }
   const auto point = cut_point(options.cut);
   if (!point) {
-    return refused(point.error());
+    return std::unexpected(point.error());
   }
   return cut(*point, options, progress);
 }

@@ -198,7 +198,7 @@ void add_verb_motion_calibrate(Session& session, Verb& verb) {
                   "Rotary encoder: the table is one revolution and repeats");
   verb.add_option("--range", options->range,
                   "First and last line of the table, A:B; default: all lines in the log");
-  add_log_options(verb, options->format);
+  add_log_options(verb, options->format, "t_s,count");
   verb.add_option("--passes", options->config.passes, "Number of passes through the log")
       ->capture_default_str();
   verb.reads("--machine", options->machine,

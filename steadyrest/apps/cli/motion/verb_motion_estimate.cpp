@@ -178,6 +178,8 @@ Answer answer_of(const Options& options, const EdgeLog& log, const Record& recor
                  {"clock_s", record.how.clock_s},
                  {"lag_s", options.setup.lag_s},
                  {"jumps", log.jumps},
+                 {"rollovers", log.rollovers},
+                 {"counter_bits", log.rollovers > 0 ? Json(log.counter_bits) : Json(nullptr)},
                  {"reports", log.finding_count},
                  {"complete", !log.stopped},
                  {"findings", findings_json(log)},
@@ -325,7 +327,7 @@ void add_verb_motion_estimate(Session& session, Verb& verb) {
       ->required()
       ->check(CLI::IsMember({"edges", "ticks"}));
   add_axis_options(verb, *options);
-  add_log_options(verb, options->format);
+  add_log_options(verb, options->format, "t_s,count");
   CLI::Option* lines =
       verb.reads("--calibration", options->calibration,
                  "Encoder lines as written by `motion calibrate`, or a machine file");

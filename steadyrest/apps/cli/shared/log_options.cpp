@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
 
 namespace steadyrest::apps::cli {
 
-void add_log_options(CLI::App& verb, LogOptions& options, bool over_time) {
-  verb.add_option("--columns", options.columns,
-                  "Column names, for a log without a header: t_s,count; - skips a column; sample "
-                  "is the sample number of halsampler -t")
+void add_log_options(CLI::App& verb, LogOptions& options, const std::string& columns,
+                     bool over_time) {
+  verb.add_option(
+          "--columns", options.columns,
+          fmt::format("Column names, for a file without a header: {}; - skips a column{}", columns,
+                      over_time ? "; sample is the sample number of halsampler -t" : ""))
       ->delimiter(',');
   verb.add_option("--decimal", options.decimal,
                   "Decimal mark of the log, point or comma, if the log itself is ambiguous")

@@ -19,8 +19,10 @@ struct LogOptions {
   std::optional<double> sample_hz;
 };
 
-/// Adds --columns, --decimal and, for a log over time, --sample-hz.
-void add_log_options(CLI::App& verb, LogOptions& options, bool over_time = true);
+/// Adds --columns, --decimal and, for a log over time, --sample-hz. `columns` are those of the
+/// verb, for its help: "t_s,count".
+void add_log_options(CLI::App& verb, LogOptions& options, const std::string& columns,
+                     bool over_time = true);
 
 /// For the reader of columns. `sample_hz` is the rate of sample numbers if --sample-hz is not
 /// given.

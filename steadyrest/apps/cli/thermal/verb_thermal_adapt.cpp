@@ -281,7 +281,7 @@ void add_verb_thermal_adapt(Session& session, Verb& verb) {
              "CSV: part; transition, time_min or stamps; deviation_um (tool position minus correct "
              "position); optionally tolerance_um, axis")
       ->required();
-  add_log_options(verb, options->format, false);
+  add_log_options(verb, options->format, "part,transition,deviation_um", false);
   verb.add_option("--started", options->started,
                   "Start of the plan's work, as 2026-11-22T23:47:06, for parts with time stamps")
       ->check([](const std::string& given) {

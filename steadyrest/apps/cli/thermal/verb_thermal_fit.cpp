@@ -356,7 +356,7 @@ void add_verb_thermal_fit(Session& session, Verb& verb) {
   verb.writes("-o,--output", options->output, "Write the passport, TOML: [thermal] sections",
               toml_content("a thermal passport (TOML: [thermal] alone)", {"thermal"}));
   verb.reports(options->report);
-  add_log_options(verb, options->format);
+  add_log_options(verb, options->format, "time_s,spindle_rpm,z_um,housing_c");
   verb.add_option("--channel", options->channels,
                   "Only this displacement, and its axis: z_um=Z; repeatable");
   CLI::Option* ambient = verb.add_option(

@@ -177,7 +177,7 @@ void add_verb_thermal_forecast(Session& session, Verb& verb) {
   verb.add_option("--step-s", options->step_s, "Seconds between rows")->check(within(0.1, 86400.0));
   CLI::Option* log = verb.reads("--log", options->replay.log,
                                 "Recorded inputs instead of a cyclogram: CSV as for `thermal fit`");
-  add_log_options(verb, options->replay.format);
+  add_log_options(verb, options->replay.format, "time_s,spindle_rpm,z_um,housing_c");
   verb.add_option("--from-min", options->replay.from_min,
                   "Minute on the log's clock, or since its first stamp: earlier readings set the "
                   "state, the rest is forecast; default: the end of the passport's log")

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <steadyrest/apps/cli/chatter/chatter_events.hpp>
+#include <steadyrest/apps/cli/shared/progress.hpp>
+#include <steadyrest/chatter/offline/signal/signal_file.hpp>
+#include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+/// Several sensors at one cut: each channel is judged, the cut has one verdict.
+namespace steadyrest::apps::cli {
+
+/// The channel asked for, or all. Refused: a channel that the file does not have.
+[[nodiscard]] kernel::outcome::Result<chatter::offline::RecordedChannels> chosen_channels(
+    chatter::offline::RecordedChannels all, std::optional<std::size_t> channel,
+    const std::string& file);
+
+/// The speeds of the command line.
+struct GivenSpeeds {
+  std::optional<double> speed_rpm;
+  std::optional<double> programmed_rpm;
+};
+
+/// A recording from the machine may contain its speed as a column. Otherwise the operator's number
+/// applies to all of it. Refused: both or neither, and speeds beyond the spindle's.
+[[nodiscard]] std::optional<kernel::outcome::Refusal> set_speed(
+    const GivenSpeeds& given, const kernel::machine::Machine& machine, const std::string& file,
+    chatter::offline::RecordedSignal& signal);
+
+struct Heard {
+  std::vector<ChatterEvent> events;  ///< as_one()
+  std::size_t window = 0;            ///< samples of a spectrum
+  std::vector<std::string> notes;
+};
+
+/// Listens to each channel from the first sample to the last. Channels without a signal are taken
+/// out of the list, with a note. Refused: all are, or a recording is shorter than a spectrum.
+[[nodiscard]] kernel::outcome::Result<Heard> hear(chatter::offline::RecordedChannels& channels,
+                                                  std::size_t teeth, const std::string& file,
+                                                  Progress& progress);
+
+/// Stretches that several channels hear at once count once: from the first that hears it, with its
+/// frequency, to the last. In order of their start.
+[[nodiscard]] std::vector<ChatterEvent> as_one(std::vector<ChatterEvent> events);
+
+}  // namespace steadyrest::apps::cli
