@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# kills.sh [KILLS [SEED]]: kills the layer 200 times in the cut on LinuxCNC, in about five minutes, and prints how the feed came back
+# kills.sh [KILLS [SEED]]: kills the layer 200 times in the cut on LinuxCNC, in about ten minutes, and prints how the feed came back
 # (tests/linuxcnc/kills_test.cpp). Needs the release build, LinuxCNC and root.
 set -eu
 cd "$(dirname "$0")/../.."

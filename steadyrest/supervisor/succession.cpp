@@ -50,6 +50,9 @@ std::string misfit(const Machine& running, const Machine& wanted) {
   if (wanted.envelope.stale_after_s != running.envelope.stale_after_s) {
     return "[envelope] stale_after_ms differs";
   }
+  if (wanted.envelope.late_hold_s != running.envelope.late_hold_s) {
+    return "[envelope] late_hold_ms differs";
+  }
   if (wanted.feed_override != running.feed_override) {
     return "[override.feed] differs";
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C functions that a component links against, reduced to what one component in one thread
-// needs; signatures are those of LinuxCNC's public hal.h.
+// The C functions that components link against, reduced to what they need in one thread; signatures
+// are those of LinuxCNC's public hal.h.
 #include "hal_in_process.hpp"
 
 #include <cstdarg>
@@ -55,7 +55,7 @@ int hal_export_funct(const char* name, void (*function)(void*, long), void* argu
 int hal_pin_bit_newf(int /*direction*/, bool** pin, int /*component*/, const char* format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  *pin = hal().add<bool>(formatted(format, arguments));
+  hal().add(formatted(format, arguments), pin);
   va_end(arguments);
   return 0;
 }
@@ -64,7 +64,7 @@ int hal_pin_float_newf(int /*direction*/, double** pin, int /*component*/, const
                        ...) {
   va_list arguments;
   va_start(arguments, format);
-  *pin = hal().add<double>(formatted(format, arguments));
+  hal().add(formatted(format, arguments), pin);
   va_end(arguments);
   return 0;
 }
@@ -73,7 +73,25 @@ int hal_pin_s32_newf(int /*direction*/, std::int32_t** pin, int /*component*/, c
                      ...) {
   va_list arguments;
   va_start(arguments, format);
-  *pin = hal().add<std::int32_t>(formatted(format, arguments));
+  hal().add(formatted(format, arguments), pin);
+  va_end(arguments);
+  return 0;
+}
+
+int hal_param_bit_newf(int /*direction*/, bool* parameter, int /*component*/, const char* format,
+                       ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  hal().add_parameter(formatted(format, arguments), parameter);
+  va_end(arguments);
+  return 0;
+}
+
+int hal_param_float_newf(int /*direction*/, double* parameter, int /*component*/,
+                         const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  hal().add_parameter(formatted(format, arguments), parameter);
   va_end(arguments);
   return 0;
 }

@@ -31,10 +31,11 @@ using linuxcnc_test::servo_log;
 using linuxcnc_test::ServoRow;
 
 constexpr double kFeed_mm_s = 4000.0 / 60.0;
-constexpr double kLongestReturn = 100.0;  ///< of the ratio, in servo cycles of 1 ms
-/// Of the speed: 20 until the watchdog sees it, 83 from 0 at the 800 mm/s² that LinuxCNC gives
-/// here.
-constexpr double kLongestSpeedReturn = 108.0;
+/// In servo cycles of 1 ms: late_hold_ms, for so long the ratio stays; then 2 1/s, the slower of
+/// feed_rise and spindle_slew in the mill's file.
+constexpr double kHold = 1000.0;
+constexpr double kLongestReturn = kHold + 500.0 + 5.0;
+constexpr double kLongestSpeedReturn = kLongestReturn + 10.0;
 constexpr double kRamp = 0.015;             ///< a servo cycle: layer.hal's 15 1/s
 constexpr double kAcceleration_mm_s = 2.0;  ///< a servo cycle: 2000 mm/s²
 /// A servo cycle. The envelope's 0.05 mm/s are 0.05 µm; a stall is made up with 1 µm at once, which
@@ -76,6 +77,7 @@ struct Life {
   double back = 0.0;        ///< cycles from the last beat until the ratio was 1
   double speed_back = 0.0;  ///< and until the feed was the panel's
   double next = 0.0;        ///< and until the next layer's first beat
+  double risen = 0.0;       ///< by how much the ratio rose in the hold, or until the next layer
   bool seen = false;        ///< the log has each of these cycles
 };
 
@@ -106,6 +108,9 @@ Life life(const std::vector<ServoRow>& log, double from, double killed) {
   out.speed_back = cycles_until(
       [](const ServoRow& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
   out.next = cycles_until([&](const ServoRow& row) { return row.beat != last->beat; });
+  for (At i = last; i != log.end() && i->tick - last->tick < std::min(kHold, out.next); ++i) {
+    out.risen = std::max(out.risen, i->ratio - last->ratio);
+  }
   const At end = at_tick(log, out.last_beat + kLongestSpeedReturn);
   out.seen = end != log.end() && end->tick - out.last_beat == static_cast<double>(end - last);
   return out;
@@ -200,8 +205,10 @@ Figures expect_each_let_go(const std::vector<ServoRow>& log, const std::vector<K
     EXPECT_GT(of.last_beat, 0.0) << i;
     const std::string where = "kill " + std::to_string(i);
     EXPECT_TRUE(!killed[i].waited || of.next > of.back) << where;
+    EXPECT_LE(of.risen, 1e-9) << where << ": the feed rises in the cut";
     if (of.seen && of.next > std::min(of.back, kLongestReturn)) {
       EXPECT_LE(of.back, kLongestReturn) << where;
+      EXPECT_GE(of.back, kHold) << where;
       out.back.push_back(of.back);
     }
     if (of.seen && of.next > std::min(of.speed_back, kLongestSpeedReturn)) {

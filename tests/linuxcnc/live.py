@@ -59,7 +59,7 @@ def main():
     probe("taken", "--frames", "10", "--ratio", "0.5", "--name", "killed").wait()
     killed.send_signal(signal.SIGKILL)
     killed.wait()
-    time.sleep(0.4)
+    time.sleep(2.0)
     probe("driven", "--frames", "10", "--ratio", "0.5", "--name", "driven").wait()
     probe("again", "--frames", "1000", "--ratio", "0.5", "--name", "killed").wait()
     time.sleep(0.2)

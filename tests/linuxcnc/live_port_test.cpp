@@ -156,7 +156,15 @@ void expect_lesser_of_layer_and_panel(const Table& frames, const Table& log) {
   EXPECT_GT(at_panel, 300U);
 }
 
-/// The killed probe held 0.2: from its last heartbeat to the full feed, by the servo thread's log.
+/// A probe that was stopped for 60 ms: the feed has not risen meanwhile, nor when it went on.
+void expect_never_above(const Table& frames, double ratio) {
+  for (std::size_t i = first_corrected(frames); i < frames.size(); ++i) {
+    EXPECT_LE(frames[i][kInForce], ratio + 1e-9) << "frame " << i;
+  }
+}
+
+/// The killed probe held 0.2: that stays for a second after its last heartbeat, and the full feed
+/// is back 0.4 s later, by the servo thread's log.
 void expect_ramp_after_kill(const Table& log) {
   std::size_t end = 0;
   for (std::size_t i = 0; i < log.size(); ++i) {
@@ -167,10 +175,10 @@ void expect_ramp_after_kill(const Table& log) {
   while (beat > 1 && log[beat][kBeat] == log[beat - 1][kBeat]) {
     --beat;
   }
-  ASSERT_LT(beat + 300, log.size());
-  for (std::size_t i = beat + 1; i <= beat + 110; ++i) {
+  ASSERT_LT(beat + 1500, log.size());
+  for (std::size_t i = beat + 1; i <= beat + 1410; ++i) {
     ASSERT_EQ(log[i][kTick], log[i - 1][kTick] + 1.0);
-    EXPECT_LE(log[i][kLayer] - log[i - 1][kLayer], 15.0 * kPeriod_s + 1e-9);
+    EXPECT_LE(log[i][kLayer] - log[i - 1][kLayer], i < beat + 1000 ? 1e-9 : 2.0 * kPeriod_s + 1e-9);
     EXPECT_LE(std::abs(log[i][kLogSpeed] - log[i - 1][kLogSpeed]),
               kPathAcceleration_mm_s2 * kPeriod_s);
     EXPECT_GE(log[i][kLogSpeed], log[i - 1][kLogSpeed] - 1e-6);
@@ -182,7 +190,8 @@ void expect_ramp_after_kill(const Table& log) {
   EXPECT_NEAR(log[beat + 200][kCmdZ], 0.05, 1e-4);
   EXPECT_NEAR(log[beat + 300][kCmdZ], 0.05, 1e-4);
   EXPECT_NEAR(log[beat][kLogSpeed], 0.2 * kFeed_mm_s, 1e-6);
-  EXPECT_NEAR(log[beat + 100][kLogSpeed], kFeed_mm_s, 1e-6);
+  EXPECT_NEAR(log[beat + 995][kLogSpeed], 0.2 * kFeed_mm_s, 1e-6);
+  EXPECT_NEAR(log[beat + 1410][kLogSpeed], kFeed_mm_s, 1e-6);
 }
 
 /// The probe after the killed one asks for no offset: from its 0.05 mm to 0 by 1 mm/s.
@@ -238,6 +247,7 @@ TEST(LinuxCncPortLive, ReadsCorrectsAndLetsGo) {
   EXPECT_THAT(text_of(folder.at("stalled.said")), HasSubstr("missed 0 "));
   EXPECT_THAT(text_of(folder.at("stalled.said")), HasSubstr("rearmed 1"));
   EXPECT_NEAR(table(folder.at("stalled.csv")).back()[kSpeed], 0.5 * kFeed_mm_s, 1e-6);
+  expect_never_above(table(folder.at("stalled.csv")), 0.5);
   EXPECT_THAT(text_of(folder.at("taken.said")), HasSubstr("a layer runs on this LinuxCNC"));
   // The pins of a dead process keep its signals, for the next one with the same pins.
   EXPECT_THAT(text_of(folder.at("driven.said")), HasSubstr("layer-feed is missing or another"));

@@ -66,7 +66,7 @@ TEST(ControlText, ThePlcHandsBackOnePositionInTheTimeOfTheWidest) {
   const auto of = by_plc();
   const std::string text = adapters::opcua::control_texts(of).value()[2].text;
   EXPECT_NE(text.find("step := wait >= L#50;"), std::string::npos);
-  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 0.2 + 24 * 0.05, 1e-9);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0, 1.2), 1.0 + 24 * 0.05, 1e-9);
 }
 
 // The block climbs a repeated position like any other. From the lowest of three at 50 % these are
@@ -89,17 +89,17 @@ TEST(ControlText, TheStatedTimeIsThatOfTheSlowerOne) {
   of.envelope.min_spindle_ratio = 0.5;
   of.spindle_override.ratio.back() = 2.0;
   const double cycles_s = 2.0 * of.control.interpolator_period_s;
-  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 1.5 / 2.0 + cycles_s, 1e-9);
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 1.0 + 1.5 / 2.0 + cycles_s, 1e-9);
   of.spindle_override.ratio = {1.0};
-  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 0.2 + 1.2 / 2.0 + cycles_s, 1e-9);
+  EXPECT_NEAR(adapters::opcua::longest_hand_back_s(of), 1.0 + 1.2 / 2.0 + cycles_s, 1e-9);
 }
 
 TEST(ControlText, WithoutASpindleTheFeedHasItsOwnRate) {
   auto of = machine();
   of.envelope.spindle_slew_1_s = 0.5;
-  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 0.2 + 1.0 / 0.5 + 0.004, 0.02);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 1.0 + 1.0 / 0.5 + 0.004, 0.02);
   of.spindle_override.ratio = {1.0};
-  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 0.2 + 1.0 / 2.0 + 0.004, 0.02);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.0), 1.0 + 1.0 / 2.0 + 0.004, 0.02);
 }
 
 // The control writes 5EX-5; 5e-05 is an error there.

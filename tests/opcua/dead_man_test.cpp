@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -91,6 +92,40 @@ TEST_F(DeadMan, WithoutOrdersTheFeedIsThePanelsWithinTheStatedTimeAndNeverJumps)
   EXPECT_LE(neutral_s, stated_s);
   EXPECT_GE(neutral_s, stated_s - 0.05);
   EXPECT_FALSE(control.obeys());
+}
+
+// A layer, a bridge or a network that is late by anything below the dead man, again and again.
+TEST_F(DeadMan, LateOrdersNeverRaiseFeedOrSpindleInTheCut) {
+  Order order;
+  order.masks_feed = order.masks_spindle = order.has_offsets = true;
+  order.feed_percent = 30.0;
+  order.spindle_percent = 80.0;
+  order.offset_mm[0] = 0.001;
+  const double period_s = of.control.interpolator_period_s;
+  const auto cycles = [&](double time_s) { return static_cast<int>(std::ceil(time_s / period_s)); };
+  for (int i = 0; i < cycles(0.5); ++i) {
+    layer.write(order);
+    control.step();
+  }
+  ASSERT_NEAR(control.feed_in_force(), 0.3, 1e-9);
+  const double offset_mm = control.offset_mm(0);
+  ASSERT_NEAR(offset_mm, 0.001, 1e-9);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any_s(0.0, of.opcua.dead_man_s - period_s);
+  for (const double late_s :
+       {0.001, 0.02, 0.1, 0.19, 0.2, 0.21, 0.5, 0.9, of.opcua.dead_man_s - 2.0 * period_s,
+        any_s(random), any_s(random), any_s(random), any_s(random), any_s(random), any_s(random)}) {
+    for (int i = 0; i < cycles(late_s); ++i) {
+      control.step();
+      ASSERT_LE(control.feed_in_force(), 0.3 + 1e-9) << late_s << " s late, cycle " << i;
+      ASSERT_NEAR(control.read("$AA_TOTAL_OVR[S1]"), 80.0, 1e-6) << late_s;
+      ASSERT_EQ(control.offset_mm(0), offset_mm);
+      ASSERT_TRUE(control.obeys());
+    }
+    layer.write(order);
+    control.step();
+    ASSERT_NEAR(control.feed_in_force(), 0.3, 1e-9) << "it goes on without a jump";
+  }
 }
 
 TEST_F(DeadMan, ResetInTheCutHandsBackByTheRampToo) {
@@ -189,7 +224,7 @@ TEST_F(DeadMan, AnOffsetThatIsNoNumberIsNotTaken) {
   control.r(first) = control.r(last) = 1.0;
   control.step();
   ASSERT_TRUE(control.obeys());
-  run(0.3);
+  run(of.opcua.dead_man_s + 0.1);
   control.r(first + 7) = std::numeric_limits<double>::quiet_NaN();
   control.r(first) = control.r(last) = 2.0;
   control.step();
@@ -270,7 +305,7 @@ TEST_F(DeadMan, TheFeedReturnsNoFasterThanTheSpindle) {
   order.feed_percent = order.spindle_percent = 80.0;
   dying.write(order);
   const double most_s = adapters::opcua::neutral_after_s(slow, 0.8);
-  EXPECT_NEAR(most_s, 0.2 + 0.2 / 0.5 + 2.0 * slow.control.interpolator_period_s, 1e-9);
+  EXPECT_NEAR(most_s, 1.0 + 0.2 / 0.5 + 2.0 * slow.control.interpolator_period_s, 1e-9);
   const double from_s = one.time_s();
   do {
     one.step();
@@ -302,6 +337,36 @@ TEST_F(DeadMan, OffsetsMoveSlowlyFreezeInTheCutAndGoWhenTheProgramHasEnded) {
   }
   run(2.0 * of.envelope.max_offset_mm / of.envelope.offset_slew_mm_s);
   EXPECT_EQ(control.offset_mm(1), 0.0);
+}
+
+TEST(DeadManPanel, ThePanelWinsWhileTheLayerIsLate) {
+  const auto of = machine();
+  const auto table = kernel::override::Table::make(of.feed_override).value();
+  const auto code = [&](double ratio) { return table.code(table.nearest_step(ratio).value()); };
+  ControlSide control(
+      {.machine = of,
+       .path = circles(of),
+       .operator_actions = {
+           {.time_s = 0.3, .act = sim::OperatorAct::turn_feed, .code = code(0.1)},
+           {.time_s = 0.5, .act = sim::OperatorAct::turn_feed, .code = table.code(0)},
+           {.time_s = 0.7, .act = sim::OperatorAct::turn_feed, .code = code(1.2)}}});
+  Layer layer(control, of);
+  layer.feed(30.0);
+  const double from_s = control.time_s();
+  double before = control.panel_ratio();
+  while (control.time_s() < from_s + of.opcua.dead_man_s - 0.01) {
+    control.step();
+    // The actions see the panel of the cycle before.
+    const bool turns =
+        std::abs(control.panel_ratio() - std::exchange(before, control.panel_ratio())) > 0.0;
+    ASSERT_LE(control.feed_in_force(), control.panel_ratio());
+    if (turns) {
+      continue;
+    }
+    ASSERT_NEAR(control.feed_in_force(), std::min(0.3, control.panel_ratio()), 1e-9)
+        << control.time_s();
+  }
+  EXPECT_GT(control.panel_ratio(), 1.1);
 }
 
 TEST(DeadManPanel, ThePanelAtZeroStopsWhateverTheLayerWants) {

@@ -8,6 +8,7 @@
 
 #include <steadyrest/adapters/linuxcnc/hal_pins.hpp>
 #include <steadyrest/adapters/linuxcnc/process_identity.hpp>
+#include <steadyrest/adapters/linuxcnc/sample.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
 namespace steadyrest::adapters::linuxcnc {
@@ -60,6 +61,8 @@ std::vector<HalPins::Pin> HalPins::list() const {
                            {"spindle", HAL_FLOAT, HAL_OUT, &at.spindle},
                            {"heartbeat", HAL_BIT, HAL_OUT, &at.heartbeat},
                            {"armed", HAL_BIT, HAL_OUT, &at.armed},
+                           {"hold", HAL_FLOAT, HAL_OUT, &at.hold},
+                           {"rise", HAL_FLOAT, HAL_OUT, &at.rise},
                            {"process", HAL_U32, HAL_OUT, &at.process},
                            {"process-start", HAL_U32, HAL_OUT, &at.process_start},
                            {"probe-number", HAL_FLOAT, HAL_IN, &at.probe_number},
@@ -110,8 +113,10 @@ Result<HalPins> HalPins::make(const std::string& name, std::size_t axes, int com
 /// Linked as the first pin that drives a signal, a pin gives it its value: an offset that an
 /// earlier layer left would jump to 0.
 void HalPins::begin() {
-  values_->feed->f = 1.0;
+  values_->feed->f = kNoCeiling;
   values_->spindle->f = 1.0;
+  values_->hold->f = signal_value("layer-hold").value_or(0.0);
+  values_->rise->f = signal_value("layer-rise").value_or(0.0);
   for (std::size_t a = 0; a < axes_; ++a) {
     const hal_data_u* const left = value_of_signal(fmt::format("layer-offset-{}", a));
     values_->axis[a].offset->f = left != nullptr ? left->f : 0.0;
@@ -167,13 +172,14 @@ Result<void> HalPins::link(const std::string& pin) {
       hal_link((name_ + "." + pin).c_str(), signal.c_str()) != 0) {
     return unavailable(
         fmt::format("the signal {} is missing or another component drives it", signal),
-        "load layer.hal, and disconnect what else drives its signals");
+        "load layer.hal (an older one: set it up again), and disconnect what else drives its "
+        "signals");
   }
   return {};
 }
 
 Result<void> HalPins::connect() {
-  for (const char* pin : {"feed", "spindle", "heartbeat", "armed"}) {
+  for (const char* pin : {"feed", "spindle", "heartbeat", "armed", "hold", "rise"}) {
     if (auto linked = link(pin); !linked) {
       return linked;
     }

@@ -29,6 +29,8 @@ struct PinValues {
   hal_data_u* spindle;
   hal_data_u* heartbeat;
   hal_data_u* armed;
+  hal_data_u* hold;           ///< s without a heartbeat until the HAL takes the layer for dead
+  hal_data_u* rise;           ///< 1/s by which it hands back then
   hal_data_u* process;        ///< whose the pins are
   hal_data_u* process_start;  ///< ProcessIdentity::start
   std::array<Axis, kernel::signal::kMaxAxes> axis;

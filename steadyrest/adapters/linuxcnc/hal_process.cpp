@@ -156,6 +156,10 @@ Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
   if (auto connected = hal->pins ? hal->connect() : Result<void>(); !connected) {
     return std::unexpected(std::move(connected.error()));
   }
+  if (hal->pins) {
+    hal->pins->values().hold->f = config.hold_s;
+    hal->pins->values().rise->f = config.rise_1_s;
+  }
   return std::unique_ptr<HalProcess>(new HalProcess(std::move(hal)));
 }
 

@@ -16,17 +16,20 @@ namespace steadyrest::adapters::linuxcnc {
 /// `-axis`, `-displacement`) and a vibration sensor (sampler channel 7, `layer-vibration-rate`)
 /// where the HAL has these signals.
 ///
-/// It has the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat and .armed, connected
-/// to the signals of layer.hal, and attaches to the sampler's channels; its component is NAME-PID.
-/// Pins that a killed process left are taken over as they are (HalPins). Destroyed in good order it
-/// disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is LGPL.
+/// It has the pins NAME.feed, .spindle, .offset-N, .path-offset-N, .heartbeat, .armed, .hold and
+/// .rise, connected to the signals of layer.hal, and attaches to the sampler's channels; its
+/// component is NAME-PID. Pins that a killed process left are taken over as they are (HalPins).
+/// Destroyed in good order it disarms the watchdog and leaves. Uses liblinuxcnchal alone, which is
+/// LGPL.
 class HalProcess final : public HalSide {
  public:
   struct Config {
     std::string name = "steadyrest";  ///< of the pins; up to 20 characters
     std::size_t axes = 3;
     double servo_period_s = 0.001;
-    bool writes = true;  ///< false: no pins, reading only
+    double hold_s = 1.0;    ///< without a heartbeat the HAL keeps feed and spindle so long, > 0
+    double rise_1_s = 2.0;  ///< then they return to the panel's by this, > 0
+    bool writes = true;     ///< false: no pins, reading only
   };
 
   static kernel::outcome::Result<std::unique_ptr<HalProcess>> make(const Config& config);

@@ -22,6 +22,9 @@ constexpr std::uint32_t kBeatsToShow = 30;
 /// A path offset of 1.5 mm has ramped out by then; so long the watchdog stays released at most.
 constexpr std::uint32_t kBeatsToRampOut = 300;
 constexpr double kGone_mm = 0.002;
+/// The HAL has risen to what is asked for by then, at the slowest.
+constexpr std::uint32_t kBeatsToRise = 5000;
+constexpr double kSameShare = 1e-6;
 
 std::unexpected<Refusal> why(Got got) {
   switch (got) {
@@ -149,12 +152,20 @@ bool LinuxCncPort::path_offset_gone() const noexcept {
   return true;
 }
 
+/// The HAL lets through what is asked for.
+bool LinuxCncPort::feed_risen() const noexcept {
+  return sample_[Column::layer_feed] >=
+         feed_share(pins_.feed, sample_[Column::feed_panel]) - kSameShare;
+}
+
 void LinuxCncPort::arm() noexcept {
   ++beats_;
   if (!pins_.armed) {
     // Let the servo thread see the released state before the next rising edge, and let the path
-    // offset of an earlier layer ramp out there: once armed, it would jump to this one's.
-    if (beats_ > kBeatsToShow / 10 && (path_offset_gone() || beats_ > kBeatsToRampOut)) {
+    // offset of an earlier layer ramp out there: once armed, it would jump to this one's. A feed
+    // that returns there does so by the slow rate, which ends with the arming.
+    if (beats_ > kBeatsToShow / 10 && (path_offset_gone() || beats_ > kBeatsToRampOut) &&
+        (feed_risen() || beats_ > kBeatsToRise)) {
       pins_.armed = true;
       beats_ = 0;
     }

@@ -20,7 +20,7 @@ namespace steadyrest::adapters::linuxcnc {
 /// read() hands out the servo cycles in order, each once, and waits for the next when there is
 /// none: it sets the pace of the loop. age_s is the number of cycles that wait behind the frame
 /// times the servo period. More than `most_waiting` are skipped to the newest. write() toggles the
-/// heartbeat. When the watchdog in layer.hal has cut the layer off (a pause of more than 20 ms),
+/// heartbeat. When the watchdog in layer.hal has found the layer late (a pause of more than 20 ms),
 /// the port arms it again.
 class LinuxCncPort final : public kernel::port::Port {
  public:
@@ -66,6 +66,7 @@ class LinuxCncPort final : public kernel::port::Port {
                                             const kernel::signal::AxisValues& units_s2) noexcept;
   void arm() noexcept;
   [[nodiscard]] bool path_offset_gone() const noexcept;
+  [[nodiscard]] bool feed_risen() const noexcept;
   void remember_offsets() noexcept;
 
   Config config_;

@@ -84,10 +84,13 @@ struct Inputs {
   double vibration_rate_hz = 0.0;
 };
 
+/// A feed ratio that no panel reaches: the layer wants nothing.
+inline constexpr double kNoCeiling = 10.0;
+
 /// What the adapter tells LinuxCNC.
 struct Pins {
-  double feed = 1.0;     ///< factor on the feed, 0 … 1, for motion.adaptive-feed
-  double spindle = 1.0;  ///< factor on the speed between spindle.0.speed-out and the drive
+  double feed = kNoCeiling;  ///< highest feed ratio; the HAL makes min(this, panel) of it
+  double spindle = 1.0;      ///< factor on the speed between spindle.0.speed-out and the drive
   kernel::signal::AxisValues offset{};       ///< in the control's units; kept when the layer dies
   kernel::signal::AxisValues path_offset{};  ///< the same; ramps to 0 when the layer dies
   bool heartbeat = false;

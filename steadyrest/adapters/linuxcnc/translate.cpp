@@ -115,19 +115,17 @@ Frame frame_of(const Sample& sample, const Units& units) noexcept {
   return frame;
 }
 
-double feed_factor(double layer_ratio, double panel_ratio) noexcept {
-  if (!std::isfinite(layer_ratio) || !std::isfinite(panel_ratio)) {
-    return 1.0;
-  }
+double feed_share(double ceiling_ratio, double panel_ratio) noexcept {
   const double panel = panel_ratio > 0.0 ? panel_ratio : 1.0;
-  return std::clamp(layer_ratio / panel, 0.0, 1.0);
+  return std::clamp(ceiling_ratio / panel, 0.0, 1.0);
 }
 
 Pins pins_of(const kernel::signal::Command& command, const Sample& sample, const Units& units,
              const Pins& before) noexcept {
   Pins pins = before;
-  pins.feed =
-      command.feed_masks_panel ? feed_factor(command.feed_ratio, sample[Column::feed_panel]) : 1.0;
+  pins.feed = command.feed_masks_panel && std::isfinite(command.feed_ratio)
+                  ? std::clamp(command.feed_ratio, 0.0, kNoCeiling)
+                  : kNoCeiling;
   const double spindle = command.spindle_ratio / sample[Column::spindle_panel];
   pins.spindle = command.spindle_masks_panel && std::isfinite(spindle)
                      ? std::clamp(spindle, 0.0, kMostSpindleFactor)

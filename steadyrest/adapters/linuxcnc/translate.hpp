@@ -22,10 +22,10 @@ struct Units {
 /// judges them. A feed hold keeps its block's motion, as motion.motion-type does.
 [[nodiscard]] kernel::signal::Frame frame_of(const Sample& sample, const Units& units) noexcept;
 
-/// The factor for a control that multiplies layer and panel, such that the product is min(layer,
-/// panel):  factor = min(1, layer/panel), panel > 0.
-/// At panel 0 the control is at rest: the factor is then that for a panel that returns to 100 %.
-[[nodiscard]] double feed_factor(double layer_ratio, double panel_ratio) noexcept;
+/// What layer.hal makes of a ceiling for LinuxCNC, which multiplies it with the panel, such that
+/// the product is min(ceiling, panel):  share = min(1, ceiling/panel), panel > 0. At panel 0 the
+/// control is at rest: the share is then that for a panel that returns to 100 %.
+[[nodiscard]] double feed_share(double ceiling_ratio, double panel_ratio) noexcept;
 
 /// The command's ratios and offsets as pins; heartbeat and arming are the port's. What is not
 /// finite becomes neutral: the panel's value alone, the offset that `before` had, no path offset.

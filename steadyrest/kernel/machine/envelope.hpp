@@ -19,6 +19,10 @@ struct Envelope {
   double max_path_offset_mm = 0.0;
   double path_offset_slew_mm_s = 50.0;
   double stale_after_s = 0.1;  ///< older input is ignored
+  /// Late is not dead: the machine's side keeps the layer's word for so long after its last
+  /// heartbeat, and only then lets it rise to the panel's (supervisor/README.md). Where a control's
+  /// dead man or a watchdog of the wiring has a time of its own, that one counts.
+  double late_hold_s = 1.0;
 
   friend bool operator==(const Envelope&, const Envelope&) = default;
 };

@@ -62,10 +62,14 @@ struct Machine {
 }
 
 /// Without a new command the machine keeps what was written for so long: the earliest of watchdog
-/// relay, PLC and module's watchdog, or the control's dead man, else `stale_after_ms`. s.
+/// relay, PLC and module's watchdog, the control's dead man, LinuxCNC's `late_hold_ms`, else
+/// `stale_after_ms`. s.
 [[nodiscard]] inline double holds_s(const Machine& machine) noexcept {
   if (machine.port == PortKind::opcua) {
     return machine.opcua.dead_man_s;
+  }
+  if (machine.port == PortKind::linuxcnc) {
+    return machine.envelope.late_hold_s;
   }
   double earliest_s = std::numeric_limits<double>::infinity();
   for (const double given_s : {machine.lines.dropped_after_s, machine.lines.watchdog_s}) {

@@ -155,7 +155,7 @@ struct OpcUa {
   std::uint32_t first_order = 760;   ///< R parameters that the layer writes
   std::uint32_t first_work = 780;    ///< R parameters that the control's side works with
   std::uint32_t first_action = 101;  ///< number of its first synchronized action
-  double dead_man_s = 0.2;           ///< without a new heartbeat the control's side hands back
+  double dead_man_s = 1.0;           ///< without a new heartbeat the control's side hands back
   double hand_back_1_s = 2.0;        ///< the feed rises by no more, in the control itself
   std::string spindle = "S1";        ///< as the control calls it
   std::string machine_axes;          ///< names of the machine axes, X1 Y1 …; empty: those

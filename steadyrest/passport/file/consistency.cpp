@@ -22,6 +22,8 @@ using kernel::machine::OverrideTable;
 
 using List = std::vector<Finding>;
 
+constexpr double kOftenLate_s = 0.1;
+
 /// Steps are decimal fractions, so equality needs a tolerance of rounding only.
 bool has_ratio(const OverrideTable& table, double ratio) {
   return std::any_of(table.ratio.begin(), table.ratio.end(),
@@ -117,6 +119,13 @@ void envelope(const Machine& machine, List& out) {
         {Severity::error, "stale",
          "stale_after_ms is shorter than one cycle of the layer: every input would be stale",
          "set stale_after_ms to several periods"});
+  }
+  if (machine.port == kernel::machine::PortKind::linuxcnc && envelope.late_hold_s < kOftenLate_s) {
+    out.push_back({Severity::warning, "late",
+                   fmt::format("late_hold_ms = {:g}: a computer without real-time priority is "
+                               "often later than that, and each time the feed rises in the cut",
+                               1e3 * envelope.late_hold_s),
+                   "give 1000, or at least 100"});
   }
 }
 

@@ -108,6 +108,11 @@ std::span<const Key<Envelope>> envelope_keys() noexcept {
                     "How fast that offset may change."},
       Key<Envelope>{"stale_after_ms", &Envelope::stale_after_s, 0.1, 60000,
                     "Input older than this is not acted on."},
+      Key<Envelope>{"late_hold_ms", &Envelope::late_hold_s, 20, 10000,
+                    "LinuxCNC keeps the layer's feed and spindle for this long after its last "
+                    "heartbeat; only then do they return to the panel's, by the slower of "
+                    "`feed_rise` and `spindle_slew`. Other ports have times of their own: "
+                    "`dead_man_ms`, `dropped_after_ms`, `watchdog_ms`."},
   };
   return kKeys;
 }

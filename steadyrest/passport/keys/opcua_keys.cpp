@@ -47,7 +47,8 @@ std::span<const Key<OpcUa>> opcua_keys() noexcept {
       Key<OpcUa>{"first_action", &OpcUa::first_action, 1, 200,
                  "Number of the first synchronized action of the control's side."},
       Key<OpcUa>{"dead_man_ms", &OpcUa::dead_man_s, 20, 10000,
-                 "Without a new order for this long the control's side hands back by itself."},
+                 "Without a new order the control's side keeps feed and spindle for this long, "
+                 "then hands back by itself. Longer than a computer or network is ever late."},
       Key<OpcUa>{"hand_back_percent_s", &OpcUa::hand_back_1_s, 10, 1000,
                  "Rise of the feed in the control's side, at most."},
       Key<OpcUa>{"spindle", &OpcUa::spindle, 1, 16, "The spindle's name on the control."},

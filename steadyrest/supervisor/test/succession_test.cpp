@@ -181,6 +181,7 @@ TEST(Succession, RefusesWhatCannotChangeUnderARunningMachine) {
   EXPECT_THAT(why([](Machine& m) { m.control.interpolator_period_s = 0.002; }),
               HasSubstr("interpolator_period_ms"));
   EXPECT_THAT(why([](Machine& m) { m.envelope.stale_after_s = 0.3; }), HasSubstr("stale_after_ms"));
+  EXPECT_THAT(why([](Machine& m) { m.envelope.late_hold_s = 0.3; }), HasSubstr("late_hold_ms"));
   EXPECT_THAT(why([](Machine& m) { m.feed_override.coding = kernel::machine::Coding::binary; }),
               HasSubstr("override.feed"));
   EXPECT_THAT(why([](Machine& m) { m.spindle_override.scan_period_s = 0.5; }),

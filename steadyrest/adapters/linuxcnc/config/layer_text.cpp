@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/adapters/linuxcnc/config/hal_lines.hpp>
 #include <steadyrest/adapters/linuxcnc/config/layer_text.hpp>
 #include <steadyrest/adapters/linuxcnc/sample.hpp>
 
@@ -57,59 +58,7 @@ std::string sampler_arguments(const LayerHal& layer) {
   return depth + " " + types;
 }
 
-class Text {
- public:
-  explicit Text(const LayerHal& layer) : layer_(layer) {}
-
-  /// One instance under the name that it has here.
-  [[nodiscard]] std::string name(const std::string& shipped) const {
-    const auto other = layer_.instance.find(shipped);
-    return other == layer_.instance.end() ? shipped : other->second;
-  }
-  /// `layer.tick.out` → the pin of the instance that layer.tick has become.
-  [[nodiscard]] std::string pin(const std::string& shipped) const {
-    const std::size_t dot = shipped.rfind('.');
-    return shipped.starts_with("layer.") ? name(shipped.substr(0, dot)) + shipped.substr(dot)
-                                         : shipped;
-  }
-  void line(const std::string& text = "") { text_ += text + "\n"; }
-  void addf(const std::string& function, int position = 0) {
-    line(position == 0 ? fmt::format("addf {} servo-thread", name(function))
-                       : fmt::format("addf {} servo-thread {}", name(function), position));
-  }
-  void setp(const std::string& shipped, const std::string& value) {
-    line(fmt::format("setp {} {}", pin(shipped), value));
-  }
-  /// Further pins that read a signal of the layer's own.
-  void reads(const std::string& signal, std::initializer_list<std::string> readers) {
-    put(signal, "", readers);
-  }
-  /// A pin of ours, or the machine's output, and who reads it. Where the machine's own file has a
-  /// signal on that pin, that one.
-  void net(const std::string& signal, const std::string& source,
-           const std::vector<std::string>& readers) {
-    const auto own = layer_.signal.find(source);
-    put(own == layer_.signal.end() ? signal : own->second, source, readers);
-  }
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  void put(const std::string& signal, const std::string& source,
-           const std::vector<std::string>& readers) {
-    std::string out = "net " + signal;
-    out += source.empty() ? "" : " " + pin(source);
-    out += readers.empty() ? "" : " =>";
-    for (const std::string& reader : readers) {
-      out += " " + pin(reader);
-    }
-    line(out);
-  }
-
-  const LayerHal& layer_;
-  std::string text_;
-};
-
-void load(Text& text, const LayerHal& layer) {
+void load(HalLines& text, const LayerHal& layer) {
   for (const Needed& one : needed(layer)) {
     if (layer.loaded.contains(one.component) || one.component == "conv_float_s32") {
       continue;
@@ -123,14 +72,16 @@ void load(Text& text, const LayerHal& layer) {
   text.line();
 }
 
-void run(Text& text, const LayerHal& layer) {
+void run(HalLines& text, const LayerHal& layer) {
   text.line(
       "# Before the motion controller, so that a ratio acts in the servo cycle that finds it.");
   text.addf("watchdog.set-timeouts", 1);
   text.addf("watchdog.process", 2);
   int position = 3;
-  for (const char* name : {"layer.feed-choice", "layer.feed-falls", "layer.feed-ramp",
-                           "layer.spindle-choice", "layer.spindle-ramp"}) {
+  for (const char* name :
+       {"layer.held", "layer.rate", "layer.feed-choice", "layer.feed-falls", "layer.feed-ramp",
+        "layer.feed-panel-on", "layer.feed-panel", "layer.feed-share", "layer.feed-most",
+        "layer.spindle-choice", "layer.spindle-ramp"}) {
     text.addf(name, position++);
   }
   text.line("# After it: the drive's speed, the cycle's number, the samples.");
@@ -145,33 +96,57 @@ void run(Text& text, const LayerHal& layer) {
   text.line();
 }
 
-void ratios(Text& text, const LayerHal& layer) {
+/// What the servo thread thinks of the layer: alive, late, dead.
+void life(HalLines& text) {
   text.line(
-      "# No heartbeat for 20 ms: the ratios go to 1. Only a disarmed and armed watchdog lets the "
-      "layer in again.");
+      "# No heartbeat for 20 ms: the layer is late. Path offsets go; feed and spindle stay as they "
+      "are. Only a disarmed and\n# armed watchdog makes it alive again.");
   text.setp("watchdog.timeout-0", "0.020");
-  text.reads("layer-heartbeat", {"watchdog.input-0"});
   text.reads("layer-armed", {"watchdog.enable-in"});
-  text.net("layer-alive", "watchdog.ok-out",
-           {"layer.feed-choice.sel", "layer.spindle-choice.sel", "sampler.0.pin.14"});
-  text.line("\n# Feed: falls at once, rises by 15 1/s at most, from 0 to 1 in 67 ms.");
-  text.setp("layer.feed-choice.in0", "1.0");
+  text.net("layer-alive", "watchdog.ok-out", {"layer.rate.sel", "sampler.0.pin.14"});
+  text.line(
+      "\n# No heartbeat for layer-hold seconds: it is dead, and feed and spindle return by "
+      "layer-rise 1/s. The layer's process\n# gives both: [envelope] late_hold_ms, and the slower "
+      "of its feed_rise and spindle_slew.");
+  text.setp("layer.held.falling", "1");
+  text.setp("layer.rate.in1", "15.0");
+  text.reads("layer-hold", {"layer.held.width"});
+  text.reads("layer-rise", {"layer.rate.in0"});
+  text.line("sets layer-hold 1.0\nsets layer-rise 2.0");
+  text.reads("layer-heartbeat", {"watchdog.input-0", "layer.held.in"});
+  text.net("layer-held", "layer.held.out", {"layer.feed-choice.sel", "layer.spindle-choice.sel"});
+  text.net("layer-rate", "layer.rate.out", {"layer.feed-ramp.maxv", "layer.spindle-ramp.maxv"});
+}
+
+void ratios(HalLines& text, const LayerHal& layer) {
+  text.line(
+      "\n# Feed: a ceiling that falls at once and rises by the rate, 15 1/s at most; 10 is none. "
+      "The "
+      "pin gets ceiling / panel, 1 at\n# most: in force is the lower of both, whether or not the "
+      "layer lives. At panel 0 as for panel 1.");
+  text.setp("layer.feed-choice.in0", fmt::format("{:.1f}", kNoCeiling));
   text.setp("layer.feed-ramp.min", "0.0");
-  text.setp("layer.feed-ramp.max", "1.0");
-  text.setp("layer.feed-ramp.maxv", "15.0");
+  text.setp("layer.feed-ramp.max", fmt::format("{:.1f}", kNoCeiling));
+  text.setp("layer.feed-panel.in0", "1.0");
+  text.setp("layer.feed-most.min", "0.0");
+  text.setp("layer.feed-most.max", "1.0");
   text.reads("layer-feed", {"layer.feed-choice.in1"});
   text.net("layer-feed-chosen", "layer.feed-choice.out",
            {"layer.feed-ramp.in", "layer.feed-falls.in0"});
   text.net("layer-feed-falls", "layer.feed-falls.out", {"layer.feed-ramp.load"});
-  text.net("layer-feed-in-force", "layer.feed-ramp.out",
-           {"layer.feed-falls.in1", "motion.adaptive-feed", "sampler.0.pin.12"});
+  text.net("layer-feed-ceiling", "layer.feed-ramp.out",
+           {"layer.feed-falls.in1", "layer.feed-share.in0"});
+  text.net("layer-feed-panel-on", "layer.feed-panel-on.out", {"layer.feed-panel.sel"});
+  text.net("layer-feed-divisor", "layer.feed-panel.out", {"layer.feed-share.in1"});
+  text.net("layer-feed-share", "layer.feed-share.out", {"layer.feed-most.in"});
+  text.net("layer-feed-in-force", "layer.feed-most.out",
+           {"motion.adaptive-feed", "sampler.0.pin.12"});
   text.line(
       "\n# Spindle: the drive gets speed-out × ratio. Connect layer-drive-rps to it instead of "
       "spindle.0.speed-out-rps.");
   text.setp("layer.spindle-choice.in0", "1.0");
   text.setp("layer.spindle-ramp.min", "0.0");
   text.setp("layer.spindle-ramp.max", "2.0");
-  text.setp("layer.spindle-ramp.maxv", "15.0");
   text.reads("layer-spindle", {"layer.spindle-choice.in1"});
   text.net("layer-spindle-chosen", "layer.spindle-choice.out", {"layer.spindle-ramp.in"});
   std::vector<std::string> factors{"layer.drive.in1"};
@@ -190,7 +165,7 @@ void ratios(Text& text, const LayerHal& layer) {
   text.line();
 }
 
-void state_samples(Text& text) {
+void state_samples(HalLines& text) {
   struct Row {
     const char* signal;
     const char* source;
@@ -213,11 +188,15 @@ void state_samples(Text& text) {
       {"layer-modulation", "motion.digital-out-00", 18},
   };
   for (const Row& row : kRows) {
-    text.net(row.signal, row.source, {fmt::format("sampler.0.pin.{}", row.pin)});
+    std::vector<std::string> readers{fmt::format("sampler.0.pin.{}", row.pin)};
+    if (row.pin == 9) {
+      readers.insert(readers.end(), {"layer.feed-panel-on.in1", "layer.feed-panel.in1"});
+    }
+    text.net(row.signal, row.source, readers);
   }
 }
 
-void samples(Text& text, const LayerHal& layer) {
+void samples(HalLines& text, const LayerHal& layer) {
   text.line("# The number of the servo cycle, in each channel: samples are joined by it.");
   text.setp("layer.tick.in0", "1.0");
   std::vector<std::string> ticks{"layer.tick.in1"};
@@ -259,7 +238,7 @@ void samples(Text& text, const LayerHal& layer) {
   }
 }
 
-void load_offsets(Text& text, const LayerHal& layer) {
+void load_offsets(HalLines& text, const LayerHal& layer) {
   const auto counts = needed(layer).back();
   if (!layer.loaded.contains(counts.component)) {
     std::string names;
@@ -268,7 +247,7 @@ void load_offsets(Text& text, const LayerHal& layer) {
     }
     text.line(fmt::format("loadrt {} names={}\n", counts.component, names));
   }
-  int position = 8;
+  int position = 14;
   for (const LayerAxis& axis : layer.axes) {
     for (const char* stem : {"path", "path-ramp", "offset", "counts"}) {
       if (moves(axis)) {
@@ -283,7 +262,7 @@ void load_offsets(Text& text, const LayerHal& layer) {
                   layer.offset_count, layer.path_ramp_units_s));
 }
 
-void offset(Text& text, const LayerHal& layer, std::size_t i) {
+void offset(HalLines& text, const LayerHal& layer, std::size_t i) {
   const LayerAxis& axis = layer.axes[i];
   const char l = lower(axis.letter);
   const std::string gain = fmt::format("{:.10g}", 1.0 / layer.offset_count);
@@ -320,8 +299,9 @@ std::string drive_signal(const std::string& output) {
 
 std::vector<Needed> needed(const LayerHal& layer) {
   Needed sums{"sum2", {"layer.tick"}, ""};
-  Needed choices{"mux2", {"layer.feed-choice", "layer.spindle-choice"}, ""};
-  Needed ramps{"limit2", {"layer.feed-ramp", "layer.spindle-ramp"}, ""};
+  Needed choices{
+      "mux2", {"layer.rate", "layer.feed-choice", "layer.feed-panel", "layer.spindle-choice"}, ""};
+  Needed ramps{"limit2", {"layer.feed-ramp", "layer.feed-most", "layer.spindle-ramp"}, ""};
   Needed drives{"mult2", {"layer.drive"}, ""};
   Needed counts{"conv_float_s32", {}, ""};
   for (const std::string& output : layer.drives) {
@@ -337,8 +317,10 @@ std::vector<Needed> needed(const LayerHal& layer) {
   }
   std::vector<Needed> out{sums,
                           {"watchdog", {}, "num_inputs=1"},
+                          {"oneshot", {"layer.held"}, ""},
                           choices,
-                          {"comp", {"layer.feed-falls"}, ""},
+                          {"comp", {"layer.feed-falls", "layer.feed-panel-on"}, ""},
+                          {"div2", {"layer.feed-share"}, ""},
                           ramps,
                           drives,
                           {"sampler", {}, sampler_arguments(layer)}};
@@ -361,16 +343,17 @@ std::vector<std::string> driven_pins(const LayerHal& layer, bool offsets) {
 }
 
 std::string layer_text(const LayerHal& layer) {
-  Text text(layer);
+  HalLines text(layer);
   load(text, layer);
   run(text, layer);
+  life(text);
   ratios(text, layer);
   samples(text, layer);
   return text.take();
 }
 
 std::string offsets_text(const LayerHal& layer) {
-  Text text(layer);
+  HalLines text(layer);
   load_offsets(text, layer);
   for (std::size_t i = 0; i < layer.axes.size(); ++i) {
     if (moves(layer.axes[i])) {

@@ -115,22 +115,22 @@ TEST(TranslateLinuxCnc, LeavesWhatIsNotFiniteToTheSupervisor) {
   EXPECT_TRUE(std::isnan(frame_of(sample, kMillUnits).axis[0].actual_mm));
 }
 
-TEST(FeedFactor, TimesPanelIsTheLesserOfLayerAndPanel) {
+TEST(FeedShare, TimesPanelIsTheLesserOfLayerAndPanel) {
   for (int layer = 0; layer <= 150; ++layer) {
     for (int panel = 1; panel <= 200; ++panel) {
       const double l = 0.01 * layer;
       const double p = 0.01 * panel;
-      EXPECT_NEAR(p * feed_factor(l, p), std::min(l, p), 1e-12);
+      EXPECT_NEAR(p * feed_share(l, p), std::min(l, p), 1e-12);
     }
   }
 }
 
 // The panel turns from `read` to `acts` after the sample: the feed is the layer's times acts/read
 // until the next sample, and never above the panel.
-TEST(FeedFactor, LeavesThePanelInChargeWhenItTurnsBetweenReadingAndActing) {
+TEST(FeedShare, LeavesThePanelInChargeWhenItTurnsBetweenReadingAndActing) {
   for (const double read : {0.2, 0.5, 1.0, 1.5}) {
     for (const double acts : {0.0, 0.1, 0.5, 1.0, 2.0}) {
-      const double in_force = acts * feed_factor(0.4, read);
+      const double in_force = acts * feed_share(0.4, read);
       EXPECT_LE(in_force, acts);
       if (read >= 0.4) {
         EXPECT_NEAR(in_force, 0.4 * acts / read, 1e-12);
@@ -139,15 +139,15 @@ TEST(FeedFactor, LeavesThePanelInChargeWhenItTurnsBetweenReadingAndActing) {
   }
 }
 
-TEST(FeedFactor, IsThatOfAFullPanelWhileThePanelIsAtZero) {
-  EXPECT_EQ(feed_factor(0.4, 0.0), 0.4);
-  EXPECT_EQ(feed_factor(0.0, 0.0), 0.0);
+TEST(FeedShare, IsThatOfAFullPanelWhileThePanelIsAtZero) {
+  EXPECT_EQ(feed_share(0.4, 0.0), 0.4);
+  EXPECT_EQ(feed_share(0.0, 0.0), 0.0);
 }
 
 TEST(PinsOfLinuxCnc, FollowThePanelWithoutAMask) {
   const Command command{.feed_ratio = 0.3, .spindle_ratio = 0.9, .write = true};
   const Pins pins = pins_of(command, cutting(1), kMillUnits, {});
-  EXPECT_EQ(pins.feed, 1.0);
+  EXPECT_EQ(pins.feed, kNoCeiling);
   EXPECT_EQ(pins.spindle, 1.0);
 }
 
@@ -166,7 +166,7 @@ TEST(PinsOfLinuxCnc, CarryRatiosAndOffsets) {
   units.linear_unit_mm = 25.4;
   units.rotary[1] = true;
   const Pins pins = pins_of(command, sample, units, {});
-  EXPECT_NEAR(pins.feed, 0.5, 1e-12);
+  EXPECT_EQ(pins.feed, 0.3) << "the panel is the HAL's own business";
   EXPECT_NEAR(pins.spindle, 1.5, 1e-12);
   EXPECT_NEAR(pins.offset[2], -0.001, 1e-12);
   EXPECT_NEAR(pins.path_offset[1], 180.0, 1e-12);
@@ -184,7 +184,7 @@ TEST(PinsOfLinuxCnc, AreNeutralWhereTheCommandIsNotFinite) {
   before.offset[0] = 0.042;
   before.path_offset[0] = 0.1;
   const Pins pins = pins_of(command, cutting(1), kMillUnits, before);
-  EXPECT_EQ(pins.feed, 1.0);
+  EXPECT_EQ(pins.feed, kNoCeiling);
   EXPECT_EQ(pins.spindle, 1.0);
   EXPECT_EQ(pins.offset[0], 0.042);
   EXPECT_EQ(pins.path_offset[0], 0.0);

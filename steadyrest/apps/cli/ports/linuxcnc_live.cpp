@@ -35,6 +35,9 @@ Result<std::shared_ptr<Beside>> connect(const kernel::machine::Machine& machine)
   adapter::HalProcess::Config process;
   process.axes = machine.axes.size();
   process.servo_period_s = machine.control.servo_period_s;
+  process.hold_s = holds_s(machine);
+  // Feed per tooth must not rise on the way back.
+  process.rise_1_s = std::min(machine.envelope.feed_rise_1_s, machine.envelope.spindle_slew_1_s);
   auto hal = adapter::HalProcess::make(process);
   if (!hal) {
     return std::unexpected(std::move(hal.error()));
@@ -83,6 +86,7 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
   LivePort out;
   out.period_s = machine.control.servo_period_s;
   out.paces = true;
+  out.holds_s = holds_s(machine);
   out.sensor.rate_hz = (*beside)->hal->vibration_rate_hz();
   out.findings = std::move(compared->findings);
   out.accepts = [machine, control = std::move(compared->file)](const auto& wanted) {

@@ -89,6 +89,12 @@ std::vector<Case> cases() {
       {"no100_spindle", [](Machine& m) { m.envelope.max_spindle_ratio = 0.9; }, "envelope",
        Severity::error},
       {"stale", [](Machine& m) { m.envelope.stale_after_s = 0.001; }, "stale", Severity::error},
+      {"late",
+       [](Machine& m) {
+         m.port = kernel::machine::PortKind::linuxcnc;
+         m.envelope.late_hold_s = 0.05;
+       },
+       "late", Severity::warning},
       {"no_spindle_switch",
        [](Machine& m) {
          m.chatter.enabled = true;

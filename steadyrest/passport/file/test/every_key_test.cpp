@@ -165,6 +165,7 @@ TEST(EveryKey, SpindleContourEnvelopeSimulation) {
   EXPECT_DOUBLE_EQ(m.envelope.max_path_offset_mm, 0.69);
   EXPECT_DOUBLE_EQ(m.envelope.path_offset_slew_mm_s, 69.0);
   EXPECT_DOUBLE_EQ(m.envelope.stale_after_s, 0.070);
+  EXPECT_DOUBLE_EQ(m.envelope.late_hold_s, 0.700);
   EXPECT_EQ(m.simulation.seed, 71U);
   EXPECT_DOUBLE_EQ(m.simulation.position_noise_mm, 0.072);
 }

@@ -145,6 +145,7 @@ offset_slew_um_s = 69
 max_path_offset_um = 690
 path_offset_slew_um_s = 69000
 stale_after_ms = 70
+late_hold_ms = 700
 [simulation]
 seed = 71
 position_noise_um = 72

@@ -105,9 +105,9 @@ TEST(LayerText, UsesWhatTheMachineHas) {
   layer.drives = {"speed-out", "speed-out-abs"};
   const std::string text = layer_text(layer);
   EXPECT_THAT(text, Not(HasSubstr("loadrt mux2")));
-  EXPECT_THAT(text, HasSubstr("addf mux2.2 servo-thread 3\n"));
+  EXPECT_THAT(text, HasSubstr("addf mux2.2 servo-thread 5\n"));
   EXPECT_THAT(text, HasSubstr("net layer-feed => mux2.2.in1\n"));
-  EXPECT_THAT(text, HasSubstr("net layer-alive watchdog.ok-out => mux2.2.sel mux2.3.sel"));
+  EXPECT_THAT(text, HasSubstr("net layer-held layer.held.out => mux2.2.sel mux2.3.sel"));
   EXPECT_THAT(text, HasSubstr("net speed motion.current-vel => sampler.0.pin.3\n"));
   EXPECT_THAT(text, HasSubstr("net measured => sampler.0.pin.7\n"));
   EXPECT_THAT(text, HasSubstr("loadrt mult2 names=layer.drive,layer.drive-rpm,layer.drive-abs\n"));
