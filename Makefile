@@ -31,6 +31,8 @@ build/%/build.ninja: CMakePresets.json
 
 build: setup
 	@$(MAKE) --no-print-directory build/release/build.ninja
+	@# A library that was missing may have been installed since: then its port is built.
+	@! grep -qsE '^(LINUXCNC_[A-Z_]*:.*-NOTFOUND|hdf5_FOUND:INTERNAL=$$)' build/release/CMakeCache.txt || cmake --preset release --log-level=WARNING -Wno-dev
 	@cmake --build --preset release -j $(JOBS) --target steadyrest
 
 run: build
@@ -39,8 +41,6 @@ run: build
 
 demo:
 	@[ "$(PORT)" != linuxcnc ] || sh scripts/setup.sh --linuxcnc
-	@# A tree that was configured without LinuxCNC has no port for it.
-	@! grep -qs LINUXCNC_HAL_LIBRARY-NOTFOUND build/release/CMakeCache.txt || cmake --preset release --log-level=WARNING -Wno-dev
 	@$(MAKE) --no-print-directory build
 	@sh scripts/demo.sh
 

@@ -12,6 +12,7 @@
 #include <steadyrest/apps/cli/machine/start_checks.hpp>
 #include <steadyrest/apps/cli/machine/verb_doctor.hpp>
 #include <steadyrest/apps/cli/ports/lines_live.hpp>
+#include <steadyrest/apps/cli/ports/live_port.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/program_place.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
@@ -146,6 +147,9 @@ Outcome run(const std::string& path, Progress& progress) {
     return report_refused(std::move(machine.error()));
   }
   Measured measured = measure(*machine, progress);
+  if (const auto there = live::check_port(*machine); !there) {
+    measured.findings.push_back(error_of("port", there.error()));
+  }
   if (machine->port == kernel::machine::PortKind::lines) {
     std::ranges::move(live::lines_findings(*machine), std::back_inserter(measured.findings));
   }

@@ -75,15 +75,34 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
 }
 
 #if STEADYREST_HAS_LINUXCNC
+constexpr bool kHasLinuxCnc = true;
 constexpr const char* kPorts = "sim, linuxcnc, lines, opcua";
+constexpr const char* kWithout = "set port = \"sim\"";
 #else
+constexpr bool kHasLinuxCnc = false;
 constexpr const char* kPorts = "sim, lines, opcua";
+constexpr const char* kWithout =
+    "for linuxcnc install linuxcnc-uspace-dev and build again; otherwise set port = \"sim\"";
 #endif
 
 }  // namespace
 
+Result<void> check_port(const kernel::machine::Machine& machine) {
+  using enum kernel::machine::PortKind;
+  if (machine.port == replay || (machine.port == linuxcnc && !kHasLinuxCnc)) {
+    return std::unexpected(bad_input(machine.file,
+                                     fmt::format("the port {} is not in this program; allowed: {}",
+                                                 passport::word(machine.port), kPorts),
+                                     kWithout));
+  }
+  return {};
+}
+
 std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
                                             const ProgramOptions& program, const Simulated& of) {
+  if (const auto there = check_port(machine); !there) {
+    return refused(there.error());
+  }
   if (machine.port == kernel::machine::PortKind::sim) {
     return simulated(machine, program, of);
   }
@@ -98,14 +117,10 @@ std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& mach
     return open_opcua(machine, program);
   }
 #if STEADYREST_HAS_LINUXCNC
-  if (machine.port == kernel::machine::PortKind::linuxcnc) {
-    return open_linuxcnc(machine, program);
-  }
+  return open_linuxcnc(machine, program);
+#else
+  return std::unexpected(Refusals());
 #endif
-  return refused(bad_input(machine.file,
-                           fmt::format("the port {} is not in this program; allowed: {}",
-                                       passport::word(machine.port), kPorts),
-                           "set port = \"sim\""));
 }
 
 }  // namespace steadyrest::apps::cli::live

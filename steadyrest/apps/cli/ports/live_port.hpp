@@ -45,6 +45,9 @@ struct Simulated {
   bool layer_chooses_speed = false;  ///< of the spindle, within the override's steps
 };
 
+/// Refused: a port that this program was built without, or that is none of a live run.
+[[nodiscard]] Result<void> check_port(const kernel::machine::Machine& machine);
+
 /// The port of the machine file. Refused: a port that this program does not have; for `sim` a
 /// missing program, what its control refuses, and a process where the spindle never turns.
 [[nodiscard]] std::expected<LivePort, Refusals> open_port(const kernel::machine::Machine& machine,
