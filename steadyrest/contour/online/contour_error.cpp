@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/contour/online/search/window_search.hpp>
@@ -254,6 +255,16 @@ ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept {
   input.path_position_mm = frame.path_position_mm;
   input.path_speed_mm_s = frame.path_speed_mm_s;
   return input;
+}
+
+ContourError::Config contour_config(std::span<const kernel::machine::Axis> axes) noexcept {
+  double softest_1_s = std::numeric_limits<double>::infinity();
+  for (const kernel::machine::Axis& axis : axes.first(std::min<std::size_t>(3, axes.size()))) {
+    softest_1_s = std::min(softest_1_s, axis.servo_gain_1_s);
+  }
+  ContourError::Config config;
+  config.servo_gain_1_s = std::clamp(softest_1_s, 1.0, 1000.0);
+  return config;
 }
 
 }  // namespace steadyrest::contour::online

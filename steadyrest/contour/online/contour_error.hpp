@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/signal/frame.hpp>
 
@@ -121,5 +123,9 @@ class ContourError {
 
 /// What `ContourError` needs of a frame.
 [[nodiscard]] ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept;
+
+/// For a machine: the gain of the softest of the three axes that make the contour.
+[[nodiscard]] ContourError::Config contour_config(
+    std::span<const kernel::machine::Axis> axes) noexcept;
 
 }  // namespace steadyrest::contour::online

@@ -56,11 +56,7 @@ double stiffest(Axes axes) noexcept {
 }
 
 double softest(Axes axes) noexcept {
-  double k = std::numeric_limits<double>::infinity();
-  for (const Axis& axis : path_axes(axes)) {
-    k = std::min(k, axis.servo_gain_1_s);
-  }
-  return std::clamp(k, 1.0, 1000.0);
+  return contour_config(axes).servo_gain_1_s;
 }
 
 double longest_lag(Axes axes) noexcept {
@@ -194,9 +190,7 @@ kernel::outcome::Result<FeedGovernor> FeedGovernor::make(const Config& given) {
   }
   Config config = given;
   config.cycle_s = given.cycle_s > 0.0 ? given.cycle_s : given.control.interpolator_period_s;
-  ContourError::Config contour_config;
-  contour_config.servo_gain_1_s = softest(config.axes);
-  auto contour = ContourError::make(contour_config);
+  auto contour = ContourError::make(contour_config(config.axes));
   if (!contour) {
     return std::unexpected(contour.error());
   }

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/hdf5/hdf5_export.hpp>
 #include <steadyrest/record/hdf5/hdf5_handle.hpp>
@@ -198,6 +200,26 @@ bool put_events(hid_t file, const std::vector<Event>& events) {
                    static_cast<void*>(text.data()));
 }
 
+/// What the numbers of the columns command.*_reason mean.
+bool put_reasons(hid_t file) {
+  const Hdf5Handle group(H5Gcreate2(file, "reasons", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose);
+  std::vector<std::uint64_t> number;
+  std::vector<std::string> texts;
+  for (const kernel::outcome::ReasonEntry& entry : kernel::outcome::reasons()) {
+    number.push_back(to_bits(entry.reason));
+    texts.emplace_back(entry.name);
+  }
+  std::vector<const char*> name;
+  std::ranges::transform(texts, std::back_inserter(name), &std::string::c_str);
+  const Hdf5Handle type = text_type();
+  return group.good() &&
+         put_array(group.id(), "number", H5T_STD_U16LE, H5T_NATIVE_UINT64, number.size(),
+                   number.data()) &&
+         put_array(group.id(), "name", type.id(), type.id(), name.size(),
+                   static_cast<void*>(name.data()));
+}
+
 std::vector<Column> columns_in(hid_t group) {
   std::vector<Column> columns;
   Sample any;
@@ -219,19 +241,24 @@ std::string_view unit_of(std::string_view column) noexcept {
 }
 
 Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
-                                 const std::function<bool(std::uint64_t)>& goes_on) {
+                                 const std::function<bool(std::uint64_t)>& goes_on,
+                                 std::span<const Derived> derived) {
   H5dont_atexit();  // at the process's end it fails on a file that a full disk has cut off
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the refusal says it
   const auto failed = [&file] {
     return refuse(file, "cannot be written as HDF5", "look for room on the disk and permission");
   };
   Hdf5Handle out(H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (!out.good() || !put_run(out.id(), reader) || !put_events(out.id(), reader.events())) {
+  if (!out.good() || !put_run(out.id(), reader) || !put_events(out.id(), reader.events()) ||
+      !put_reasons(out.id())) {
     return failed();
   }
   Hdf5Handle group(H5Gcreate2(out.id(), "samples", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                    H5Gclose);
   auto columns = columns_in(group.id());
+  for (const Derived& column : derived) {
+    columns.push_back(Column::make(group.id(), {column.name}, kind_of<double>()));
+  }
   Column vibration = Column::make(out.id(), {"vibration"}, kind_of<double>());
   const auto sample = std::make_unique<Sample>();
   std::uint64_t samples = 0;
@@ -247,6 +274,9 @@ Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
     sample_columns(*sample, [&](const ColumnName& /*name*/, auto& value) {
       columns[at++].add(to_bits(value));
     });
+    for (const Derived& column : derived) {
+      columns[at++].add(to_bits(column.value(*sample)));
+    }
     for (std::size_t i = 0; i < sample->vibrations; ++i) {
       vibration.add(to_bits(sample->vibration[i]));
     }

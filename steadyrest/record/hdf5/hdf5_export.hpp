@@ -3,15 +3,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/record/derived.hpp>
 #include <steadyrest/record/record_reader.hpp>
 
 /// A record as an HDF5 file, for the tools that read whole columns (h5py, MATLAB, Julia).
 ///
-///   /samples/NAME    one value a cycle, exactly as recorded; attribute `unit` where it has one
+///   /samples/NAME    one value a cycle, exactly as recorded, or derived from the samples;
+///                    attribute `unit` where it has one
+///   /reasons/…       `number`, `name` of each reason that /samples/command.*_reason may have
 ///   /vibration       all readings in turn; /samples/vibrations says how many each cycle has
 ///   /events/…        `before`, `time_s`, `kind`, `text`
 ///   /machine_file, /program_text   the texts
@@ -27,6 +31,7 @@ namespace steadyrest::record::hdf5 {
 /// be made or written, a damaged record, and what `goes_on`, asked after each sample, has ended.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_hdf5(
     RecordReader& reader, const std::string& file,
-    const std::function<bool(std::uint64_t samples)>& goes_on = [](std::uint64_t) { return true; });
+    const std::function<bool(std::uint64_t samples)>& goes_on = [](std::uint64_t) { return true; },
+    std::span<const Derived> derived = {});
 
 }  // namespace steadyrest::record::hdf5

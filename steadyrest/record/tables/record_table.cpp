@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/record/columns.hpp>
 #include <steadyrest/record/tables/record_table.hpp>
 #if STEADYREST_HAS_HDF5
@@ -19,15 +20,25 @@ namespace {
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-std::string head(Sample& sample) {
+template <class Value>
+constexpr bool kIsReason = std::is_same_v<Value, kernel::outcome::Reason>;
+
+std::string head(Sample& sample, std::span<const Derived> derived) {
   std::string line;
-  sample_columns(sample, [&line](const ColumnName& name, auto& /*value*/) {
+  std::string names;
+  sample_columns(sample, [&](const ColumnName& name, auto& value) {
     line += (line.empty() ? "" : ",") + name.text();
+    if constexpr (kIsReason<std::decay_t<decltype(value)>>) {
+      names += "," + name.text() + "_name";
+    }
   });
-  return line + "\n";
+  for (const Derived& column : derived) {
+    line += "," + column.name;
+  }
+  return line + names + "\n";
 }
 
-void put_row(Sample& sample, std::string& line) {
+void put_row(Sample& sample, std::span<const Derived> derived, std::string& line) {
   line.clear();
   sample_columns(sample, [&line](const ColumnName& /*name*/, auto& value) {
     using Value = std::decay_t<decltype(value)>;
@@ -42,6 +53,15 @@ void put_row(Sample& sample, std::string& line) {
       fmt::format_to(std::back_inserter(line), "{}", to_bits(value));
     }
   });
+  for (const Derived& column : derived) {
+    fmt::format_to(std::back_inserter(line), ",{}", column.value(sample));
+  }
+  sample_columns(sample, [&line](const ColumnName& /*name*/, auto& value) {
+    if constexpr (kIsReason<std::decay_t<decltype(value)>>) {
+      line += ',';
+      line += kernel::outcome::name(value);
+    }
+  });
   line += '\n';
 }
 
@@ -49,9 +69,9 @@ void put_row(Sample& sample, std::string& line) {
 
 Result<std::uint64_t> write_csv(RecordReader& reader,
                                 const std::function<void(std::string_view)>& out,
-                                const GoesOn& goes_on) {
+                                const GoesOn& goes_on, std::span<const Derived> derived) {
   const auto sample = std::make_unique<Sample>();
-  out(head(*sample));
+  out(head(*sample, derived));
   std::uint64_t samples = 0;
   for (std::string line;;) {
     const auto more = reader.next(*sample);
@@ -61,7 +81,7 @@ Result<std::uint64_t> write_csv(RecordReader& reader,
     if (!*more) {
       return samples;
     }
-    put_row(*sample, line);
+    put_row(*sample, derived, line);
     out(line);
     if (!goes_on(++samples)) {
       return refuse("the table was given up", "begin it again");
@@ -75,10 +95,10 @@ bool has_hdf5() noexcept {
 }
 
 Result<std::uint64_t> write_hdf5(RecordReader& reader, const std::string& file,
-                                 const GoesOn& goes_on) {
+                                 const GoesOn& goes_on, std::span<const Derived> derived) {
   static std::mutex one_at_a_time;
   const std::scoped_lock lock(one_at_a_time);
-  return hdf5::write_hdf5(reader, file, goes_on);
+  return hdf5::write_hdf5(reader, file, goes_on, derived);
 }
 #else
 bool has_hdf5() noexcept {
@@ -86,7 +106,7 @@ bool has_hdf5() noexcept {
 }
 
 Result<std::uint64_t> write_hdf5(RecordReader& /*reader*/, const std::string& file,
-                                 const GoesOn& /*goes_on*/) {
+                                 const GoesOn& /*goes_on*/, std::span<const Derived> /*derived*/) {
   return refuse(file, "this program was built without HDF5",
                 "build it with libhdf5-dev installed, or write CSV");
 }

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/record/derived.hpp>
 #include <steadyrest/record/record_reader.hpp>
 
 /// A record as a table for other programs.
@@ -19,10 +21,12 @@ inline constexpr std::string_view kCsvHead = "number,path,vibrations,time_s";
 using GoesOn = std::function<bool(std::uint64_t samples)>;
 
 /// Gives what `reader` has left to `out`, line by line; the number of samples. Each number is the
-/// shortest text that reads back as the same; enumerations and yes/no are numbers. Refuses a
-/// damaged record.
+/// shortest text that reads back as the same; enumerations and yes/no are numbers. Behind the
+/// recorded columns come the `derived` ones and the names of the reasons
+/// (`command.feed_reason_name`, …). Refuses a damaged record.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_csv(
-    RecordReader& reader, const std::function<void(std::string_view)>& out, const GoesOn& goes_on);
+    RecordReader& reader, const std::function<void(std::string_view)>& out, const GoesOn& goes_on,
+    std::span<const Derived> derived);
 
 /// Whether this program was built with HDF5.
 [[nodiscard]] bool has_hdf5() noexcept;
@@ -32,6 +36,7 @@ using GoesOn = std::function<bool(std::uint64_t samples)>;
 /// written, a damaged record, and everything in a program without HDF5.
 [[nodiscard]] kernel::outcome::Result<std::uint64_t> write_hdf5(RecordReader& reader,
                                                                 const std::string& file,
-                                                                const GoesOn& goes_on);
+                                                                const GoesOn& goes_on,
+                                                                std::span<const Derived> derived);
 
 }  // namespace steadyrest::record::tables

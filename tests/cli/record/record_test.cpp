@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "expectations.hpp"
 #include "program.hpp"
@@ -12,6 +17,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/outcome/reason.hpp>
+
 namespace steadyrest::test {
 namespace {
 
@@ -19,6 +26,7 @@ using nlohmann::json;
 
 const std::string kRecord = project_file("examples/records/circle-start.sqlite");
 constexpr int kCycles = 7200;
+constexpr int kCircleLine = 10;  ///< of circle-r10.mpf
 
 /// The record's own machine file with another line.
 std::string machine_with(const Scratch& scratch, const std::string& line,
@@ -106,6 +114,58 @@ TEST(RecordExport, WritesARowForEachCycle) {
   }
   EXPECT_EQ(rows, kCycles);
   EXPECT_THAT(last, testing::StartsWith("7199,1,0,7.2"));
+}
+
+/// A table's rows by the names of its columns.
+struct Table {
+  std::map<std::string, std::size_t> column;
+  std::vector<std::vector<std::string>> rows;
+
+  explicit Table(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    for (const std::string& name : cells(line)) {
+      column.emplace(name, column.size());
+    }
+    while (std::getline(lines, line)) {
+      rows.push_back(cells(line));
+    }
+  }
+  static std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) {
+      out.push_back(cell);
+    }
+    return out;
+  }
+  [[nodiscard]] const std::string& text(std::size_t row, const std::string& name) const {
+    return rows.at(row).at(column.at(name));
+  }
+  [[nodiscard]] double number(std::size_t row, const std::string& name) const {
+    return std::stod(text(row, name));
+  }
+};
+
+// The circle of the example: R = 10 mm about X0 Y0. On an arc the contour error is R less the
+// distance of the tool from the centre.
+TEST(RecordExport, HasTheContourErrorAndTheNamesOfReasons) {
+  const Table table(run({"record", "export", kRecord}).out);
+  ASSERT_EQ(table.rows.size(), std::size_t{kCycles});
+  int on_circle = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double x = table.number(row, "axis.actual_mm.0");
+    const double y = table.number(row, "axis.actual_mm.1");
+    if (table.number(row, "program_line") == kCircleLine && y > 5.0) {
+      EXPECT_NEAR(table.number(row, "contour_error_mm"), 10.0 - std::hypot(x, y), 1e-9);
+      ++on_circle;
+    }
+    EXPECT_EQ(table.text(row, "command.feed_reason_name"),
+              kernel::outcome::name(kernel::outcome::Reason{
+                  static_cast<std::uint16_t>(table.number(row, "command.feed_reason"))}));
+  }
+  EXPECT_GT(on_circle, 100);
 }
 
 TEST(RecordReplay, ComparesEveryCycle) {

@@ -16,6 +16,7 @@
 #include <steadyrest/kernel/file/temporary.hpp>
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/tables/record_table.hpp>
+#include <steadyrest/trial/replay/derived_columns.hpp>
 
 namespace steadyrest::apps::cli {
 namespace record_export {
@@ -49,7 +50,8 @@ Outcome csv(record::RecordReader& reader, const Options& options, bool json, Pro
   }
   const auto samples = record::tables::write_csv(
       reader, [&out](std::string_view line) { out->write(line); },
-      [&](std::uint64_t n) { return show(n, reader, progress); });
+      [&](std::uint64_t n) { return show(n, reader, progress); },
+      trial::replay::derived_columns(reader.run()));
   if (!samples) {
     return refused(samples.error());
   }
@@ -72,7 +74,8 @@ Outcome hdf5(record::RecordReader& reader, const Options& options, Progress& pro
   const kernel::file::Temporary part(fmt::format("{}.{}.part", options.output, ::getpid()),
                                      kernel::file::Temporary::Kind::file);
   const auto samples = record::tables::write_hdf5(
-      reader, part.path(), [&](std::uint64_t n) { return show(n, reader, progress); });
+      reader, part.path(), [&](std::uint64_t n) { return show(n, reader, progress); },
+      trial::replay::derived_columns(reader.run()));
   if (!samples) {
     return refused(samples.error());
   }

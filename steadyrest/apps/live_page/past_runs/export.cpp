@@ -18,6 +18,7 @@
 #include <steadyrest/record/record_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/tables/record_table.hpp>
+#include <steadyrest/trial/replay/derived_columns.hpp>
 #include <steadyrest/web/gate.hpp>
 
 namespace steadyrest::apps::live_page::past_runs {
@@ -112,12 +113,13 @@ kernel::outcome::Result<std::uint64_t> write(RecordReader& reader, bool hdf5,
                                              const std::string& into, Watch& watch) {
   const auto goes_on = [&watch](std::uint64_t samples) { return watch.goes_on(samples); };
   if (hdf5) {
-    return tables::write_hdf5(reader, into, goes_on);
+    return tables::write_hdf5(reader, into, goes_on, trial::replay::derived_columns(reader.run()));
   }
   std::ofstream out(into, std::ios::binary);
   auto samples = tables::write_csv(
       reader, [&out](std::string_view line) { out << line; },
-      [&](std::uint64_t n) { return out.good() && goes_on(n); });
+      [&](std::uint64_t n) { return out.good() && goes_on(n); },
+      trial::replay::derived_columns(reader.run()));
   out.close();
   if (!out) {
     return kernel::outcome::refuse("the table cannot be written", "look for room on the disk");

@@ -30,7 +30,8 @@ TEST_F(RecordTable, HasAHeadAndALineForEachSample) {
   std::string text;
   auto from = reader();
   const auto samples = write_csv(
-      from, [&text](std::string_view line) { text += line; }, [](std::uint64_t) { return true; });
+      from, [&text](std::string_view line) { text += line; }, [](std::uint64_t) { return true; },
+      {});
   EXPECT_EQ(samples.value(), 100U);
   EXPECT_EQ(std::ranges::count(text, '\n'), 101);
   EXPECT_TRUE(text.starts_with(kCsvHead));
@@ -40,10 +41,10 @@ TEST_F(RecordTable, EndsWhenItIsTold) {
   const auto few = [](std::uint64_t samples) { return samples < 10; };
   std::string text;
   auto from = reader();
-  EXPECT_FALSE(write_csv(from, [&text](std::string_view line) { text += line; }, few));
+  EXPECT_FALSE(write_csv(from, [&text](std::string_view line) { text += line; }, few, {}));
   EXPECT_EQ(std::ranges::count(text, '\n'), 11);
   auto again = reader();
-  EXPECT_FALSE(write_hdf5(again, folder.file("run.h5"), few));
+  EXPECT_FALSE(write_hdf5(again, folder.file("run.h5"), few, {}));
 }
 
 }  // namespace
