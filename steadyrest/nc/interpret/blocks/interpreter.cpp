@@ -117,9 +117,10 @@ void Interpreter::leave_call(Sink& sink) {
 bool Interpreter::decode(const Block& block) {
   step_.reset(block);
   const bool accepted = control_.rules.decode(decoding_, block, step_);
-  // fanuc: a G0 or G1 in the block of G28 only sets the mode; the axis words belong to G28.
+  // fanuc: a motion word in the block of G28 or G53 only sets the mode; the axis words belong to
+  // those.
   if (step_.motion_mode != kNoCode) {
-    control_.state.motion = step_.motion_mode;
+    motion_in_force(step_.motion_mode);
   }
   return accepted;
 }
@@ -164,8 +165,10 @@ bool Interpreter::non_modal(const Step& step) {
     case g::kSetData:
       return data_.set(step);
     case g::kHome:
+      motion_.home(step, 0);
+      return true;
     case g::kSecondHome:
-      motion_.home(step, code == g::kHome ? 0 : 1);
+      motion_.home(step, static_cast<std::size_t>(std::max<int>(step.reference_point, 2) - 1));
       return true;
     case g::kStoreHome:
     case g::kStoreSecondHome:
@@ -173,6 +176,8 @@ bool Interpreter::non_modal(const Step& step) {
       return true;
     case g::kShift:
     case g::kSetOrigin:
+      // fanuc: G92 S alone is a speed limit.
+      return (step.mask & kAxisMask) == 0 || offsets_.origin(step, code);
     case g::kForgetOrigin:
     case g::kOriginOff:
     case g::kOriginOn:
@@ -182,15 +187,34 @@ bool Interpreter::non_modal(const Step& step) {
   }
 }
 
+// Any of these ends a row of tapping cycles, and M29 with it.
+void Interpreter::motion_in_force(int motion) noexcept {
+  State& state = control_.state;
+  state.rigid_tap = state.rigid_tap && !is_cycle(state.motion);
+  state.motion = motion;
+  state.plain_motion = motion;
+}
+
+// G80. On fanuc cycles are a group of their own (09): the motion word that was in force before them
+// (group 01) is in force again.
+void Interpreter::end_cycle() noexcept {
+  State& state = control_.state;
+  state.rigid_tap = false;
+  state.motion = control_.rules.cycles_are_a_group ? state.plain_motion : g::kCycleEnd;
+}
+
 bool Interpreter::move(const Step& step) {
   const int motion = step.moves_by;
+  if (step.code(GGroup::motion) == g::kCycleEnd) {
+    end_cycle();
+  }
   // No word of the block moves anything.
-  if (motion == -1) {
+  if (motion == -1 || motion == g::kCycleEnd) {
     return true;
   }
-  if (motion == g::kCycleEnd) {
-    control_.state.motion = g::kCycleEnd;
-    return true;
+  // fanuc: G53 leaves the motion word in force.
+  if (step.machine_frame && control_.rules.machine_frame_is_rapid) {
+    return motion_.straight(step);
   }
   if (is_cycle(motion)) {
     return drilling_.cycle(step);
@@ -204,7 +228,7 @@ bool Interpreter::move(const Step& step) {
   if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
     return splines_.spline(step);
   }
-  control_.state.motion = motion;
+  motion_in_force(motion);
   splines_.interrupt();
   switch (motion) {
     case g::kThread:

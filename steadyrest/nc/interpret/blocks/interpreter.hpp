@@ -73,6 +73,8 @@ class Interpreter {
   bool decode(const read::Block& block);
   bool act(const Step& step);
   bool non_modal(const Step& step);
+  void motion_in_force(int motion) noexcept;
+  void end_cycle() noexcept;
   bool move(const Step& step);
   bool call_program(const Step& step);
   bool stop(const Step& step);

@@ -45,14 +45,19 @@ void MachineWords::feed(const Step& step) noexcept {
 
 bool MachineWords::spindle_speed(const Step& step) {
   const int mode = step.code(GGroup::spindle_mode);
+  if (!std::isnan(step.speed_limit_rpm)) {
+    state_.kept_limit_rev_s = step.speed_limit_rpm / 60.0;
+    state_.spindle_limit_rev_s = state_.surface_speed ? state_.kept_limit_rev_s : 0.0;
+  }
   if (mode == g::kCuttingSpeed) {
     if (!step.has('S')) {
       return refusals_.g_word(step, g::kCuttingSpeed, "speed_missing",
                               "G96 without its cutting speed (S)");
     }
     state_.surface_speed = true;
-    // D limits the speed as the tool comes near the centre; without it only the spindle does.
-    state_.spindle_limit_rev_s = step.has('D') ? std::abs(step['D']) / 60.0 : 0.0;
+    // The limit acts as the tool comes near the centre; without D or G92 S only the spindle limits.
+    state_.spindle_limit_rev_s =
+        step.has('D') ? std::abs(step['D']) / 60.0 : state_.kept_limit_rev_s;
   } else if (mode == g::kSpindleSpeed) {
     state_.surface_speed = false;
     state_.surface_speed_mm_s = 0.0;
@@ -122,6 +127,14 @@ bool MachineWords::change_tool(const Step& step) {
 // An event for each word, even if nothing changes: M3 also starts the wait for the speed.
 void MachineWords::spindle(const Step& step) {
   const int code = step.code(MGroup::spindle);
+  // M29 stops the spindle; the tapping cycles start it at the R plane, in step with the feed.
+  if (step.rigid_tap) {
+    state_.rigid_tap = true;
+    if (state_.spindle_direction != 0) {
+      state_.spindle_direction = 0;
+      out_.spindle();
+    }
+  }
   if (code != kNoCode) {
     state_.spindle_direction = code == m::kClockwise ? 1 : code == m::kCounterClockwise ? -1 : 0;
     out_.spindle();

@@ -55,6 +55,7 @@ bool PlainBlock::execute(Step& step, bool follows) {
     machine_.feed(step);
   }
   state_.motion = step.moves_by;
+  state_.plain_motion = step.moves_by;
   splines_.interrupt();
   const bool cutting = step.moves_by == g::kLinear;
   const bool fed = state_.feed_mode == FeedMode::per_minute && state_.feed_mm_s > 0.0;

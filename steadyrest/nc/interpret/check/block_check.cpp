@@ -24,6 +24,21 @@ std::string with_article(char letter) {
 
 }  // namespace
 
+// Words without a G word since the start or since G80 would be lost: LinuxCNC refuses them too.
+bool BlockCheck::by_modal_motion(Step& step, int motion) const {
+  step.moves_by = motion;
+  if (motion != -1 && motion != g::kCycleEnd) {
+    return true;
+  }
+  for (const char letter : kAxisLetters) {
+    if (step.has(letter)) {
+      return refusals_.letter(step, letter, "no_motion_mode",
+                              "an axis word with no motion in force; write G0 or G1 first");
+    }
+  }
+  return true;
+}
+
 // Which word uses the axis words: a motion in this block, a non-modal word (G10 G28 G30 G52 G92),
 // G43.1, or else the modal motion. Two users are refused: either could be meant. As in RS274/NGC.
 bool BlockCheck::choose_motion(Step& step) const {
@@ -32,8 +47,18 @@ bool BlockCheck::choose_motion(Step& step) const {
   const bool axis_words = (step.mask & kAxisMask) != 0;
   const bool axes_taken = uses_axes(non_modal);
   step.moves_by = -1;
+  if (step.machine_frame && rules_.machine_frame_is_rapid) {
+    step.moves_by = axis_words ? g::kRapid : -1;
+    return (motion == g::kCycleEnd || !is_cycle(state_.motion)) ||
+           refusals_.g_word(step, g::kMachineFrame, "g53_in_cycle",
+                            "machine coordinates while a canned cycle is in force; write G80 "
+                            "first");
+  }
   if (motion != kNoCode) {
     if (motion == g::kCycleEnd) {
+      if (axis_words && !axes_taken && rules_.cycles_are_a_group) {
+        return by_modal_motion(step, state_.plain_motion);
+      }
       if (axis_words && !axes_taken) {
         return refusals_.g_word(step, g::kCycleEnd, "axis_words_with_g80",
                                 "axis words in a block with G80, which ends motion");
@@ -51,7 +76,8 @@ bool BlockCheck::choose_motion(Step& step) const {
     return true;
   }
   if (axes_taken) {
-    if (!axis_words && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
+    const bool limit = !std::isnan(step.speed_limit_rpm);  // G92 S
+    if (!axis_words && !limit && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
       return refusals_.g_word(step, non_modal, "axis_words_missing",
                               "an offset without any axis word");
     }
@@ -59,16 +85,9 @@ bool BlockCheck::choose_motion(Step& step) const {
   }
   const bool tool_length_takes = step.code(GGroup::tool_length) == g::kToolLengthByWords;
   if (axis_words && !tool_length_takes) {
-    // Words without a G word since the start or since G80 would be lost: LinuxCNC refuses them too.
-    if (state_.motion == -1 || state_.motion == g::kCycleEnd) {
-      for (const char letter : kAxisLetters) {
-        if (step.has(letter)) {
-          return refusals_.letter(step, letter, "no_motion_mode",
-                                  "an axis word with no motion in force; write G0 or G1 first");
-        }
-      }
+    if (!by_modal_motion(step, state_.motion)) {
+      return false;
     }
-    step.moves_by = state_.motion;
   }
   // Only I and J under a modal G2 or G3: a full circle.
   if (!axis_words && (step.mask & kCentreMask) != 0 && is_arc(state_.motion) &&
@@ -126,9 +145,10 @@ bool BlockCheck::check_non_modal(const Step& step) const {
   }
   if (step.machine_frame) {
     const bool straight = step.moves_by == g::kRapid || step.moves_by == g::kLinear;
-    // SINUMERIK's SUPA may be alone in its block; it then does nothing.
-    const bool lone = rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
-                      step.code(GGroup::motion) == kNoCode;
+    // SINUMERIK's SUPA and FANUC's G53 may be alone in a block and then do nothing.
+    const bool lone =
+        rules_.machine_frame_alone && (step.mask & kAxisMask) == 0 &&
+        (step.code(GGroup::motion) == kNoCode || step.code(GGroup::motion) == g::kCycleEnd);
     if (!straight && !lone) {
       return refusals_.g_word(step, g::kMachineFrame, "g53_without_straight_motion",
                               "machine coordinates need G0 or G1 in force");
@@ -155,56 +175,70 @@ bool BlockCheck::check_unused(const Step& step) const {
   }
   const int motion = step.moves_by;
   const int non_modal = step.code(GGroup::non_modal);
-  const int override_switch = step.code(MGroup::override_switch);
   const int tool_length = step.code(GGroup::tool_length);
   const bool drilling = is_cycle(motion);
-  const auto unused = [&](char letter, bool used) {
-    return step.has(letter) && !used &&
-           !refusals_.letter(step, letter, "unused_word",
-                             with_article(letter) + " word, but no word of the block uses it");
-  };
   const int io = step.code(MGroup::io);
-  const bool orients = step.code(MGroup::spindle) == m::kOrient;
   const bool compensates = step.code(GGroup::cutter) > g::kCutterOff;
-  if (unused('D', compensates || step.code(GGroup::spindle_mode) == g::kCuttingSpeed) ||
-      unused('E', io >= m::kWaitForInput || motion == g::kThreadCycle) ||
-      unused('H', tool_length == g::kToolLength || tool_length == g::kAddToolLength ||
-                      motion == g::kThreadCycle)) {
+  if (unused(step, 'D', compensates || step.code(GGroup::spindle_mode) == g::kCuttingSpeed) ||
+      unused(step, 'E', io >= m::kWaitForInput || motion == g::kThreadCycle) ||
+      unused(step, 'H',
+             tool_length == g::kToolLength || tool_length == g::kAddToolLength ||
+                 motion == g::kThreadCycle)) {
     return false;
   }
   const bool arc = is_arc(motion);
   const bool tool_data = non_modal == g::kSetData;
   const bool spline = motion == g::kCubicSpline || motion == g::kQuadraticSpline;
   const bool threads = motion == g::kThreadCycle;
-  if (unused('I', arc || spline || threads || motion == g::kBackBore || motion == g::kRigidTap ||
-                      tool_data) ||
-      unused('J', arc || spline || threads || motion == g::kBackBore || tool_data) ||
-      unused('K', arc || threads || motion == g::kBackBore || motion == g::kThread ||
-                      motion == g::kRigidTap)) {
+  if (unused(step, 'I',
+             arc || spline || threads || motion == g::kBackBore || motion == g::kRigidTap ||
+                 tool_data) ||
+      unused(step, 'J', arc || spline || threads || motion == g::kBackBore || tool_data) ||
+      unused(step, 'K',
+             arc || threads || motion == g::kBackBore || motion == g::kThread ||
+                 motion == g::kRigidTap)) {
     return false;
   }
-  if (unused('L', compensates || drilling || threads || motion == g::kSplinePoint ||
-                      non_modal == g::kSetData || io == m::kWaitForInput ||
-                      step.code(MGroup::program) == m::kCall)) {
-    return false;
-  }
+  return !unused(step, 'L',
+                 compensates || drilling || threads || motion == g::kSplinePoint ||
+                     non_modal == g::kSetData || io == m::kWaitForInput ||
+                     step.code(MGroup::program) == m::kCall) &&
+         check_unused_values(step);
+}
+
+bool BlockCheck::check_unused_values(const Step& step) const {
+  const int motion = step.moves_by;
+  const int non_modal = step.code(GGroup::non_modal);
+  const int override_switch = step.code(MGroup::override_switch);
+  const int io = step.code(MGroup::io);
+  const bool orients = step.code(MGroup::spindle) == m::kOrient;
+  const bool arc = is_arc(motion);
+  const bool threads = motion == g::kThreadCycle;
+  const bool drilling = is_cycle(motion);
+  const bool pecks = motion == g::kBreakChips || motion == g::kPeck;
+  // For a later cycle of the row, whatever this one uses. P in G73 and G83 is a dwell on some
+  // controls.
+  const bool kept_in_cycle = drilling && rules_.cycle_keeps_all_words;
   const bool p_override = override_switch >= m::kFeedOverride;
   const bool p_elsewhere = (io >= m::kOutputOnWithMove && io <= m::kWaitForInput) || orients ||
                            step.code(MGroup::program) == m::kCall;
-  if (unused('P', p_elsewhere || arc || motion == g::kCubicSpline || motion == g::kSplinePoint ||
-                      threads || non_modal == g::kDwell || non_modal == g::kSetData || p_override ||
-                      step.code(GGroup::path_mode) == g::kContinuous || motion == g::kDrillDwell ||
-                      motion == g::kBoreStopOut || motion == g::kBoreHandOut ||
-                      motion == g::kBoreDwell || motion == g::kTapRight || motion == g::kTapLeft)) {
+  if (unused(step, 'P',
+             p_elsewhere || arc || (kept_in_cycle && !pecks) || motion == g::kCubicSpline ||
+                 motion == g::kSplinePoint || threads || non_modal == g::kDwell ||
+                 non_modal == g::kSetData || p_override ||
+                 step.code(GGroup::path_mode) == g::kContinuous || motion == g::kDrillDwell ||
+                 motion == g::kBoreStopOut || motion == g::kBoreHandOut ||
+                 motion == g::kBoreDwell || motion == g::kTapRight || motion == g::kTapLeft)) {
     return false;
   }
-  if (unused('Q', motion == g::kCubicSpline || threads || motion == g::kBreakChips ||
-                      motion == g::kPeck || step.code(GGroup::path_mode) == g::kContinuous ||
-                      step.code(MGroup::tool_change) == m::kToolInSpindle || tool_data ||
-                      io >= m::kWaitForInput || orients)) {
+  if (unused(step, 'Q',
+             motion == g::kCubicSpline || threads || pecks || kept_in_cycle ||
+                 step.code(GGroup::path_mode) == g::kContinuous ||
+                 step.code(MGroup::tool_change) == m::kToolInSpindle || non_modal == g::kSetData ||
+                 io >= m::kWaitForInput || orients)) {
     return false;
   }
-  return !unused('R', arc || drilling || threads || non_modal == g::kSetData || orients);
+  return !unused(step, 'R', arc || drilling || threads || non_modal == g::kSetData || orients);
 }
 
 bool has_feed(const Step& step, const State& state, Refusals& refusals) {

@@ -27,8 +27,11 @@ class BlockCheck {
   bool check_values(const Step& step) const;
 
  private:
+  bool by_modal_motion(Step& step, int motion) const;
   bool check_non_modal(const Step& step) const;
+  bool unused(const Step& step, char letter, bool used) const;
   bool check_unused(const Step& step) const;
+  bool check_unused_values(const Step& step) const;
   bool check_cutter(const Step& step) const;
   bool cutter_permits_what_comes_before(const Step& step) const;
   bool cutter_permits_what_comes_behind(const Step& step) const;

@@ -21,6 +21,11 @@ double repeats_of(const Step& step) noexcept {
 
 }  // namespace
 
+// fanuc K0: the row's words are kept and nothing is drilled.
+bool Drilling::stores_alone(const Step& step) const noexcept {
+  return control_.rules.cycle_keeps_all_words && step.has('L') && step['L'] == 0.0;
+}
+
 // Sticky words: they persist while the same cycle continues from block to block.
 bool Drilling::remember(const Step& step) {
   // Words are kept in the program's units. `fresh` is the first block of a cycle: LinuxCNC requires
@@ -92,6 +97,14 @@ bool Drilling::check(const Step& step) {
     return refusals_.g_word(step, step.moves_by, "cycle_in_inverse_time",
                             "a canned cycle while inverse-time feed (G93) is in force");
   }
+  if (stores_alone(step)) {
+    if (((step.mask & kAxisMask) & ~Step::bit(kNormalLetters[axes_of(state_.plane).normal])) != 0) {
+      return refusals_.letter(step, 'L', "out_of_range",
+                              "a cycle with 0 repeats and a place: whether the control goes there "
+                              "is not certain; leave the place out");
+    }
+    return true;
+  }
   if (repeats_of(step) < 1.0) {
     return refusals_.letter(step, 'L', "out_of_range", "too few repeats (L); allowed: 1 or more");
   }
@@ -161,6 +174,9 @@ bool Drilling::cycle(const Step& step) {
     return false;
   }
   state_.motion = step.moves_by;
+  if (stores_alone(step)) {
+    return true;
+  }
   const bool lifts = control_.rules.cycle_lifts_first;
   // LinuxCNC lifts to R before it moves across; FANUC moves across first.
   if (lifts && hole.initial_mm < hole.retract_mm) {
@@ -251,7 +267,12 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
 // couples them, as with a floating holder.
 bool Drilling::tap(const Step& step, const Hole& hole) {
   const int into = step.moves_by == g::kTapRight ? 1 : -1;
-  if (state_.spindle_direction != into) {
+  const bool rigid = state_.rigid_tap;
+  if (rigid && !(state_.spindle_speed_rev_s > 0.0)) {
+    return refusals_.g_word(step, step.moves_by, "spindle_speed_missing",
+                            "rigid tapping (M29), but no spindle speed (S) is in force");
+  }
+  if (!rigid && state_.spindle_direction != into) {
     return refusals_.g_word(step, step.moves_by, "spindle_direction",
                             into > 0 ? "right-hand tapping needs the spindle turning clockwise (M3)"
                                      : "left-hand tapping needs the spindle turning "
@@ -265,12 +286,16 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
   // Feed and spindle must keep their ratio, so no override may act while the tap is in.
   const bool override_off = state_.override_off;
   state_.override_off = true;
+  if (rigid) {
+    state_.spindle_direction = into;
+    out_.spindle();
+  }
   out_.along(MoveKind::linear, normal, hole.bottom_mm);
   state_.spindle_direction = -into;
   out_.spindle();
   out_.dwell(state_.cycle.dwell_s);
   out_.along(MoveKind::linear, normal, hole.clear_mm);
-  state_.spindle_direction = into;
+  state_.spindle_direction = rigid ? 0 : into;
   out_.spindle();
   state_.override_off = override_off;
   return true;

@@ -26,6 +26,7 @@ class Drilling : private Stage {
   };
 
   bool check(const Step& step);
+  [[nodiscard]] bool stores_alone(const Step& step) const noexcept;
   bool remember(const Step& step);
   bool measure(const Step& step, Hole& hole);
   void go_to(const Step& step, const Hole& hole, double height_mm);

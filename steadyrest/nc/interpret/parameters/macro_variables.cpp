@@ -67,8 +67,7 @@ Lookup MacroVariables::number(int index, double& value) const {
   return mode(index, value) || position(index, value) ? Lookup::found : Lookup::not_known_here;
 }
 
-// Codes of the blocks before this one. Group 9 (cycles) is part of group 1 here, so both are
-// answered only where no cycle is in force.
+// Codes of the blocks before this one.
 bool MacroVariables::mode(int index, double& value) const {
   const auto yes = [&](double answer) {
     value = answer;
@@ -79,7 +78,7 @@ bool MacroVariables::mode(int index, double& value) const {
   switch (index) {
     case 4001:
       // Codes are stored times ten (G38.2); FANUC's groups hold whole ones.
-      return state_.motion >= 0 && state_.motion <= 30 && yes(state_.motion / 10.0);
+      return state_.plain_motion >= 0 && yes(state_.plain_motion / 10.0);
     case 4002:
       return yes(state_.plane == Plane::xy ? 17.0 : state_.plane == Plane::zx ? 18.0 : 19.0);
     case 4003:
@@ -90,7 +89,7 @@ bool MacroVariables::mode(int index, double& value) const {
     case 4006:
       return yes(state_.unit_mm == 1.0 ? 21.0 : 20.0);
     case 4009:
-      return is_cycle(state_.motion) && yes(state_.motion / 10.0);
+      return yes(is_cycle(state_.motion) ? state_.motion / 10.0 : g::kCycleEnd / 10.0);
     case 4010:
       return yes(state_.retract_to_initial ? 98.0 : 99.0);
     case 4014:

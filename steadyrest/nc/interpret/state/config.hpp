@@ -30,6 +30,8 @@ struct Tool {
 /// Work offsets G54–G59.3, in this order; for sinumerik G54–G57, G505 ….
 inline constexpr std::size_t kWorkOffsets = 9;
 
+inline constexpr std::size_t kReferencePoints = 4;
+
 /// What a number without a decimal point means in a word that takes one (dialect `fanuc`).
 enum class DecimalRule : std::uint8_t {
   calculator,      ///< X100 is 100 mm (parameter DPI = 1): most CAM programs rely on it
@@ -58,7 +60,8 @@ struct Config {
   Axes g92{};                     ///< G92 offset at the start
   bool g92_on = false;            ///< in force; false: only stored, for G92.3
   Axes tool_offset{};             ///< tool length in force at the start
-  std::array<Axes, 2> home{};     ///< G28 and G30, machine coordinates
+  /// G28, G30; fanuc: G30 P3 and P4. Machine coordinates.
+  std::array<Axes, kReferencePoints> home{};
   /// linuxcnc: other numbered parameters kept by the control, with their values at the start.
   std::vector<std::pair<int, double>> numbers;
   /// The offsets, the active one, the reference points and the parameters above are the control's;

@@ -60,7 +60,7 @@ struct State {
   bool g92_used = false;       ///< G92 has set an origin in this program
   bool g52_used = false;       ///< G52 has set a shift in this program
   Axes tool_offset{};
-  std::array<Axes, 2> home{};
+  std::array<Axes, kReferencePoints> home{};
 
   double unit_mm = 1.0;       ///< 25.4 after G20
   double feed_unit_mm = 1.0;  ///< differs from unit_mm only after sinumerik G70/G71
@@ -69,6 +69,8 @@ struct State {
   bool centre_absolute = false;
   bool retract_to_initial = false;  ///< G98
   int motion = -1;                  ///< G code times ten; −1 = none yet
+  int plain_motion = -1;            ///< the last that was no cycle: in force again after fanuc G80
+  bool rigid_tap = false;           ///< fanuc M29: for the tapping cycles up to G80
   CycleMemory cycle;
 
   FeedMode feed_mode = FeedMode::per_minute;
@@ -82,7 +84,8 @@ struct State {
   int spindle_direction = 0;         ///< +1 M3, −1 M4, 0 M5
   bool surface_speed = false;        ///< G96
   double surface_speed_mm_s = 0.0;   ///< S in G96
-  double spindle_limit_rev_s = 0.0;  ///< D in G96; 0 = none given
+  double spindle_limit_rev_s = 0.0;  ///< highest in G96, by its D or fanuc G92 S; 0 = none given
+  double kept_limit_rev_s = 0.0;     ///< fanuc G92 S, for each G96 after it
   bool speed_modulation = false;     ///< Config::modulation_on and off
   double coolant = 0.0;              ///< 0 off, 1 mist, 2 flood, 3 both
   std::int32_t selected_tool = 0;

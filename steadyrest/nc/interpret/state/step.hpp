@@ -73,6 +73,9 @@ struct Step {
   char frame = 0;               ///< sinumerik T TRANS, t ATRANS, R ROT, r AROT
   double frame_angle_deg = std::numeric_limits<double>::quiet_NaN();  ///< RPL
   std::string_view tool_name;                                         ///< sinumerik T="NAME"
+  std::int8_t reference_point = 0;  ///< fanuc G30 P: 2 to 4; 0 = not given
+  bool rigid_tap = false;           ///< fanuc M29
+  double speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();  ///< fanuc G92 S
   const read::Block* block = nullptr;                                 ///< the text, for refusals
 
   void reset(const read::Block& source) noexcept {
@@ -95,6 +98,9 @@ struct Step {
     frame = 0;
     frame_angle_deg = std::numeric_limits<double>::quiet_NaN();
     tool_name = {};
+    reference_point = 0;
+    rigid_tap = false;
+    speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();
     block = &source;
   }
   /// 0 for anything but a letter: words whose address is a name, and @ ^.

@@ -108,7 +108,10 @@ class SpanSurvey {
     const interpret::State& state = run_.state();
     const double rpm = kernel::units::rpm_from_rev_s(state.spindle_speed_rev_s);
     constexpr double kSameSpeed = 1e-6;
-    return !dwells() &&
+    const bool limit = std::ranges::any_of(run_.block().words(), [](const read::Word& one) {
+      return one.letter == 'G' && interpret::g::code_of(one.value) == interpret::g::kSetOrigin;
+    });
+    return !limit && !dwells() &&
            (state.surface_speed || std::abs(rpm - word.value) <= kSameSpeed * (1.0 + rpm));
   }
   static std::string feed_fault(std::uint32_t line, std::string_view why) {

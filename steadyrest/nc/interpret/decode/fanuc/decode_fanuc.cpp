@@ -78,6 +78,7 @@ class FanucDecoder final : public StepWriter {
   bool g_word(const Word& word);
   bool m_word(const Word& word);
   bool letter_word(const Word& word);
+  bool word_of_another_kind(const Word& word, int motion, bool& taken);
   bool finish();
   bool program_call();
 };
@@ -148,11 +149,43 @@ bool FanucDecoder::m_word(const Word& word) {
   if (is_modulation(word)) {
     return take_m(word);
   }
+  if (word.value == 29.0) {  // parameter 5210 may choose another number
+    step_.rigid_tap = true;
+    step_.others = true;
+    return true;
+  }
   if (word.value == 60.0 || word.value == 61.0 || (word.value >= 50.0 && word.value <= 53.0)) {
     return refuse(word, "machine_builders_code",
                   "an M word whose meaning depends on the machine builder");
   }
   return take_m(word);
+}
+
+// Letters that are no values of a common word: M99 P, G92 S, G30 P. False when refused.
+bool FanucDecoder::word_of_another_kind(const Word& word, int motion, bool& taken) {
+  if (word.letter == 'P' && step_.code(MGroup::program) == m::kReturn) {
+    return refuse(word, "flow_control",
+                  "M99 with a block number (P) is a jump, which is not interpreted");
+  }
+  if (word.letter == 'Q' && (motion == g::kTapLeft || motion == g::kTapRight)) {
+    return refuse(word, "g_code_not_interpreted",
+                  "Q makes a tapping cycle one of pecks, which is not interpreted");
+  }
+  if (word.letter == 'S' && step_.code(GGroup::non_modal) == g::kSetOrigin) {
+    if (!(word.value > 0.0)) {
+      return refuse(word, "out_of_range", "the highest spindle speed (G92 S) must be above zero");
+    }
+    step_.speed_limit_rpm = word.value;
+    step_.others = taken = true;
+  }
+  if (word.letter == 'P' && step_.code(GGroup::non_modal) == g::kSecondHome) {
+    if (word.value != 2.0 && word.value != 3.0 && word.value != 4.0) {
+      return refuse(word, "out_of_range", "G30 goes to the reference points P2, P3 and P4");
+    }
+    step_.reference_point = static_cast<std::int8_t>(word.value);
+    step_.others = taken = true;
+  }
+  return true;
 }
 
 // Where a letter differs from LinuxCNC's: U V W, D, P as milliseconds, K as repeats, and numbers
@@ -176,6 +209,12 @@ bool FanucDecoder::letter_word(const Word& word) {
     return refuse(word, "unused_word",
                   "a D word, but cutter radius compensation is not interpreted");
   }
+  const int motion =
+      step_.code(GGroup::motion) == kNoCode ? in_.state.motion : step_.code(GGroup::motion);
+  bool taken = false;
+  if (!word_of_another_kind(word, motion, taken) || taken) {
+    return taken;
+  }
   if (dwell && letter == 'X') {  // G4 X: seconds, with or without point as the rule says
     const bool increments =
         !word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment;
@@ -184,18 +223,12 @@ bool FanucDecoder::letter_word(const Word& word) {
   if (step_.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
     return put_letter(word, letter, value);
   }
-  if (letter == 'P' && step_.code(MGroup::program) == m::kReturn) {
-    return refuse(word, "flow_control",
-                  "M99 with a block number (P) is a jump, which is not interpreted");
-  }
   if (letter == 'P') {
     if (step_.code(GGroup::non_modal) == g::kSetData) {
       return put_letter(word, 'P', value);  // selects the work offset
     }
     // P is a time only where a dwell or a cycle takes one.
-    const bool with_time = dwell || is_cycle(step_.code(GGroup::motion)) ||
-                           (step_.code(GGroup::motion) == kNoCode && is_cycle(in_.state.motion));
-    if (!with_time) {
+    if (!dwell && !is_cycle(motion)) {
       return refuse(word, "unused_word", "a P word, but no word of the block uses it");
     }
     return put_letter(word, 'P', value * 1e-3);  // milliseconds
@@ -210,9 +243,7 @@ bool FanucDecoder::letter_word(const Word& word) {
       value *= 1e-3;
     }
   }
-  if (letter == 'K' &&
-      is_cycle(step_.code(GGroup::motion) == kNoCode ? in_.state.motion
-                                                     : step_.code(GGroup::motion))) {
+  if (letter == 'K' && is_cycle(motion)) {
     letter = 'L';  // the number of repeats is K on these controls
     value = word.value;
   }
@@ -258,10 +289,11 @@ bool FanucDecoder::finish() {
   if (non_modal == g::kMachineFrame) {
     step_.machine_frame = true;
   }
-  // G28 in a block with G0/G1: the motion word only sets the mode, the axis words belong to G28.
-  if ((non_modal == g::kHome || non_modal == g::kSecondHome) &&
-      step_.code(GGroup::motion) != kNoCode) {
-    const std::int16_t motion = step_.code(GGroup::motion);
+  // G28 or G53 in a block with G0/G1: the motion word only sets the mode, the axis words belong to
+  // the other. G80 ends a cycle in any block.
+  if (std::int16_t motion = step_.code(GGroup::motion);
+      (non_modal == g::kHome || non_modal == g::kSecondHome || step_.machine_frame) &&
+      motion != kNoCode && motion != g::kCycleEnd) {
     if (motion != g::kRapid && motion != g::kLinear) {
       return in_.refusals.g_word(step_, motion, "two_users_of_axis_words",
                                  "two G words in one block that both use the axis words");
@@ -279,7 +311,7 @@ bool FanucDecoder::finish() {
   }
   // Controls differ in what one leaves of the other, so a program may use only one of them.
   if ((non_modal == g::kShift && in_.state.g92_used) ||
-      (non_modal == g::kSetOrigin && in_.state.g52_used)) {
+      (non_modal == g::kSetOrigin && in_.state.g52_used && (step_.mask & kAxisMask) != 0)) {
     return in_.refusals.g_word(
         step_, non_modal, "ambiguous_code",
         "G52 and G92 in one program: controls differ in which acts first; use only one");
@@ -295,12 +327,16 @@ bool decode_fanuc(const Decoding& in, const Block& block, Step& step) {
 
 const DialectRules& fanuc_rules() noexcept {
   // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
-  // be omitted, no lift before moving across.
+  // be omitted, no lift before moving across; G53 is a one-shot rapid.
   static constexpr DialectRules kRules{.decode = decode_fanuc,
                                        .starts_with_g98 = true,
+                                       .machine_frame_alone = true,
+                                       .machine_frame_is_rapid = true,
                                        .g10_adds = true,
                                        .cycle_words_stay = true,
                                        .cycle_needs_dwell = false,
+                                       .cycle_keeps_all_words = true,
+                                       .cycles_are_a_group = true,
                                        .cycle_lifts_first = false,
                                        .variables = Variables::macros,
                                        .numbered_programs = true};

@@ -24,6 +24,7 @@ TEST_F(MacroSystemVariables, AreTheModesAsCodes) {
   state_.retract_to_initial = true;
   state_.active_offset = 5;
   state_.motion = 810;
+  state_.plain_motion = 10;
   state_.spindle_speed_rev_s = 20.0;
   state_.selected_tool = 12;
   const std::pair<int, double> codes[] = {{4002, 18}, {4003, 91},   {4005, 95},
@@ -32,14 +33,15 @@ TEST_F(MacroSystemVariables, AreTheModesAsCodes) {
   for (const auto& [index, code] : codes) {
     EXPECT_THAT(value_of(index), ElementsAre(code)) << index;
   }
-  // No G0 to G3 in a cycle, no feed per minute in G95.
-  EXPECT_THAT(value_of(4001), ElementsAre());
-  EXPECT_THAT(value_of(4109), ElementsAre());
+  // Cycles are a group of their own: G1 is in force beside one.
+  EXPECT_THAT(value_of(4001), ElementsAre(1.0));
+  EXPECT_THAT(value_of(4109), ElementsAre()) << "no feed per minute in G95";
   state_ = {};
-  state_.motion = 30;
+  EXPECT_THAT(value_of(4001), ElementsAre());
+  state_.motion = state_.plain_motion = 30;
   state_.feed_mm_s = 2.0;
   EXPECT_THAT(value_of(4001), ElementsAre(3.0));
-  EXPECT_THAT(value_of(4009), ElementsAre());
+  EXPECT_THAT(value_of(4009), ElementsAre(80.0));
   EXPECT_THAT(value_of(4109), ElementsAre(120.0));
   EXPECT_NE(variables_.asked().modes & kFeedMode, 0U);
 }

@@ -41,6 +41,26 @@ NewLines lines_of(const Workshop& shop, const std::string& program, std::vector<
 
 using Lines = std::vector<std::string>;
 
+TEST(SpindleWords, OfALimitAreNone) {
+  const Workshop shop;
+  const auto spans = spans_of(shop,
+                              "G21 G90 G94\nS2000 M3\nG0 X0 Z0\nG92 S2000\nG1 X5 F400\n"
+                              "G96 S150\nG92 S1500\nG1 X6\nM30\n",
+                              Dialect::fanuc);
+  ASSERT_EQ(spans.size(), 3U) << "with the one before any S";
+  EXPECT_EQ(spans[1].speed.line, 2U);
+  EXPECT_EQ(spans[2].speed.line, 6U);
+}
+
+TEST(SpindleWords, OfRigidTappingStay) {
+  const Workshop shop;
+  const auto spans =
+      spans_of(shop, "G21 G90 G94\nG0 X0 Y0 Z9.\nM29 S500\nG84 X0 Y0 Z-5. R2. F500.\nG80\nM30\n",
+               Dialect::fanuc);
+  ASSERT_EQ(spans.size(), 2U);
+  EXPECT_EQ(spans[1].stays, "line 4 taps or cuts a thread");
+}
+
 TEST(SpindleWords, ScaleTheFeedWithTheSpeed) {
   const Workshop shop;
   const NewLines lines = lines_of(shop,
