@@ -59,13 +59,13 @@ def line(r):
     if k<.90: return r.choice(["G98","G99"])
     if k<.92: return r.choice(["G10 L2 P%d "%r.randint(0,4)+r.choice(["","","R%s "%num(r,-90,90)]),"G10 L20 P%d "%r.randint(0,4)])+axes(r)
     if k<.94: return "G53 "+r.choice(["G0","G1",""])+" "+axes(r)
-    if k<.96: return r.choice(["G93","G94","G94","G95","S100","F100","F7.5","M3","M4","M5","M3 S50","G96 S50","G97 S60","G97"])
+    if k<.96: return r.choice(["G93","G94","G94","G95","S100","F100","F7.5","M3","M4","M5","M3 S50","G96 S50","G97 S60","G97","M3 $0","S70 $-1","G96 S9 $0","M5 $-1"])
     if k<.962: return r.choice(["G0 G80","G80 G1 X1","G0 @%s ^%s"%(num(r,0,9),num(r,-90,200)),"G1 ^%s"%num(r,-90,90),"@%s"%num(r,1,5),"G91 G81 ^15 Z-1 R1 L2","M19 R30","M62 P1","M66 P0 L0","M70","M72","M73","G38.2 Z%s"%num(r,-9,9),"G38.3 X%s F50"%num(r,-9,9),"G10 L1 P1 Z1 R2","G10 L10 P2 Z%s"%num(r,-5,5),"G10 L11 P1 X1 Z2","#5221=1.5","#5243=2","#5211=3","#5161=4","G0 X#5063 Y#5161 Z#5222","G0 X#5403 Y#5410 Z#5220"])
     if k<.968: return r.choice(["G7","G8","G33.1 Z%s K1.5"%num(r,-5,5),"G18 G76 P1 Z%s I%s J.2 K%s R%s Q29 H%d%s"%(num(r,-9,9),r.choice(["-1","1.5"]),r.choice([".5","1.1"]),r.choice(["1","2","1.5"]),r.randint(0,2),r.choice([""," L1 E.5"," L2 E1"," L3 E.7"])),
         "G5 X%s Y%s I1 J2 P-1 Q%s"%(num(r,-9,9),num(r,-9,9),num(r,-3,3)),"G5.1 X%s Y2 I1 J-1"%num(r,-9,9),"G5.2 X1 Y2 P1 L3\nX3 Y%s P2\nX5 Y1 P1\nG5.3"%num(r,-5,5),"G0 X%s"%num(r,-9,9),"G33 Z%s K1"%num(r,-9,9)])
     if k<.97: return r.choice(["G80","G80","G4 P.1","G61","G64","G64 P.1","G61.1","M8","M9","M48","M0"])
     # junk combos
-    return " ".join(r.choice(["G0","G1","G2","X1","Y1","Z1","I1","R1","P1","Q1","L2","F1","S1","T1","M3","M6","G43","H1","G90","G53","G80","G81","G92","G28","A1","D1","G91","K1","G4","M0","G10","M1","M8","M61","G98","G64","G17","G33"]) for _ in range(r.randint(1,4)))
+    return " ".join(r.choice(["G0","G1","G2","X1","Y1","Z1","I1","R1","P1","Q1","L2","F1","S1","T1","M3","M6","G43","H1","G90","G53","G80","G81","G92","G28","A1","D1","G91","K1","G4","M0","G10","M1","M8","M61","G98","G64","G17","G33","$0","$-1"]) for _ in range(r.randint(1,4)))
 
 
 def value(r, depth=0):

@@ -1,12 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include <steadyrest/nc/interpret/blocks/frames.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
+#include <steadyrest/nc/read/text/character.hpp>
 
 namespace steadyrest::nc::interpret {
+namespace {
+
+std::string_view frame_name(char frame) noexcept {
+  return frame == 'T' ? "TRANS" : frame == 't' ? "ATRANS" : frame == 'R' ? "ROT" : "AROT";
+}
+
+/// A word that is no axis word of a frame: the decoder has found its name.
+bool is_foreign(const read::Word& word) noexcept {
+  const bool axis = (Step::bit(word.letter) & kAxisMask) != 0;
+  const bool supa = std::ranges::equal(word.name, std::string_view{"SUPA"}, {}, read::upper);
+  return word.letter == 0 ? supa : !axis || word.qualifier != read::Qualifier::none;
+}
+
+/// The first axis word among these.
+char first_of(std::uint32_t letters) noexcept {
+  return static_cast<char>('A' + std::countr_zero(letters));
+}
+
+}  // namespace
+
+// A rotation about Z alone: by the word for Z, in G17 also by RPL.
+bool Frames::add_rotation(const Step& step, double& angle_deg) {
+  const bool by_plane = !std::isnan(step.frame_angle_deg);
+  constexpr std::string_view kOtherAxis = "a rotation about an axis other than Z";
+  if (const std::uint32_t others = step.mask & ~Step::bit('Z'); others != 0) {
+    return refusals_.letter(step, first_of(others), "frame_rotation", kOtherAxis);
+  }
+  if (by_plane && state_.plane != Plane::xy) {
+    return refusals_.named(step, "RPL", "frame_rotation", kOtherAxis);
+  }
+  if (by_plane == step.has('Z')) {
+    return refusals_.named(step, "RPL", "frame_rotation",
+                           "a rotation by RPL and by Z in one block");
+  }
+  angle_deg += by_plane ? step.frame_angle_deg : step['Z'];
+  return true;
+}
 
 // TRANS and ROT replace the programmed frame, ATRANS and AROT add to it. Offset and rotation
 // change; the machine does not move.
@@ -14,15 +55,18 @@ namespace steadyrest::nc::interpret {
 // ATRANS shifts along the already rotated axes.
 bool Frames::set(const Step& step) {
   const auto refuse_frame = [&](std::string_view reason, std::string_view text) {
-    return refusals_.block(step, reason, text);
+    return refusals_.named(step, frame_name(step.frame), reason, text);
   };
   // The order in which a frame and other words of its block act is not certain.
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
   if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
       step.zero_offset || step.machine_frame || !step.tool_name.empty()) {
-    return refuse_frame(
-        "frame", "a frame together with words other than its axes; write it in a separate block");
+    constexpr std::string_view kText =
+        "a frame together with words other than its axes; write it in a separate block";
+    const auto other = std::ranges::find_if(step.block->words(), is_foreign);
+    return other == step.block->words().end() ? refuse_frame("frame", kText)
+                                              : refusals_.word(step.line, *other, "frame", kText);
   }
   const bool turns = step.frame == 'R' || step.frame == 'r';
   const bool adds = step.frame == 't' || step.frame == 'r';
@@ -32,8 +76,8 @@ bool Frames::set(const Step& step) {
   }
   for (const char letter : kAxisLetters) {
     if (step.has(letter) && !(std::abs(step[letter]) <= 1e7)) {
-      return refuse_frame(
-          "out_of_range",
+      return refusals_.letter(
+          step, letter, "out_of_range",
           "a value too large for any machine; allowed: up to 10000000 in magnitude");
     }
   }
@@ -42,14 +86,9 @@ bool Frames::set(const Step& step) {
   Axes shift = adds ? old_shift : Axes{};
   double angle = adds ? old_angle : 0.0;
   if (turns && !empty) {
-    const bool by_plane = !std::isnan(step.frame_angle_deg);
-    if ((step.mask & ~Step::bit('Z')) != 0 || (by_plane && state_.plane != Plane::xy)) {
-      return refuse_frame("frame_rotation", "a rotation about an axis other than Z");
+    if (!add_rotation(step, angle)) {
+      return false;
     }
-    if (by_plane == step.has('Z')) {
-      return refuse_frame("frame_rotation", "a rotation by RPL and by Z in one block");
-    }
-    angle += by_plane ? step.frame_angle_deg : step['Z'];
   } else if (!turns) {
     Axes added{};
     for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
@@ -113,8 +152,8 @@ bool Frames::settle(const Step& step) {
   const bool pending = (incremental & state_.frame_pending) != 0 ||
                        (state_.frame_turned && (incremental & plane) != 0);
   if (pending || (step.code(GGroup::distance) == g::kIncremental && moved != 0)) {
-    return refusals_.block(
-        step, "frame_incremental",
+    return refusals_.letter(
+        step, first_of(incremental != 0 ? incremental : moved), "frame_incremental",
         "an incremental move right after a new frame: whether it includes the frame's shift is a "
         "setting of the control; program the axis absolutely first");
   }
@@ -122,9 +161,11 @@ bool Frames::settle(const Step& step) {
   // After a rotation an unnamed axis keeps its work coordinate, which is now another machine
   // position: both must be named, so that nothing depends on where the tool was.
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {
-    return refusals_.block(
-        step, "frame_axis",
-        "the first move after a rotation names only one of X and Y; program both");
+    constexpr std::string_view kText =
+        "the first move after a rotation names only one of X and Y; program both";
+    return (moved & plane) != 0
+               ? refusals_.letter(step, first_of(moved & plane), "frame_axis", kText)
+               : refusals_.g_word(step, step.moves_by, "frame_axis", kText);
   }
   state_.frame_pending &= ~moved;
   state_.frame_turned = state_.frame_turned && (moved & plane) != plane;

@@ -23,6 +23,9 @@ class Frames : private Stage {
   /// frame's shift, so the axis must first be programmed absolutely; after a rotation X and Y
   /// together.
   bool settle(const Step& step);
+
+ private:
+  bool add_rotation(const Step& step, double& angle_deg);
 };
 
 }  // namespace steadyrest::nc::interpret

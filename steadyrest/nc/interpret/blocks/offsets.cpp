@@ -51,9 +51,10 @@ bool Offsets::work_offset(const Step& step) {
   const int code = step.code(GGroup::work_offset);
   if ((step.zero_offset || code != kNoCode) &&
       (state_.frame_rotation_deg != 0.0 || state_.frame_shift != Axes{})) {
-    return refusals_.block(step, "frame_and_offset",
-                           "another settable offset while a programmed frame (TRANS, ROT) is in "
-                           "force; cancel the frame first");
+    constexpr int kNoOffset = 5000;  // G500
+    return refusals_.g_word(step, step.zero_offset ? kNoOffset : code, "frame_and_offset",
+                            "another settable offset while a programmed frame (TRANS, ROT) is in "
+                            "force; cancel the frame first");
   }
   if (step.zero_offset) {
     state_.work_offset_on = false;

@@ -99,7 +99,8 @@ bool BlockCheck::choose_motion(Step& step) const {
 
 // The checks are independent; their order only decides which fault is reported.
 bool BlockCheck::check(const Step& step) const {
-  return check_values(step) && check_non_modal(step) && check_unused(step) && check_cutter(step);
+  return check_values(step) && check_non_modal(step) && check_spindle_choice(step) &&
+         check_unused(step) && check_cutter(step);
 }
 
 // Every value is bounded, so no arithmetic after this check overflows or meets infinity; the
@@ -162,6 +163,22 @@ bool BlockCheck::check_non_modal(const Step& step) const {
     }
   }
   return true;
+}
+
+// linuxcnc $0: rs274 2.9 takes it with these words alone.
+bool BlockCheck::check_spindle_choice(const Step& step) const {
+  const int motion = step.moves_by;
+  const bool used = !step.first_spindle || step.has('S') || step.code(MGroup::spindle) != kNoCode ||
+                    step.code(GGroup::spindle_mode) != kNoCode || motion == g::kThread ||
+                    motion == g::kRigidTap || motion == g::kThreadCycle;
+  return used || refusals_.letter(step, '$', "unused_word",
+                                  "a spindle number ($), but no word of the block uses it");
+}
+
+bool BlockCheck::unused(const Step& step, char letter, bool used) const {
+  return step.has(letter) && !used &&
+         !refusals_.letter(step, letter, "unused_word",
+                           with_article(letter) + " word, but no word of the block uses it");
 }
 
 // A word that nothing in its block uses is a post processor's mistake: like LinuxCNC, refuse it

@@ -29,6 +29,7 @@ class BlockCheck {
  private:
   bool by_modal_motion(Step& step, int motion) const;
   bool check_non_modal(const Step& step) const;
+  bool check_spindle_choice(const Step& step) const;
   bool unused(const Step& step, char letter, bool used) const;
   bool check_unused(const Step& step) const;
   bool check_unused_values(const Step& step) const;

@@ -31,7 +31,20 @@ bool StepWriter::put_g(const Word& word, int code) {
     return refuse(word, "same_modal_group", "a second G word of the same modal group in one block");
   }
   place = static_cast<std::int16_t>(code);
+  if (g::code_of(word.value) != code) {
+    from(word, found.group);
+  }
   return true;
+}
+
+void StepWriter::from(const Word& word, char letter) noexcept {
+  step_.renamed_letters |= Step::bit(letter);
+  step_.letter_from[static_cast<std::size_t>(letter - 'A')] = place_of(word);
+}
+
+void StepWriter::from(const Word& word, GGroup group) noexcept {
+  step_.renamed_groups |= 1U << static_cast<unsigned>(group);
+  step_.group_from[static_cast<std::size_t>(group)] = place_of(word);
 }
 
 // The words of [chatter] in the machine file; 0 means none.
@@ -92,6 +105,9 @@ bool StepWriter::put_letter(const Word& word, char letter, double value) {
                   std::string{"the machine has no axis "} + letter + "; it has " + in_.config.axes);
   }
   step_.set(letter, value);
+  if (letter != word.letter) {
+    from(word, letter);
+  }
   step_.others = step_.others || (bit & (kAxisMask | Step::bit('F'))) == 0;
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
@@ -29,6 +30,9 @@ class StepWriter {
   bool put_letter(const read::Word& word, char letter, double value);
 
  protected:
+  /// Tells refusals that a letter or a group has its value from this word.
+  void from(const read::Word& word, char letter) noexcept;
+  void from(const read::Word& word, GGroup group) noexcept;
   bool refuse(const read::Word& word, std::string_view reason, std::string_view text) {
     return in_.refusals.word(step_.line, word, reason, text);
   }
@@ -40,6 +44,9 @@ class StepWriter {
   Step& step_;
 
  private:
+  [[nodiscard]] std::uint8_t place_of(const read::Word& word) const noexcept {
+    return static_cast<std::uint8_t>(&word - step_.block->words().data());
+  }
   bool put_m(const read::Word& word, int code);
   bool put_modulation(const read::Word& word);
 };

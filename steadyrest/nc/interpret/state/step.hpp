@@ -75,8 +75,15 @@ struct Step {
   std::string_view tool_name;                                         ///< sinumerik T="NAME"
   std::int8_t reference_point = 0;  ///< fanuc G30 P: 2 to 4; 0 = not given
   bool rigid_tap = false;           ///< fanuc M29
+  bool first_spindle = false;       ///< linuxcnc $0, $-1
   double speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();  ///< fanuc G92 S
   const read::Block* block = nullptr;                                 ///< the text, for refusals
+  /// Where a letter (bit: letter − 'A') or a G group (bit: group) has its value from a word of
+  /// another name, as R from CR=: that word's place in the block.
+  std::uint32_t renamed_letters = 0;
+  std::uint32_t renamed_groups = 0;
+  std::array<std::uint8_t, 26> letter_from;
+  std::array<std::uint8_t, kGGroups> group_from;
 
   void reset(const read::Block& source) noexcept {
     line = source.line();
@@ -100,8 +107,11 @@ struct Step {
     tool_name = {};
     reference_point = 0;
     rigid_tap = false;
+    first_spindle = false;
     speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();
     block = &source;
+    renamed_letters = 0;
+    renamed_groups = 0;
   }
   /// 0 for anything but a letter: words whose address is a name, and @ ^.
   static constexpr std::uint32_t bit(char letter) noexcept {

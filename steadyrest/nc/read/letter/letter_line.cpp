@@ -67,7 +67,7 @@ bool LetterLine::one_item() {
     reading_.numbers_alone = false;
     return rules_.macros ? macro_statement() : assignment();
   }
-  if ((c == '@' || c == '^') && rules_.polar) {
+  if ((c == '@' || c == '^' || c == '$') && rules_.symbols) {
     return word();
   }
   return refuse_character();

@@ -14,12 +14,12 @@ namespace steadyrest::nc::read {
 struct LetterRules {
   bool macros = false;            ///< custom macros and O numbers; else expressions and O-words
   bool colon_is_o = false;        ///< `:100` is O100
-  bool polar = false;             ///< `@` and `^` are letters
+  bool symbols = false;           ///< `@`, `^` and `$` are letters
   bool numbered_delete = false;   ///< a digit after `/` belongs to it
   bool semicolon_ends = false;    ///< `;` ends the block; else it opens a comment
   bool plain_words_fast = false;  ///< plain_words() may read them
 };
-inline constexpr LetterRules kLinuxcncLetters{.polar = true, .plain_words_fast = true};
+inline constexpr LetterRules kLinuxcncLetters{.symbols = true, .plain_words_fast = true};
 inline constexpr LetterRules kFanucLetters{
     .macros = true, .colon_is_o = true, .numbered_delete = true, .semicolon_ends = true};
 

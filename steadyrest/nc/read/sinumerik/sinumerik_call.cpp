@@ -339,8 +339,15 @@ bool SinumerikLine::repeats(const char* word_begin) {
       return false;
     }
   }
+  if (!p && flow.kind == FlowKind::call && flow.count == 0 && !is_digit(flow.label.view()[1])) {
+    // More likely a word that is not known than a call, so it is the one to look at.
+    return refuse(flow.label.view(), "unknown_word",
+                  "a word that is not known; a call of a subprogram needs a separate block");
+  }
   if (!p) {
-    at_ = end_;
+    while (at_ != end_ && !is_blank(*at_)) {
+      ++at_;
+    }
     return refuse(since(word_begin), "subprogram_call", kOwnBlock);
   }
   // The control's own bounds.

@@ -49,6 +49,31 @@ constexpr std::array kRefusedNames = {
     RefusedName{"CT", "unknown_word", "a tangential circle (CT) is not interpreted"},
 };
 
+// Words of the language without a text of their own.
+constexpr auto kOtherWords = std::to_array<std::string_view>(
+    {"ACC",       "ACN",     "ACP",      "ANG",       "AP",         "ASPLINE", "BAUTO",
+     "BNAT",      "BRISK",   "BRISKA",   "BSPLINE",   "BTAN",       "CANCEL",  "CDOF",
+     "CDON",      "CFINE",   "CHF",      "CHR",       "CLEARM",     "COMPCAD", "COMPCURV",
+     "COMPOF",    "COMPON",  "COMPSURF", "CORROF",    "CPRECOF",    "CPRECON", "CRPL",
+     "CSPLINE",   "CTRANS",  "CUT2D",    "CUT2DF",    "CUT3DC",     "CUT3DF",  "CUT3DFF",
+     "CUT3DFS",   "DC",      "DELDTG",   "DIAM90",    "DIAMOF",     "DIAMON",  "DISC",
+     "DISCL",     "DISR",    "DITE",     "DITS",      "DO",         "DRIVE",   "DRIVEA",
+     "DYNFINISH", "DYNNORM", "DYNPOS",   "DYNROUGH",  "DYNSEMIFIN", "EAUTO",   "ENAT",
+     "ETAN",      "EVERY",   "FA",       "FAD",       "FB",         "FCUB",    "FD",
+     "FENDNORM",  "FFWON",   "FGREF",    "FGROUP",    "FIFOCTRL",   "FLIN",    "FP",
+     "FPO",       "FPR",     "FPRAOF",   "FPRAON",    "FRC",        "FRCM",    "FXS",
+     "FXST",      "FXSW",    "FZ",       "GEOAX",     "ID",         "IDS",     "INVCCW",
+     "INVCW",     "JERKLIM", "KONT",     "KONTC",     "KONTT",      "LEAD",    "LIFTFAST",
+     "LIMS",      "MEAC",    "MEAS",     "MEASA",     "MEAW",       "MEAWA",   "NEWCONF",
+     "NORM",      "OFFN",    "ORIC",     "ORID",      "ORIMKS",     "ORIPATH", "ORIVECT",
+     "ORIWKS",    "OSC",     "OSD",      "OSOF",      "OSS",        "OSSE",    "OST",
+     "OVR",       "OVRA",    "OVRRAP",   "PAROT",     "PAROTOF",    "PL",      "POLY",
+     "POS",       "POSA",    "PRESETON", "PTP",       "PW",         "RND",     "RNDM",
+     "RP",        "SBLOF",   "SBLON",    "SCC",       "SETAL",      "SETINT",  "SPCOF",
+     "SPCON",     "SPOS",    "SPOSA",    "STARTFIFO", "STOPFIFO",   "SYNFCT",  "TCARR",
+     "TILT",      "TOFRAME", "TOROT",    "TRAILOF",   "TRAILON",    "VELOLIM", "WAITM",
+     "WAITP",     "WAITS",   "WALIMOF",  "WALIMON",   "WHEN",       "WHENEVER"});
+
 }  // namespace
 
 // The control does not tell case apart; the tables are in capitals.
@@ -65,7 +90,14 @@ bool known_name(std::string_view name) noexcept {
 const RefusedName* refused_name(std::string_view name) noexcept {
   const auto* const found = std::ranges::find_if(
       kRefusedNames, [&](const RefusedName& refused) { return equal(name, refused.name); });
-  return found == kRefusedNames.end() ? nullptr : found;
+  if (found != kRefusedNames.end()) {
+    return found;
+  }
+  static constexpr RefusedName kOther{"", "unknown_word",
+                                      "a word of the language that is not interpreted"};
+  const bool other =
+      std::ranges::any_of(kOtherWords, [&](std::string_view word) { return equal(name, word); });
+  return other ? &kOther : nullptr;
 }
 
 }  // namespace steadyrest::nc::read

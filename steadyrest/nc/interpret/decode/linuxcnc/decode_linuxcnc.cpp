@@ -22,6 +22,8 @@ class LinuxcncDecoder final : public StepWriter {
       case '@':
       case '^':
         return take_polar(word);
+      case '$':
+        return take_spindle(word);
       case 'G':
         return take_g(word);
       case 'M':
@@ -33,6 +35,14 @@ class LinuxcncDecoder final : public StepWriter {
 
   bool finish() {
     step_.machine_frame = step_.code(GGroup::non_modal) == g::kMachineFrame;
+    // As rs274 2.9: $-1 with M3, M4, M5 and S alone.
+    const int motion = step_.code(GGroup::motion);
+    if (all_spindles_ &&
+        (step_.code(MGroup::spindle) == m::kOrient || step_.code(GGroup::spindle_mode) != kNoCode ||
+         motion == g::kThread || motion == g::kRigidTap || motion == g::kThreadCycle)) {
+      return in_.refusals.letter(step_, '$', "spindle_selection",
+                                 "all spindles ($-1) with a word that is for one");
+    }
     if (!step_.polar) {
       return true;
     }
@@ -41,7 +51,8 @@ class LinuxcncDecoder final : public StepWriter {
                                  "polar coordinates (@ ^) together with an X or Y word");
     }
     if (in_.state.plane != Plane::xy) {
-      return in_.refusals.block(step_, "polar_off_xy", "polar coordinates (@ ^) outside G17");
+      return in_.refusals.letter(step_, std::isnan(step_.polar_radius) ? '^' : '@', "polar_off_xy",
+                                 "polar coordinates (@ ^) outside G17");
     }
     step_.set('X', 0.0);  // for the checks: both axes are programmed
     step_.set('Y', 0.0);
@@ -49,6 +60,8 @@ class LinuxcncDecoder final : public StepWriter {
   }
 
  private:
+  bool all_spindles_ = false;
+
   // @ is the radius, ^ the angle; NaN means that the word is omitted.
   bool take_polar(const Word& word) {
     double& place = word.letter == '@' ? step_.polar_radius : step_.polar_angle_deg;
@@ -57,6 +70,20 @@ class LinuxcncDecoder final : public StepWriter {
     }
     place = word.value;
     step_.polar = true;
+    step_.others = true;
+    return true;
+  }
+
+  // $0 is the first spindle, the one that is meant without $; $-1 all of them.
+  bool take_spindle(const Word& word) {
+    if (step_.first_spindle) {
+      return refuse(word, "word_twice", "a second $ word in one block");
+    }
+    if (word.value != 0.0 && word.value != -1.0) {
+      return refuse(word, "spindle_selection", "a spindle other than the first ($0)");
+    }
+    step_.first_spindle = true;
+    all_spindles_ = word.value != 0.0;
     step_.others = true;
     return true;
   }

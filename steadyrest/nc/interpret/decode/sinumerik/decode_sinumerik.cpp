@@ -208,6 +208,7 @@ bool SinumerikDecoder::letter_word(const Word& word) {
       return refuse(word, "word_twice", "a second D word in one block");
     }
     place = word.value == 0.0 ? g::kToolLengthOff : g::kToolLength;
+    from(word, GGroup::tool_length);
     return true;
   }
   // In ISO dialects these letters have functions that sinumerik writes as names.
@@ -295,7 +296,7 @@ bool SinumerikDecoder::name_word(const Word& word) {
 
 bool SinumerikDecoder::finish() {
   if (!std::isnan(step_.frame_angle_deg) && step_.frame != 'R' && step_.frame != 'r') {
-    return in_.refusals.block(step_, "unused_word", "RPL without ROT or AROT");
+    return in_.refusals.named(step_, "RPL", "unused_word", "RPL without ROT or AROT");
   }
   // G53 is non-modal and may share a block with G1, so it becomes a flag and leaves its group free.
   if (step_.code(GGroup::non_modal) == g::kMachineFrame) {

@@ -91,6 +91,7 @@ TEST(LetterLine, MarksABlockThatMayBeLeftOut) {
 TEST(LetterLine, HasPolarWordsInLinuxcncOnly) {
   EXPECT_THAT(letters_in("@10 ^45"), ElementsAre(W('@', 10), W('^', 45)));
   EXPECT_EQ(fault_of_line("@10", Dialect::fanuc), "polar_coordinates @10");
+  EXPECT_EQ(fault_of_line("M3 $0", Dialect::fanuc), "spindle_selection $0");
 }
 
 TEST(LetterLine, ShowsTheWordAtFault) {
@@ -105,7 +106,6 @@ TEST(LetterLine, ShowsTheWordAtFault) {
       {"X[1+2]", "expression X[1+2]"},
       {"[1]", "expression [1]"},
       {"Xsin[30]", "expression Xsin[30]"},
-      {"G1 $2", "spindle_selection $2"},
       {"G1 %", "misplaced_percent %"},
       {"G1 X1 \xc3\xa4", "not_ascii \\xc3"},
       {"G1 \x7f", "control_character \\x7f"},

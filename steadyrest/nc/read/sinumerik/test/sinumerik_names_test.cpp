@@ -58,6 +58,10 @@ TEST(SinumerikNames, OfFramesTransformationsAndCallsHaveReasonsOfTheirOwn) {
   EXPECT_EQ(why_refused("CALL"), "subprogram_call");
   EXPECT_EQ(why_refused("PCALL"), "subprogram_call");
   EXPECT_EQ(why_refused("CIP"), "unknown_word");
+  for (const char* name : {"FLIN", "FCUB", "BSPLINE", "BRISK", "COMPON", "SPOS", "G0X"}) {
+    EXPECT_EQ(why_refused(name), name[0] == 'G' ? "" : "unknown_word") << name;
+    EXPECT_FALSE(known_name(name)) << name;
+  }
   EXPECT_EQ(why_refused("POCKET"), "");
   EXPECT_EQ(why_refused(""), "");
 }
