@@ -123,7 +123,7 @@ def make(shop, r, folder, steadyrest, machine, name):
     original = os.path.join(folder, name + ".ngc")
     with open(original, "w") as out:
         out.write(text)
-    common = ["--machine", machine, "--json"]
+    common = ["--machine", machine, "--json"] + ([] if units else ["--units", "mm"])
     if not system:
         variables = os.path.join(folder, "start.var")
         with open(variables, "w") as out:

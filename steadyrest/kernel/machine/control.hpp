@@ -8,9 +8,13 @@
 
 namespace steadyrest::kernel::machine {
 
+/// Unit of lengths where a program does not say it.
+enum class ProgramUnit : std::uint8_t { unknown, mm, inch };
+
 /// How the control plans motion along the path.
 struct Control {
   Dialect dialect = Dialect::linuxcnc;
+  ProgramUnit units = ProgramUnit::unknown;
   double interpolator_period_s = 0.001;
   double servo_period_s = 0.001;
   double max_path_acceleration_mm_s2 = kUnlimited;  ///< along the path, on top of the axes' own

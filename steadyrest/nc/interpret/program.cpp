@@ -74,6 +74,7 @@ class ProgramRun::Run {
   // A refused program is searched for further unknown words, except where lines are missing or a
   // subprogram's file is being read: the rest would not be the user's program.
   Report take() {
+    report_.assumed = interpreter_->assumed();
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
     }

@@ -11,6 +11,7 @@
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/asked.hpp>
+#include <steadyrest/nc/interpret/state/assumption.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
@@ -29,6 +30,8 @@ struct Report {
   /// others are words further down that the reader or the dialect does not accept, each kind once,
   /// at most `kMostRefused`.
   std::vector<read::Refused> refused;
+  /// What the program leaves to settings of the control that are not known, in no order.
+  std::vector<Assumption> assumed;
 
   static constexpr std::size_t kMostRefused = 50;
 };

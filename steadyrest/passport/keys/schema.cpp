@@ -28,6 +28,7 @@ constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "lines", "opcu
 constexpr auto kBuiltPorts = std::span(kPorts).first<4>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
+constexpr std::array<string_view, 3> kProgramUnits = {"unknown", "mm", "inch"};
 
 constexpr auto kMust = Need::mandatory;
 constexpr auto kMay = Need::optional;
@@ -56,6 +57,11 @@ std::span<const Key<Control>> control_keys() noexcept {
   static const std::array kKeys = {
       Key<Control>{"dialect", choice<Control, &Control::dialect>(kernel::machine::kDialectNames), 0,
                    0, "Language of the control's NC programs.", kMust},
+      Key<Control>{"units", choice<Control, &Control::units>(kProgramUnits), 0, 0,
+                   "Unit in force at a program's start, for programs without G20 or G21 (G70, G71, "
+                   "G700, G710): LinuxCNC's `LINEAR_UNITS`, FANUC's parameter 0#2, SINUMERIK's G "
+                   "group 13 in MD20150 with MD10240. With `unknown` mm are assumed and such a "
+                   "program is not rewritten."},
       Key<Control>{
           "interpolator_period_ms", &Control::interpolator_period_s, 0.05, 100,
           "Time between set-points from the interpolator; a whole multiple of `servo_period_ms`."},

@@ -51,6 +51,7 @@ TEST(FromLinuxCnc, ConvertsEveryFigure) {
   EXPECT_EQ(machine.port, kernel::machine::PortKind::linuxcnc);
   EXPECT_EQ(machine.mode, kernel::machine::Mode::observe);
   EXPECT_EQ(machine.control.dialect, kernel::machine::Dialect::linuxcnc);
+  EXPECT_EQ(machine.control.units, kernel::machine::ProgramUnit::inch);
   EXPECT_DOUBLE_EQ(machine.control.servo_period_s, 0.0005);
   EXPECT_DOUBLE_EQ(machine.control.interpolator_period_s, 0.0005);
   EXPECT_DOUBLE_EQ(machine.control.max_feed_mm_s, 101.6);

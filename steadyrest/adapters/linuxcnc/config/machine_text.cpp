@@ -131,6 +131,8 @@ class Writer {
   Result<void> control() {
     line("\n[control]");
     line("dialect = \"linuxcnc\"");
+    line(fmt::format("units = \"{}\"  # {}", machine_.mm_per_unit == 1.0 ? "mm" : "inch",
+                     comment_of(ini_.find("TRAJ", "LINEAR_UNITS")->text())));
     const std::string period = ini_.find("EMCMOT", "SERVO_PERIOD")->text() + " ns";
     given("interpolator_period_ms", machine_.servo_period_ms, period);
     given("servo_period_ms", machine_.servo_period_ms, period);

@@ -53,7 +53,7 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
     return std::unexpected(std::move(answer));
   }
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
-              check.count()};
+              check.count(), *report};
   // If the feed override hardly acts because the axes never reach the programmed feed, the layer
   // has little to work with; that warning comes first.
   if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {

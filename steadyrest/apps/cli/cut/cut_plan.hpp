@@ -9,6 +9,7 @@
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
+#include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/check/machine_check.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
@@ -21,6 +22,7 @@ struct Planned {
   PathPointer path;
   std::vector<nc::plan::Warning> warnings;
   std::size_t warning_count = 0;
+  nc::interpret::Report report;  ///< of the reading
 };
 
 /// Refused with a whole answer, since every refused word is listed in it.

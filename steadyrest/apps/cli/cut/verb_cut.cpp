@@ -260,6 +260,7 @@ Outcome run(const Options& options, Progress& progress) {
     answer.text += put_against(answer, options.against, **against);
   }
   put_cuts(answer, *cuts, setup.machine);
+  answer.text += put_assumed(answer, planned->report);
   answer.text += put_warnings(answer, planned->warnings, planned->warning_count);
   put_vibration(answer, setup.chatter, cuts->without, cuts->with);
   if (auto done = put_batch(answer, options.batch, options.program, setup.machine, options.report,

@@ -82,6 +82,7 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start.subprogram_folders.push_back(std::filesystem::path(state.program).parent_path().string());
   start.block_delete = state.block_delete;
   start.inch = state.inch;
+  start.unit_known = true;
   start.incremental = state.incremental;
   start.plane = state.plane == "zx"   ? nc::interpret::Plane::zx
                 : state.plane == "yz" ? nc::interpret::Plane::yz

@@ -17,13 +17,6 @@ namespace steadyrest::apps::cli {
 namespace program_check {
 namespace {
 
-/// The check of the machine is a sink; without a machine nothing listens to the moves.
-class NoMoves final : public nc::interpret::Sink {
- public:
-  void on_move(const nc::interpret::Move& /*move*/) override {}
-  void on_event(const nc::interpret::Event& /*event*/) override {}
-};
-
 /// Nothing is ignored: a word that is not understood is listed with its line and the reason.
 std::string text_of(const nc::interpret::Report& report) {
   if (report.refused.empty()) {
@@ -74,7 +67,7 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
   if (!config) {
     return refused(config.error());
   }
-  NoMoves nothing;
+  nc::interpret::NoMoves nothing;
   std::optional<nc::plan::MachineCheck> check;
   if (machine != nullptr) {
     check.emplace(*machine, known_of(options.program));
@@ -90,7 +83,7 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
     say_dialect(answer, options.program, *machine);
   }
   answer.json["moves"] = report->moves;
-  answer.text = text_of(*report);
+  answer.text = text_of(*report) + put_assumed(answer, *report);
   if (check) {
     answer.text += put_warnings(answer, check->warnings(), check->count());
   }

@@ -42,6 +42,7 @@ Outcome run(const Options& options, bool json) {
   Answer answer;
   put_report(answer, *report, options.program.file);
   answer.json["moves"] = report->moves;
+  answer.notes = put_assumed(answer, *report);
   return answer;
 }
 

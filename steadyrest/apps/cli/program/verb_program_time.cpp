@@ -159,6 +159,7 @@ Outcome run(const Options& options) {
   Answer answer;
   put_report(answer, *report, options.program.file);
   say_dialect(answer, options.program, *machine);
+  const std::string assumed = put_assumed(answer, *report);
   // A time up to the refusal is not the program's time.
   if (!report->refused.empty()) {
     return answer;
@@ -175,7 +176,7 @@ Outcome run(const Options& options) {
     }
   }
   put_time(answer, *time, options.lines);
-  answer.text = text_of(*time) + put_warnings(answer, check.warnings(), check.count());
+  answer.text = text_of(*time) + assumed + put_warnings(answer, check.warnings(), check.count());
   return answer;
 }
 

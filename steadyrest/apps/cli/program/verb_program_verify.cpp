@@ -130,6 +130,12 @@ std::expected<Reading, Refusals> read(const Options& options, const std::vector<
     return refused(config.error());
   }
   out.config = std::move(*config);
+  // The same text is the same program in any unit; a tube is so many mm.
+  if (!mark.empty()) {
+    if (const auto known = no_assumption(options.rewrite.program.file, out.config); !known) {
+      return refused(known.error());
+    }
+  }
   return out;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -31,6 +32,10 @@ std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
                             "Offsets and reference points from LinuxCNC's variable file"));
   made.push_back(verb.add_option("--data-units", options.units,
                                  "Length unit of the tool table and the variable file")
+                     ->check(CLI::IsMember({"mm", "inch"})));
+  made.push_back(verb.add_option("--units", options.start_units,
+                                 "Unit of lengths before the program says one (G20, G21, G70, "
+                                 "G71); default: the machine file's")
                      ->check(CLI::IsMember({"mm", "inch"})));
   made.push_back(
       verb.reads("--subprograms", options.subprograms,
@@ -85,6 +90,8 @@ Result<Config> program_config(const ProgramOptions& options) {
   config.dialect = nc::read::dialect_from_name(options.dialect).value_or(config.dialect);
   config.block_delete = options.block_delete;
   config.axes = options.axes;
+  config.inch = options.start_units == "inch";
+  config.unit_known = !options.start_units.empty();
   config.decimal_rule = options.least_increment ? nc::interpret::DecimalRule::least_increment
                                                 : nc::interpret::DecimalRule::calculator;
   // Millimetres are the default; inches without any data mean forgotten data.
@@ -131,6 +138,13 @@ Result<Config> program_config(const ProgramOptions& options,
   for (const kernel::machine::Axis& axis : machine.axes) {
     of_machine.axes += axis.name;
   }
+  // The setting is that of the control in the file, not of another that the program was posted for.
+  if (of_machine.start_units.empty() &&
+      of_machine.dialect == nc::read::name(machine.control.dialect) &&
+      machine.control.units != kernel::machine::ProgramUnit::unknown) {
+    of_machine.start_units =
+        machine.control.units == kernel::machine::ProgramUnit::inch ? "inch" : "mm";
+  }
   auto config = program_config(of_machine);
   // Only a machine whose modulator is enabled knows the two M words.
   if (config && machine.chatter.enabled) {
@@ -154,6 +168,35 @@ void say_dialect(Answer& answer, const ProgramOptions& options,
                                         nc::read::name(machine.control.dialect)));
     }
   }
+}
+
+std::string put_assumed(Answer& answer, const nc::interpret::Report& report) {
+  Json list = Json::array();
+  std::string text;
+  for (const nc::interpret::Assumption& one : report.assumed) {
+    list.push_back({{"line", one.line}, {"what", one.what}, {"text", one.text}});
+    text += fmt::format("assumed: line {}: {}; {}\n", one.line, one.text, one.to_do);
+  }
+  answer.json["assumed"] = std::move(list);
+  return text;
+}
+
+Result<void> no_assumption(const nc::interpret::Report& report, const std::string& file) {
+  const auto bars =
+      std::ranges::find_if(report.assumed, &nc::interpret::Assumption::bars_rewriting);
+  if (bars == report.assumed.end()) {
+    return {};
+  }
+  return kernel::outcome::refuse(file, static_cast<int>(bars->line), bars->text, bars->to_do);
+}
+
+Result<void> no_assumption(const std::string& file, const Config& config) {
+  if (config.unit_known) {
+    return {};
+  }
+  nc::interpret::NoMoves nothing;
+  const auto report = nc::interpret::run_file(file, config, nothing);
+  return report ? no_assumption(*report, file) : Result<void>{};
 }
 
 /// Every refused word is in the JSON with its line; exit code 2 as soon as there is one.

@@ -18,9 +18,10 @@ namespace steadyrest::apps::cli {
 struct ProgramOptions {
   std::string file;
   std::string dialect;
-  std::string tools;      ///< LinuxCNC tool table, empty for none
-  std::string variables;  ///< LinuxCNC variable file, empty for none
-  std::string units = "mm";
+  std::string tools;         ///< LinuxCNC tool table, empty for none
+  std::string variables;     ///< LinuxCNC variable file, empty for none
+  std::string units = "mm";  ///< of those files
+  std::string start_units;   ///< in force at the program's start; empty: the machine file's
   std::string axes = "XYZABC";
   std::vector<std::string> subprograms;  ///< folders; empty: the program's own
   bool block_delete = false;
@@ -43,6 +44,15 @@ void add_changed_program(Verb& verb, std::string& output);
 [[nodiscard]] kernel::outcome::Result<nc::interpret::Config> program_config(
     const ProgramOptions& options, const kernel::machine::Machine& machine);
 
+/// The key `assumed[]` (`line`, `what`, `text`): what the program leaves to settings of the control
+/// that are not known. The text for people, empty for none.
+std::string put_assumed(Answer& answer, const nc::interpret::Report& report);
+/// A program that would be rewritten on an assumption is refused.
+[[nodiscard]] kernel::outcome::Result<void> no_assumption(const nc::interpret::Report& report,
+                                                          const std::string& file);
+/// The same for a program that nothing has read yet. One that is refused is left to its reader.
+[[nodiscard]] kernel::outcome::Result<void> no_assumption(const std::string& file,
+                                                          const nc::interpret::Config& config);
 /// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);
 /// After put_report(), where the machine file chose the dialect: reports that, and which one.

@@ -119,9 +119,9 @@ using nc::rewrite::Told;
 
 /// What a mark in the program records: everything that changes the result except the files that
 /// `verify` is given anyway.
-constexpr std::array kTold = {"dialect",      "control",        "r-parameter", "window-s",
-                              "tools",        "variables",      "data-units",  "subprograms",
-                              "block-delete", "least-increment"};
+constexpr std::array kTold = {"dialect",     "control",      "r-parameter",    "window-s",
+                              "tools",       "variables",    "data-units",     "units",
+                              "subprograms", "block-delete", "least-increment"};
 
 /// Whether the option was given, and its values. Defaults do not count as given. A flag has no
 /// value and gives one empty string.
@@ -135,14 +135,16 @@ std::vector<std::string> given(const RewriteOptions& options, std::string_view n
 }
 
 std::expected<std::vector<Told>, Refusals> told_of(const RewriteOptions& options,
-                                                   nc::read::Dialect dialect) {
+                                                   const nc::interpret::Config& config) {
   std::vector<Told> told;
   for (const std::string name : kTold) {
     std::vector<std::string> values = given(options, name);
-    // Dialect and window are recorded even when they come from the machine file or the default,
-    // since these may change later.
+    // Dialect, units and window are recorded even when they come from the machine file or the
+    // default, since these may change later.
     if (values.empty() && name == "dialect") {
-      values = {std::string(nc::read::name(dialect))};
+      values = {std::string(nc::read::name(config.dialect))};
+    } else if (values.empty() && name == "units" && config.unit_known) {
+      values = {config.inch ? "inch" : "mm"};
     } else if (values.empty() && name == "window-s") {
       values = {fmt::format("{:g}", options.window_s)};
     }
@@ -189,6 +191,8 @@ void set(RewriteOptions& options, const Told& one) {
     program.variables = one.value;
   } else if (one.name == "data-units") {
     program.units = one.value;
+  } else if (one.name == "units") {
+    program.start_units = one.value;
   } else if (one.name == "subprograms") {
     program.subprograms.push_back(one.value);
   } else if (one.name == "block-delete") {
@@ -318,6 +322,9 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
     return refused(config.error());
   }
   task.config = std::move(*config);
+  if (const auto known = no_assumption(options.program.file, task.config); !known) {
+    return refused(known.error());
+  }
   const auto way = way_of(options, task.machine, task.config.dialect);
   if (!way) {
     return std::unexpected(way.error());
@@ -327,7 +334,7 @@ std::expected<RewriteTask, Refusals> read_rewrite_task(const RewriteOptions& opt
   // On a Haas, P0 must be read as G52, or the interpreter would prove another machine.
   task.config.external_offset = way->method != Method::haas;
   task.settings.window_s = options.window_s;
-  auto told = told_of(options, task.config.dialect);
+  auto told = told_of(options, task.config);
   if (!told) {
     return std::unexpected(told.error());
   }

@@ -225,6 +225,9 @@ int Session::run_verb() {
     }
     return exit_code_of(outcome.error());
   }
+  if (!json_) {
+    fmt::print(stderr, "{}", outcome->notes);
+  }
   print_refusals(outcome->refusals);
   const bool written =
       json_ ? print_json(outcome->json) : print_out(kernel::outcome::shown_lines(outcome->text));

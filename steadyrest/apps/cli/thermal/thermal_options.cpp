@@ -28,7 +28,7 @@ constexpr double kBeyondFitted = 1.2;
 
 /// The program as a cyclogram: the planner times every block with the machine's limits and joins
 /// what runs at one spindle speed.
-Result<Cyclogram> of_program(const ThermalOptions& options) {
+Result<Cyclogram> of_program(const ThermalOptions& options, std::vector<std::string>& notes) {
   const auto machine = read_machine(options.machine);
   if (!machine) {
     return std::unexpected(machine.error().front());
@@ -49,6 +49,10 @@ Result<Cyclogram> of_program(const ThermalOptions& options) {
   // shift the whole forecast.
   if (!report->refused.empty()) {
     return std::unexpected(nc::interpret::first_refusal(*report, options.program.file));
+  }
+  for (const nc::interpret::Assumption& one : report->assumed) {
+    notes.push_back(
+        fmt::format("assumed: line {} of the program: {}; {}", one.line, one.text, one.to_do));
   }
   const auto time = timer->take_cyclogram();
   if (!time) {
@@ -177,7 +181,8 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
     return std::unexpected(passport.error());
   }
   // The two sources of a cyclogram are equal from here on.
-  auto cyclogram = options.cyclogram.empty() ? of_program(options)
+  ThermalJob job;
+  auto cyclogram = options.cyclogram.empty() ? of_program(options, job.notes)
                                              : thermal::offline::read_cyclogram(options.cyclogram);
   const auto ambient = temperatures(options.ambient);
   if (!cyclogram || !ambient) {
@@ -190,7 +195,6 @@ Result<ThermalJob> thermal_job(const ThermalOptions& options) {
       return std::unexpected(before.error());
     }
   }
-  ThermalJob job;
   // Sensors of all axes count, also of those left out by --axis: naming one of them is no error.
   std::vector<std::string> sensors;
   for (const ThermalAxis& axis : passport->axis) {

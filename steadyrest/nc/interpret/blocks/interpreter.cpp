@@ -73,9 +73,11 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return false;
   }
   if (plain_.takes(step_)) {
+    assumptions_.look(step_);
     return plain_.execute(step_, follows);
   }
   if (step_.frame != 0) {
+    assumptions_.look(step_);
     return frames_.set(step_);
   }
   // The checks come before anything acts. Faults that show only during execution are refused there;
@@ -96,6 +98,7 @@ bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
   cutter_.send_to(sink);
   control_.state.line = block.line();
   out_.begin_block(block.line());
+  assumptions_.look_at_cycle(block);
   return cycle_calls_.call(block.flow());
 }
 
@@ -129,6 +132,7 @@ bool Interpreter::decode(const Block& block) {
 // comes before the new tool's offset, a dwell before the move, a stop after it.
 bool Interpreter::act(const Step& step) {
   out_.begin_block(step.line);
+  assumptions_.look(step);
   if (step.modulation >= 0) {
     control_.state.speed_modulation = step.modulation == 1;
   }

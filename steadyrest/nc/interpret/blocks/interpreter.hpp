@@ -13,6 +13,7 @@
 #include <steadyrest/nc/interpret/blocks/offset_data.hpp>
 #include <steadyrest/nc/interpret/blocks/offsets.hpp>
 #include <steadyrest/nc/interpret/blocks/plain_block.hpp>
+#include <steadyrest/nc/interpret/check/assumptions.hpp>
 #include <steadyrest/nc/interpret/cycle/cycle_calls.hpp>
 #include <steadyrest/nc/interpret/cycle/drilling.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
@@ -48,6 +49,8 @@ class Interpreter {
   /// The last block was only a straight move: of the state, only position, motion and feed may have
   /// changed.
   [[nodiscard]] bool moved_alone() const noexcept { return plain_.was_last(); }
+  /// What the blocks so far have left to a setting of the control that is not known.
+  [[nodiscard]] std::vector<Assumption> assumed() const { return assumptions_.found(); }
   /// The line that is read next (#<_line>).
   void at_line(std::uint32_t line) noexcept { control_.state.line = line; }
   /// The values that the program's expressions read.
@@ -87,6 +90,7 @@ class Interpreter {
   Parameters parameters_;
   MoveOutput out_{control_.state};
   BlockCheck check_{control_};
+  Assumptions assumptions_{control_};
   MachineWords machine_{control_, out_};
   Modes modes_{control_, out_};
   Offsets offsets_{control_, out_};

@@ -12,8 +12,10 @@ void Modes::units(const Step& step) noexcept {
   }
   // The feed's unit changes too, except after G70 and G71, which are for lengths only.
   state_.unit_mm = code == g::kInch ? kMmPerInch : 1.0;
+  state_.unit_known = true;
   if (step.work_feed) {
     state_.feed_unit_mm = state_.unit_mm;
+    state_.feed_unit_known = true;
   }
 }
 
@@ -103,6 +105,8 @@ bool Modes::keep(const Step& step) {
 void Modes::restore(const State& kept) {
   state_.unit_mm = kept.unit_mm;
   state_.feed_unit_mm = kept.feed_unit_mm;
+  state_.unit_known = kept.unit_known;
+  state_.feed_unit_known = kept.feed_unit_known;
   state_.plane = kept.plane;
   state_.incremental = kept.incremental;
   state_.centre_absolute = kept.centre_absolute;

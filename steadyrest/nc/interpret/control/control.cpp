@@ -22,6 +22,7 @@ Control::Control(Config start) : config(std::move(start)), rules(rules_of(config
   state.home = config.home;
   state.unit_mm = config.inch ? kMmPerInch : 1.0;
   state.feed_unit_mm = state.unit_mm;
+  state.unit_known = state.feed_unit_known = config.unit_known;
   state.incremental = config.incremental;
   state.path_mode = config.path_mode;
   state.path_tolerance_mm = config.path_tolerance_mm;

@@ -44,6 +44,7 @@ struct Config {
   bool block_delete = false;  ///< the operator's switch: lines that begin with / are left out
   DecimalRule decimal_rule = DecimalRule::calculator;
   bool inch = false;                          ///< units in force at the start (G20)
+  bool unit_known = false;                    ///< the control's; false: only assumed
   bool incremental = false;                   ///< G91 in force at the start
   Plane plane = Plane::xy;                    ///< in force at the start
   bool centre_absolute = false;               ///< G90.1 likewise

@@ -97,4 +97,11 @@ class Sink {
   virtual void on_event(const Event& event) = 0;
 };
 
+/// For whoever wants only the report of a run.
+class NoMoves final : public Sink {
+ public:
+  void on_move(const Move& /*move*/) override {}
+  void on_event(const Event& /*event*/) override {}
+};
+
 }  // namespace steadyrest::nc::interpret

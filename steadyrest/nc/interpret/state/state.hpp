@@ -64,6 +64,8 @@ struct State {
 
   double unit_mm = 1.0;       ///< 25.4 after G20
   double feed_unit_mm = 1.0;  ///< differs from unit_mm only after sinumerik G70/G71
+  bool unit_known = false;    ///< by the program or Config::unit_known: not assumed
+  bool feed_unit_known = false;
   Plane plane = Plane::xy;
   bool incremental = false;
   bool centre_absolute = false;

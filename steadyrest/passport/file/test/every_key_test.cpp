@@ -34,6 +34,7 @@ TEST(EveryKey, TopAndControl) {
   EXPECT_EQ(m.mode, Mode::advise);
   const Control& c = m.control;
   EXPECT_EQ(c.dialect, Dialect::linuxcnc);
+  EXPECT_EQ(c.units, kernel::machine::ProgramUnit::inch);
   EXPECT_DOUBLE_EQ(c.interpolator_period_s, 0.006);
   EXPECT_DOUBLE_EQ(c.servo_period_s, 0.003);
   EXPECT_DOUBLE_EQ(c.max_path_acceleration_mm_s2, 1001);

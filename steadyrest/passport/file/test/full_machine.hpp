@@ -15,6 +15,7 @@ port = "sim"
 mode = "advise"
 [control]
 dialect = "linuxcnc"
+units = "inch"
 interpolator_period_ms = 6
 servo_period_ms = 3
 max_path_acceleration_mm_s2 = 1001

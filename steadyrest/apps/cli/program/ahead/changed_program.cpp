@@ -74,10 +74,16 @@ std::expected<SourceProgram, Refusals> read_source_program(const ProgramOptions&
                              "take that out first: steadyrest program strip"));
   }
   nc::plan::MachineCheck check(program.machine, known_of(options));
+  Result<void> known;
   auto path = nc::plan::plan_moves(program.machine, options.file, [&](nc::interpret::Sink& sink) {
     nc::plan::Both both(sink, check);
-    return nc::interpret::run_file(options.file, program.config, both);
+    auto report = nc::interpret::run_file(options.file, program.config, both);
+    known = report ? no_assumption(*report, options.file) : known;
+    return report;
   });
+  if (path && !known) {
+    return refused(known.error());
+  }
   if (!path) {
     Answer said;
     said.refusals.push_back(path.error());
@@ -134,6 +140,9 @@ std::expected<std::vector<Told>, Refusals> told_of_change(const std::string& cha
   std::vector<Told> told = {{"changes", changes},
                             {"dialect", std::string(nc::read::name(program.config.dialect))}};
   std::ranges::move(more, std::back_inserter(told));
+  if (program.config.unit_known) {  // also where it is from the machine file, which may change
+    told.push_back({"units", program.config.inch ? "inch" : "mm"});
+  }
   for (const std::string name : kReadingOptions) {
     const CLI::Option* option = verb.get_option_no_throw("--" + name);
     if (option == nullptr || option->count() == 0) {
