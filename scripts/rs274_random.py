@@ -17,7 +17,7 @@ import rs274_oracle
 from rs274_oracle import installed, oracle_parser
 
 OFFSETS = {5161: 1, 5162: 0.5, 5163: 2, 5181: -1, 5210: 1, 5212: 0.2, 5220: 1, 5221: 0.1, 5243: -0.3}  # inches
-REFUSED_BY_US_ALONE = {"tapping_off_xy", "g10_form", "cutter_comp_stop", "cutter_comp_shift"}
+REFUSED_BY_US_ALONE = {"tapping_off_xy", "g10_form", "cutter_comp_stop", "cutter_comp_shift", "repeat_after_continue", "loop_after_break"}
 
 
 def num(r,lo,hi):

@@ -9,6 +9,9 @@
 #include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
 #include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/interpret/program_counter.hpp>
+#include <steadyrest/nc/interpret/program_refusals.hpp>
+#include <steadyrest/nc/interpret/provenance/provenance.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -18,22 +21,6 @@ using read::Block;
 using read::LineSource;
 using read::Reader;
 using read::Refused;
-
-// Between interpreter and caller: the report counts moves, and the limit on repeated lines needs
-// the count too.
-class Counter final : public Sink {
- public:
-  Counter(Sink& sink, Report& report) : sink_(sink), report_(report) {}
-  void on_move(const Move& move) override {
-    ++report_.moves;
-    sink_.on_move(move);
-  }
-  void on_event(const Event& event) override { sink_.on_event(event); }
-
- private:
-  Sink& sink_;
-  Report& report_;
-};
 
 }  // namespace
 
@@ -49,6 +36,7 @@ class ProgramRun::Run {
         flow_(files_, interpreter_->parameters(), reader_, config),
         macro_(interpreter_->state()),
         rules_(rules_of(config.dialect)),
+        provenance_(config, rules_.settable_frames, interpreter_->parameters()),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
     switch (rules_.variables) {
@@ -63,6 +51,7 @@ class ProgramRun::Run {
         break;
     }
     reader_.set_block_delete(config.block_delete);
+    macro_.note_unknown(provenance_.known());
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -78,6 +67,7 @@ class ProgramRun::Run {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
     }
+    report_.unknown = std::move(provenance_.known().assumed);
     return std::move(report_);
   }
 
@@ -94,8 +84,9 @@ class ProgramRun::Run {
     in_main_ = files_.in_main();
     line_ = files_.now().number();
     interpreter_->at_line(line_);
+    provenance_.at_line(line_, flow_.in_doubt(), flow_.repeating());
     if (flow_.passing_over()) {
-      return follow(flow_.pass_over(block_));
+      return pass_over();
     }
     const LineSource& source = files_.now();
     if (!same_as_ahead(source) &&
@@ -107,27 +98,32 @@ class ProgramRun::Run {
     }
     if (rules_.named_calls && flow_.in_call() && typed_.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
-      return refuse({.line = block_.line(),
-                     .word = {},
-                     .reason = "subprogram_call",
-                     .text = "a call with more values than the subprogram takes (PROC)"});
+      return refuse(at_block(block_, "subprogram_call",
+                             "a call with more values than the subprogram takes (PROC)"));
     }
     if (rules_.named_calls && block_.flow().kind != read::FlowKind::none) {
       return call();
     }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
-      return follow(flow_.act(block_));
+      const bool accepted = follow(flow_.act(block_));
+      provenance_.lose(flow_.take_lost());
+      return accepted;
     }
     executed_ = !(block_.deleted() && block_delete_);
+    if (executed_ && block_.acting() != read::Acting::none) {
+      return refuse(acting_comment(block_, provenance_.known().doubt));
+    }
     if (!interpreter_->execute(block_, counter_)) {
       return refuse(interpreter_->refused());
     }
+    const bool plain = interpreter_->moved_alone() && reader_.numbers_alone();
+    if (executed_ && !(plain && provenance_.settled())) {
+      provenance_.executed(block_, interpreter_->state());
+    }
     report_.blocks += block_.words().empty() ? 0U : 1U;
     if (rules_.named_calls && interpreter_->finished() && flow_.in_call()) {
-      return refuse({.line = block_.line(),
-                     .word = {},
-                     .reason = "subprogram_end",
-                     .text = "the end of a program in a subprogram; write M17 or RET"});
+      return refuse(at_block(block_, "subprogram_end",
+                             "the end of a program in a subprogram; write M17 or RET"));
     }
     const Interpreter::ProgramCall& call = interpreter_->program_call();
     switch (call.kind) {
@@ -143,6 +139,17 @@ class ProgramRun::Run {
         return end_of_subprogram();
     }
     return true;
+  }
+
+  /// A line that a condition, a count or a search skips.
+  bool pass_over() {
+    const bool branch = flow_.passing_branch();
+    const bool accepted = follow(flow_.pass_over(block_));
+    if (provenance_.known().doubt && branch && provenance_.passed_over(files_.now().line())) {
+      flow_.skip_program_word();
+    }
+    provenance_.lose(flow_.take_lost());
+    return accepted;
   }
 
   Asked& asked() noexcept {
@@ -173,11 +180,9 @@ class ProgramRun::Run {
   // M99, M17 or RET: back to the caller, or to the head where the call repeats.
   bool end_of_subprogram() {
     if (rules_.named_calls && !flow_.in_call()) {
-      return refuse({.line = block_.line(),
-                     .word = {},
-                     .reason = "subprogram_end",
-                     .text = "the end of a subprogram (M17, RET) in the main program; end it with "
-                             "M30"});
+      return refuse(
+          at_block(block_, "subprogram_end",
+                   "the end of a subprogram (M17, RET) in the main program; end it with M30"));
     }
     const bool accepted = follow(flow_.end_program(block_.line()));
     if (again_) {
@@ -197,10 +202,9 @@ class ProgramRun::Run {
     if (!(flow_.in_call() && (block_.end_mark() || label)) && !(label && report_.blocks > 0)) {
       return true;
     }
-    return refuse({.line = block_.line(),
-                   .word = label ? "O" : "%",
-                   .reason = "no_program_end",
-                   .text = "the program or subprogram above has no end; write M30 or M99"});
+    return refuse(at_block(block_, "no_program_end",
+                           "the program or subprogram above has no end; write M30 or M99",
+                           label ? "O" : "%"));
   }
 
   /// Tells the interpreter of calls that began or ended.
@@ -281,24 +285,10 @@ class ProgramRun::Run {
         continue;
       }
       if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
-        add(reader_.refused());
+        add_kind(report_, reader_.refused());
       } else if (!block_.words().empty() && !interpreter_->survey(block_)) {
-        add(interpreter_->refused());
+        add_kind(report_, interpreter_->refused());
       }
-    }
-  }
-
-  void add(const Refused& refused) {
-    // A hundred lines with G41 are one finding: words with the same letter and number count once.
-    const auto head = [](const Refused& one) {
-      return std::pair{one.reason, one.word.substr(0, one.word.find_first_of(" .=[(+-#"))};
-    };
-    const auto known = std::ranges::any_of(report_.refused, [&](const Refused& earlier) {
-      return head(earlier) == head(refused) ||
-             (earlier.reason == refused.reason && earlier.reason.find("code") == std::string::npos);
-    });
-    if (!known) {
-      report_.refused.push_back(refused);
     }
   }
 
@@ -310,6 +300,7 @@ class ProgramRun::Run {
   SinumerikVariables typed_;
   bool again_ = false;  ///< a subprogram restarts: neither entered nor left
   const DialectRules& rules_;
+  Provenance provenance_;
   bool block_delete_;
   std::size_t calls_ = 0;
   Report report_;
@@ -366,6 +357,12 @@ bool ProgramRun::in_main() const noexcept {
 }
 const Block& ProgramRun::block() const noexcept {
   return run_->block_;
+}
+Doubt ProgramRun::doubt() const noexcept {
+  return run_->provenance_.doubt();
+}
+const std::vector<Assumed>& ProgramRun::unknown() const noexcept {
+  return run_->provenance_.known().assumed;
 }
 const Asked& ProgramRun::asked() const noexcept {
   return run_->asked();

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/parameters/known_state.hpp>
+#include <steadyrest/nc/interpret/provenance/doubt.hpp>
 #include <steadyrest/nc/interpret/state/asked.hpp>
 #include <steadyrest/nc/interpret/state/assumption.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
@@ -32,6 +34,8 @@ struct Report {
   std::vector<read::Refused> refused;
   /// What the program leaves to settings of the control that are not known, in no order.
   std::vector<Assumption> assumed;
+  /// What the program has read of values that the control decides, and what was taken for them.
+  std::vector<Assumed> unknown;
 
   static constexpr std::size_t kMostRefused = 50;
 };
@@ -74,6 +78,10 @@ class ProgramRun {
   [[nodiscard]] const read::Block& block() const noexcept;
   /// What its expressions have read of the control's own state.
   [[nodiscard]] const Asked& asked() const noexcept;
+  /// What it depends on that only the control knows.
+  [[nodiscard]] Doubt doubt() const noexcept;
+  /// So far: see Report.
+  [[nodiscard]] const std::vector<Assumed>& unknown() const noexcept;
   [[nodiscard]] const State& state() const noexcept;  ///< as it is now
   [[nodiscard]] Kept kept() const;                    ///< likewise
   /// The subprogram files opened so far.

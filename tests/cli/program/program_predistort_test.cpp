@@ -63,7 +63,7 @@ TEST(ProgramPredistort, MakesNoCornerWorseAtTheEnd) {
   const std::string part = scratch.at("part.ngc");
   for (const std::string mode : {"G61", "G64"}) {
     std::ofstream(part) << "G21 G90 G17\n"
-                        << mode << "\nF3000\nG1 X10 Y1\nG3 X10 Y21 J10 I0\n"
+                        << mode << "\nF3000\nG0 X0 Y0 Z0\nG1 X10 Y1\nG3 X10 Y21 J10 I0\n"
                         << "G1 X0\nG2 Y1 J-10 I0\nG1 X0 Y0\nM2\n";
     const std::string changed = scratch.at("changed.ngc");
     const auto answer = answer_of("program predistort " + part + on_linuxcnc + " -o " + changed);

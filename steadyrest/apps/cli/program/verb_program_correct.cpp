@@ -114,6 +114,7 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   Answer part;
   answer.text += put_path(part, *path, options.path);
   answer.text += put_kept(part, program.blocks, Rewrites::path);
+  answer.notes += part.notes;
   answer.json["path"] = std::move(part.json);
   return nc::rewrite::composed(lines, *stage, path->lines);
 }
@@ -161,8 +162,11 @@ std::expected<nc::rewrite::Replaced, Refusals> replace(const Options& options,
   answer.json["farthest_mm"] = proof->farthest_mm;
   answer.text += fmt::format(
       "{} lines replaced by {}, proved: at most {:.4f} mm from the original's path (tube {:g} mm); "
-      "everything else is the same\n",
-      proof->replaced_lines, proof->new_lines, proof->farthest_mm, proof->tube_mm);
+      "{}\n",
+      proof->replaced_lines, proof->new_lines, proof->farthest_mm, proof->tube_mm,
+      proof->assumed.empty() ? "everything else is the same"
+                             : "every other line is the original's, and the control's decisions "
+                               "reach no replaced block");
   return std::move(*changed);
 }
 

@@ -55,6 +55,7 @@ Outcome run(const Options& options, Progress& progress) {
   Answer answer;
   answer.text = put_speeds(answer, *done);
   put_replaced(answer, *changed);
+  put_unknown(answer, program->blocks.assumed);
   answer.text +=
       changed->replaced == 0
           ? std::string("the program is unchanged\n")

@@ -73,6 +73,14 @@ std::string slowest(const TubeProof& tube) {
                            tube.least_feed_ratio, tube.slowest_line);
 }
 
+/// What of the rest is proved.
+std::string_view rest_of(const TubeProof& tube) {
+  return tube.assumed.empty()
+             ? "everything else is the same"
+             : "every other line is the original's; what the control decides reaches no replaced "
+               "block, and finds both programs at the same place";
+}
+
 void put(Answer& answer, const std::optional<Proof>& plan, const std::optional<TubeProof>& tube) {
   const Proof none;
   const Proof& proof = plan ? *plan : none;
@@ -99,9 +107,10 @@ void put(Answer& answer, const std::optional<Proof>& plan, const std::optional<T
     json["slowest_line"] = tube->slowest_line == 0 ? Json(nullptr) : Json(tube->slowest_line);
     answer.text += fmt::format(
         "proved: {} moves; {} lines replaced by {}, at most {:.4f} mm from the original's path "
-        "(tube {:g} mm); {}everything else is the same\n",
+        "(tube {:g} mm); {}{}\n",
         tube->moves, tube->replaced_lines, tube->new_lines, tube->farthest_mm, tube->tube_mm,
-        slowest(*tube));
+        slowest(*tube), rest_of(*tube));
+    put_unknown(answer, tube->assumed);
   }
 }
 

@@ -146,6 +146,9 @@ Result<Config> program_config(const ProgramOptions& options,
         machine.control.units == kernel::machine::ProgramUnit::inch ? "inch" : "mm";
   }
   auto config = program_config(of_machine);
+  if (config) {
+    config->on_machine = true;
+  }
   // Only a machine whose modulator is enabled knows the two M words.
   if (config && machine.chatter.enabled) {
     config->modulation_on = static_cast<std::int32_t>(machine.chatter.m_code_on);
@@ -171,13 +174,13 @@ void say_dialect(Answer& answer, const ProgramOptions& options,
 }
 
 std::string put_assumed(Answer& answer, const nc::interpret::Report& report) {
-  Json list = Json::array();
+  Json& list = answer.json["assumed"];
+  list = list.is_array() ? list : Json::array();
   std::string text;
   for (const nc::interpret::Assumption& one : report.assumed) {
     list.push_back({{"line", one.line}, {"what", one.what}, {"text", one.text}});
     text += fmt::format("assumed: line {}: {}; {}\n", one.line, one.text, one.to_do);
   }
-  answer.json["assumed"] = std::move(list);
   return text;
 }
 
@@ -199,6 +202,22 @@ Result<void> no_assumption(const std::string& file, const Config& config) {
   return report ? no_assumption(*report, file) : Result<void>{};
 }
 
+void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assumed) {
+  constexpr std::size_t kShown = 10;
+  Json& list = answer.json["assumed"];
+  list = list.is_array() ? list : Json::array();
+  for (const nc::interpret::Assumed& one : assumed) {
+    if (list.size() < kShown) {
+      answer.notes += fmt::format("assumed: line {}: {} = {:.6g}, which the control decides\n",
+                                  one.line, one.name, one.value);
+    }
+    list.push_back({{"line", one.line}, {"name", one.name}, {"value", one.value}});
+  }
+  if (list.size() > kShown) {
+    answer.notes += fmt::format("… {} more assumptions (--json has all)\n", list.size() - kShown);
+  }
+}
+
 /// Every refused word is in the JSON with its line; exit code 2 as soon as there is one.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file) {
   answer.json["blocks"] = report.blocks;
@@ -213,6 +232,7 @@ void put_report(Answer& answer, const nc::interpret::Report& report, const std::
     }
   }
   answer.json["refused"] = std::move(list);
+  put_unknown(answer, report.unknown);
   if (!report.refused.empty()) {
     answer.exit_code = kRefused;
     // The first refusal goes to stderr; the JSON has all.

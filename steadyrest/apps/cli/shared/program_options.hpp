@@ -53,6 +53,10 @@ std::string put_assumed(Answer& answer, const nc::interpret::Report& report);
 /// The same for a program that nothing has read yet. One that is refused is left to its reader.
 [[nodiscard]] kernel::outcome::Result<void> no_assumption(const std::string& file,
                                                           const nc::interpret::Config& config);
+/// The key `assumed[]` (`line`, `name`, `value`): what the program reads of values that the control
+/// decides, and what was taken for them; the first ten as notes.
+void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assumed);
+
 /// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);
 /// After put_report(), where the machine file chose the dialect: reports that, and which one.

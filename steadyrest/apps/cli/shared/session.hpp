@@ -39,7 +39,7 @@ struct Page {
 struct Answer {
   Json json = Json::object();  ///< the one object of --json
   std::string text;            ///< for people; ends with a newline
-  std::string notes;           ///< the same, to stderr: of a verb whose table goes to stdout
+  std::string notes;           ///< for people, on stderr: what the answer rests on; likewise
   std::vector<Page> pages;     ///< of reports; the session writes them
   Refusals refusals;           ///< go to stderr, each as `steadyrest: FILE:LINE: what; what to do`
   int exit_code = kDone;

@@ -46,6 +46,7 @@ void FlowControl::pass(Passing how, std::string_view label) {
   passing_ = how;
   passing_label_ = label;
   passing_from_ = files_.now().number();
+  passing_in_doubt_ = false;
 }
 
 bool FlowControl::go(std::uint32_t line, const Place& place) {
@@ -115,12 +116,13 @@ bool FlowControl::pass_over(Block& block) {
   }
   // LinuxCNC acts on these whether they are executed or not.
   if (kind == FlowKind::leave_loop || kind == FlowKind::next_turn) {
-    const Open* const loop = find(block, true);
+    Open* const loop = find(block, true);
     if (loop != nullptr && loop->kind == FlowKind::repeat) {
       return refuse(block.line(), block.flow().label.view(), "o_word_unmatched",
                     "break or continue in a repeat; only while and do loops have them");
     }
   }
+  skip_in_doubt(block);
   if (kind == FlowKind::none || block.flow().label.view() != passing_label_) {
     return true;
   }
@@ -138,7 +140,7 @@ bool FlowControl::pass_over(Block& block) {
     case Passing::to_endsub:
       if (kind == FlowKind::endsub || kind == FlowKind::back) {
         const read::Flow& flow = block.flow();
-        parameters_.record_value(flow.count == 1 ? flow.values.data() : nullptr);
+        parameters_.record_value(flow.count == 1 ? flow.values.data() : nullptr, flow.unknown != 0);
       }
       if (kind == FlowKind::endsub) {
         passing_ = Passing::nothing;
@@ -158,6 +160,33 @@ bool FlowControl::pass_over(Block& block) {
   }
 }
 
+// What a skipped line would do where the control decides otherwise, beyond its words.
+void FlowControl::skip_in_doubt(const Block& block) {
+  if (!in_doubt()) {
+    return;
+  }
+  switch (block.flow().kind) {
+    case FlowKind::leave_loop:
+    case FlowKind::next_turn:
+      leave_in_doubt(find(block, true));
+      break;
+    case FlowKind::back:
+      frames_.back().doubtful = true;
+      break;
+    case FlowKind::call:
+      lose(Lost::all);
+      break;
+    default:
+      break;
+  }
+}
+
+// M98 or M99 in a skipped line.
+void FlowControl::skip_program_word() noexcept {
+  lose(Lost::all);
+  frames_.back().doubtful = true;
+}
+
 // The label was found; whether this O-word ends the skipping depends on what was looked for.
 bool FlowControl::arrived(Block& block) {
   const FlowKind kind = block.flow().kind;
@@ -170,6 +199,9 @@ bool FlowControl::arrived(Block& block) {
   switch (passing_) {
     case Passing::to_else:
       if (kind == FlowKind::elseif) {
+        if (Open* const when = find(block, false); when != nullptr && block.flow().unknown != 0) {
+          doubt(*when);
+        }
         if (block.flow().values[0] != 0.0) {
           passing_ = Passing::nothing;
         }
@@ -237,6 +269,9 @@ FlowControl::Open* FlowControl::find(const Block& block, bool loops_only) {
 
 void FlowControl::drop_to(const Open& open) {
   auto& all = frames_.back().open;
+  if (open.left) {
+    lose(Lost::all);
+  }
   all.erase(all.begin() + (&open - all.data()), all.end());
 }
 
@@ -261,10 +296,16 @@ bool FlowControl::call(const Block& block) {
                   "subprogram calls nested more than nine deep");
   }
   // Saves the caller's #1 to #30 before the subprogram can change them.
-  parameters_.enter({flow.values.data(), flow.count});
+  parameters_.enter({flow.values.data(), flow.count}, flow.unknown);
   const std::string label{flow.label.view()};
-  return enter(block.line(), label, Passing::to_sub,
-               {.sub = label, .back = files_.line_end(), .head = {}, .open = {}});
+  const bool unknown = (flow.unknown & read::Flow::kUnknownLabel) != 0;
+  if (unknown) {  // another subprogram, perhaps
+    any_doubt_ = true;
+    lose(Lost::all);
+  }
+  return enter(
+      block.line(), label, Passing::to_sub,
+      {.sub = label, .back = files_.line_end(), .head = {}, .open = {}, .doubtful = unknown});
 }
 
 bool FlowControl::call_program(std::uint32_t line, std::string_view label, double repeats) {
@@ -304,7 +345,10 @@ bool FlowControl::end_of_sub(const Block& block) {
     return refuse(block.line(), flow.label.view(), "o_word_unmatched",
                   "the end of a subprogram that is not being executed");
   }
-  return leave(flow.count == 1 ? flow.values.data() : nullptr);
+  if (flow.kind == FlowKind::back && in_doubt(frames_.back())) {
+    lose(Lost::all);
+  }
+  return leave(flow.count == 1 ? flow.values.data() : nullptr, flow.unknown != 0);
 }
 
 bool FlowControl::end_program(std::uint32_t line) {
@@ -314,6 +358,9 @@ bool FlowControl::end_program(std::uint32_t line) {
   }
   // M98 L5 executes the same frame five times: M99 returns to the head until none is left.
   Frame& frame = frames_.back();
+  if (in_doubt(frame)) {
+    lose(Lost::all);
+  }
   if (frame.left > 0.5) {
     frame.left -= 1.0;
     frame.open.clear();
@@ -323,10 +370,10 @@ bool FlowControl::end_program(std::uint32_t line) {
 }
 
 // Returns to the line after the call, with the caller's parameters.
-bool FlowControl::leave(const double* returned) {
+bool FlowControl::leave(const double* returned, bool unknown) {
   const Place back = frames_.back().back;
   frames_.pop_back();
-  parameters_.leave(returned);
+  parameters_.leave(returned, unknown);
   return go(back.line, back);
 }
 

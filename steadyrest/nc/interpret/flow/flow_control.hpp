@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,6 +25,10 @@ namespace steadyrest::nc::interpret {
 /// dialects ten. A label belongs to the subprogram that contains it and may head only one block. Of
 /// skipped lines only O-words are read. Every program ends: lines executed in loops and calls count
 /// against a limit.
+///
+/// Where a condition, a count or a label follows from a value that the control decides, the lines
+/// up to its end are executed or skipped in doubt. `return`, `break` and `continue` in doubt carry
+/// it to the end of their subprogram or loop.
 class FlowControl {
  public:
   static constexpr std::size_t kDeepestCall = 10;         ///< of fanuc and sinumerik
@@ -55,6 +60,20 @@ class FlowControl {
     return in_call() || !frames_.back().open.empty();
   }
 
+  /// Whether the line at hand is executed is the control's decision.
+  [[nodiscard]] bool in_doubt() const noexcept;
+  /// What may have been set, or not, by lines that neither were executed nor will be skipped.
+  enum class Lost : std::uint8_t {
+    nothing,
+    turn,  ///< by another turn of the loop that has just ended
+    all
+  };
+  /// The lines are skipped for a condition or a count, not in search of a subprogram.
+  [[nodiscard]] bool passing_branch() const noexcept { return passing_ >= Passing::to_else; }
+  /// A line that is skipped in doubt has M98 or M99.
+  void skip_program_word() noexcept;
+  [[nodiscard]] Lost take_lost() noexcept { return std::exchange(lost_, Lost::nothing); }
+
   [[nodiscard]] const read::Refused& refused() const noexcept { return refused_; }
 
  private:
@@ -74,6 +93,8 @@ class FlowControl {
     read::FlowKind kind = read::FlowKind::none;
     std::string label;
     Place head;
+    bool doubtful = false;  ///< whether it is executed, or once more, is the control's decision
+    bool left = false;      ///< in doubt, by break or continue
   };
   struct Frame {
     std::string sub;
@@ -82,6 +103,9 @@ class FlowControl {
     double left = 0.0;  ///< remaining repeats (M98 L)
     bool by_number = false;
     std::vector<Open> open;
+    bool doubtful = false;  ///< from here to its end
+    std::vector<std::uint32_t> left_heads =
+        {};  ///< lines of loops whose further turns are in doubt
   };
 
   bool sub(const read::Block& block);
@@ -90,7 +114,7 @@ class FlowControl {
                       double repeats);
   bool note_programs(std::uint32_t line, std::uint32_t file);
   bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
-  bool leave(const double* returned);
+  bool leave(const double* returned, bool unknown = false);
   bool end_of_sub(const read::Block& block);
   bool condition(const read::Block& block);
   bool otherwise(const read::Block& block);
@@ -102,6 +126,13 @@ class FlowControl {
   bool next_turn(const read::Block& block);
   bool arrived(read::Block& block);
   bool evaluate(read::Block& block);
+  [[nodiscard]] static bool in_doubt(const Frame& frame) noexcept;
+  void doubt(Open& open) noexcept;
+  bool open_loop(const read::Block& block, bool unknown);
+  void pass_in_doubt(bool unknown) noexcept;
+  void leave_in_doubt(Open* loop) noexcept;
+  void skip_in_doubt(const read::Block& block);
+  void lose(Lost lost) noexcept { lost_ = std::max(lost_, lost); }
 
   bool open(const read::Block& block, const Place& head);
   Open* find(const read::Block& block, bool loops_only);
@@ -126,6 +157,11 @@ class FlowControl {
   Passing passing_ = Passing::nothing;
   std::string passing_label_;
   std::uint32_t passing_from_ = 0;
+  bool passing_in_doubt_ = false;
+  bool any_doubt_ = false;  ///< has ever been: nearly no program has
+  Lost lost_ = Lost::nothing;
+  bool after_continue_ = false;  ///< of a do loop, before any while loop
+  bool after_break_ = false;     ///< of a while loop, before any do loop
   read::Refused refused_;
 };
 

@@ -59,12 +59,32 @@ Lookup MacroVariables::number(int index, double& value) const {
   }
   if (is_kept(index)) {
     value = numbers_[static_cast<std::size_t>(index)];
+    if (known_ != nullptr && unknown_[static_cast<std::size_t>(index)]) {
+      known_->heard = true;
+    }
     return std::isnan(value) ? Lookup::no_such_name : Lookup::found;
   }
   if (index < 1000) {
     return Lookup::no_such_number;
   }
-  return mode(index, value) || position(index, value) ? Lookup::found : Lookup::not_known_here;
+  if (!mode(index, value) && !position(index, value)) {
+    return Lookup::not_known_here;
+  }
+  hear(index, value);
+  return Lookup::found;
+}
+
+void MacroVariables::hear(int index, double value) const {
+  if (known_ == nullptr) {
+    return;
+  }
+  const int axis = index % 20 - 1;  // #5001 …, #5021 …, #5041 …
+  const bool is_position = index > 5000;
+  const bool known = is_position ? index < 5021 && (known_->axes >> axis & 1U) != 0
+                                 : (mode_of(index) & ~known_->modes) == 0;
+  if (!known) {
+    known_->hear("#" + std::to_string(index), value);
+  }
 }
 
 // Codes of the blocks before this one.
@@ -148,7 +168,7 @@ Lookup MacroVariables::set_number(int index, double value) {
     return index < 1000 ? Lookup::no_such_number : Lookup::read_only;
   }
   // Takes effect once the block has been read to its end, as on the control.
-  pending_.emplace_back(index, value);
+  pending_.push_back({index, value, take_unknown()});
   return Lookup::found;
 }
 
@@ -157,8 +177,9 @@ Lookup MacroVariables::set_name(std::string_view /*name*/, double /*value*/) {
 }
 
 void MacroVariables::commit() {
-  for (const auto& [index, value] : pending_) {
+  for (const auto& [index, value, unknown] : pending_) {
     numbers_[static_cast<std::size_t>(index)] = value;
+    unknown_[static_cast<std::size_t>(index)] = unknown;
   }
   drop();
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <steadyrest/nc/interpret/parameters/known_state.hpp>
 #include <steadyrest/nc/interpret/state/asked.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
 #include <steadyrest/nc/read/text/values.hpp>
@@ -34,6 +35,11 @@ class MacroVariables final : public read::Values {
   /// 0.001 mm, 0.0001 in, 0.001° (increment system IS-B).
   [[nodiscard]] double increment(char letter) const override;
   void drop() noexcept override;
+  [[nodiscard]] bool take_unknown() const noexcept override {
+    return known_ != nullptr && known_->take();
+  }
+  /// Where it is noted what the program reads that is not known; must outlive the object's use.
+  void note_unknown(KnownState& known) noexcept { known_ = &known; }
 
   [[nodiscard]] Asked& asked() noexcept { return asked_; }
   [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
@@ -43,12 +49,20 @@ class MacroVariables final : public read::Values {
  private:
   static constexpr std::size_t kNumbers = 1000;
   [[nodiscard]] bool mode(int index, double& value) const;
+  void hear(int index, double value) const;
   [[nodiscard]] bool position(int index, double& value) const;
 
   const State& state_;
   std::array<double, kNumbers> numbers_{};
   mutable Asked asked_;
-  std::vector<std::pair<int, double>> pending_;
+  KnownState* known_ = nullptr;
+  std::array<bool, kNumbers> unknown_{};  ///< follows from a value that the control decides
+  struct Pending {
+    int index = 0;
+    double value = 0.0;
+    bool unknown = false;
+  };
+  std::vector<Pending> pending_;
 };
 
 }  // namespace steadyrest::nc::interpret

@@ -71,6 +71,8 @@ struct Config {
   /// linuxcnc: reads as the running control does. What it may keep from before the program (a
   /// parameter that the program has not set) is refused then, not taken as 0.
   bool on_control = false;
+  /// The program is read for a machine, not for a preview: #<_task> is 1.
+  bool on_machine = false;
   /// A probing move leaves the axes so far before its end: LinuxCNC's interpreter without a machine
   /// does, by 0.01 in.
   double probe_short_mm = 0.254;

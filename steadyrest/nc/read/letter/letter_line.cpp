@@ -25,7 +25,6 @@ const char* behind_blanks(const char* at, const char* end) noexcept {
 constexpr std::string_view kBadNumberText =
     "not a number; write one sign at most, digits and one point, within the range of a double";
 constexpr std::string_view kStatementText = "in this dialect an assignment needs a separate block";
-constexpr std::string_view kControlText = "a control character; the file is not text or is damaged";
 
 }  // namespace
 
@@ -85,46 +84,6 @@ bool LetterLine::delete_mark() {
   return true;
 }
 
-bool LetterLine::round_comment() {
-  const char* const open = at_;
-  for (++at_; at_ != end_; ++at_) {
-    if (*at_ == ')') {
-      ++at_;
-      return true;
-    }
-    if (*at_ == '(') {
-      return refuse({open, static_cast<std::size_t>(end_ - open)}, "nested_comment",
-                    "a comment opens inside a comment; close the first one");
-    }
-    if (is_control(*at_)) {
-      ++at_;
-      return refuse({at_ - 1, 1}, "control_character", kControlText);
-    }
-  }
-  return refuse(since(open), "unclosed_comment",
-                "a comment that is not closed on its line; write ) at its end");
-}
-
-// `;` opens a comment (linuxcnc) or ends the block (fanuc), after which nothing may follow.
-bool LetterLine::rest_of_line() {
-  const char* const mark = at_++;
-  if (rules_.semicolon_ends) {
-    skip_blanks();
-    if (at_ != end_) {
-      at_ = end_;
-      return refuse(since(mark), "text_after_end_of_block",
-                    "; ends the block in this dialect, but text follows; put it in ( )");
-    }
-    return true;
-  }
-  for (; at_ != end_; ++at_) {
-    if (is_control(*at_)) {
-      return refuse({at_, 1}, "control_character", kControlText);
-    }
-  }
-  return true;
-}
-
 bool LetterLine::word() {
   const char* const word_begin = at_;
   Word word;
@@ -144,6 +103,7 @@ bool LetterLine::word() {
     return refuse(since(word_begin), "macro_statement", kStatementText);
   }
   word.has_value = true;
+  word.unknown = reading_.values != nullptr && reading_.values->take_unknown();
   word.text = since(word_begin);
   word.name = {word_begin, 1};
   if (word.letter == 'N') {
@@ -265,6 +225,9 @@ bool LetterLine::assignment() {
     if (!behind(from, number, number.parameter_number(index))) {
       return false;
     }
+    if (reading_.values->take_unknown()) {
+      reading_.values->sets_any();
+    }
   }
   skip_blanks();
   if (at_ == end_ || *at_ != '=') {
@@ -345,7 +308,7 @@ bool LetterLine::refuse_value(const char* word_begin) {
     return refuse(text, "bad_number", kBadNumberText);
   }
   if (is_control(c)) {
-    return refuse({word_begin, 1}, "control_character", kControlText);
+    return refuse({word_begin, 1}, "control_character", kControlCharacter);
   }
   return refuse(text, "missing_value", "a letter without its number");
 }
@@ -359,7 +322,7 @@ bool LetterLine::refuse_character() {
     return refuse(rest(), "expression", "text in [ ] that belongs to no word");
   }
   if (is_control(c)) {
-    return refuse(rest().substr(0, 1), "control_character", kControlText);
+    return refuse(rest().substr(0, 1), "control_character", kControlCharacter);
   }
   if (c == '@' || c == '^') {
     return refuse(rest(), "polar_coordinates", "polar coordinates (@ ^) are not supported");

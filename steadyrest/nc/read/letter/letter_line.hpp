@@ -10,6 +10,9 @@
 
 namespace steadyrest::nc::read {
 
+inline constexpr std::string_view kControlCharacter =
+    "a control character; the file is not text or is damaged";
+
 /// How the dialects of LetterLine differ.
 struct LetterRules {
   bool macros = false;            ///< custom macros and O numbers; else expressions and O-words
@@ -18,8 +21,10 @@ struct LetterRules {
   bool numbered_delete = false;   ///< a digit after `/` belongs to it
   bool semicolon_ends = false;    ///< `;` ends the block; else it opens a comment
   bool plain_words_fast = false;  ///< plain_words() may read them
+  bool acting_comments = false;   ///< the control executes some comments: (ABORT,…), (PY,…)
 };
-inline constexpr LetterRules kLinuxcncLetters{.symbols = true, .plain_words_fast = true};
+inline constexpr LetterRules kLinuxcncLetters{
+    .symbols = true, .plain_words_fast = true, .acting_comments = true};
 inline constexpr LetterRules kFanucLetters{
     .macros = true, .colon_is_o = true, .numbered_delete = true, .semicolon_ends = true};
 
@@ -41,6 +46,7 @@ class LetterLine : private LineCursor {
   void plain_words() noexcept;
   bool round_comment();
   bool rest_of_line();
+  void note_comment(std::string_view comment);
   bool delete_mark();
   bool word();
   bool value(const char* word_begin, Word& word);

@@ -95,6 +95,7 @@ bool OWord::value(double& out) {
 bool OWord::read(Flow& flow, bool evaluate) {
   flow.kind = FlowKind::none;
   flow.count = 0;
+  flow.unknown = 0;
   if (!label(flow) || !keyword(flow)) {
     return false;
   }
@@ -127,6 +128,8 @@ bool OWord::label(Flow& flow) {
     return fail("o_word", kText);
   } else if (!value(number)) {
     return false;
+  } else if (values_.take_unknown()) {
+    flow.unknown |= Flow::kUnknownLabel;
   }
   const double whole = std::round(number);
   // As for parameter numbers: within 0.0001 of a whole one.
@@ -181,6 +184,7 @@ bool OWord::arguments(Flow& flow) {
     if (!value(flow.values[flow.count])) {
       return false;
     }
+    flow.unknown |= values_.take_unknown() ? std::uint32_t{1} << flow.count : 0U;
     ++flow.count;
   }
   return wanted != Takes::one || flow.count == 1 ||

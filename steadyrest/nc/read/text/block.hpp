@@ -29,6 +29,7 @@ struct Word {
   Qualifier qualifier = Qualifier::none;
   bool decimal_point = false;  ///< the value was written with a decimal point
   bool calculated = false;     ///< the value was an expression
+  bool unknown = false;        ///< calculated from a value that the control decides
   bool has_value = false;      ///< sinumerik: SUPA, FNORM, … have none
   double value = 0.0;
   std::string_view name;  ///< sinumerik: the address as written, `CR`, `TURN`, `SUPA`
@@ -65,9 +66,18 @@ struct Flow {
   FlowKind kind = FlowKind::none;
   Name label;  ///< a whole number, or a name in lower case
   std::size_t count = 0;
-  std::uint32_t given = 0;                    ///< sinumerik: bit n: value n is not left out
+  std::uint32_t given = 0;    ///< sinumerik: bit n: value n is not left out
+  std::uint32_t unknown = 0;  ///< bit n: the control decides value n
+  static constexpr std::uint32_t kUnknownLabel = std::uint32_t{1} << 31U;
   double repeats = 1.0;                       ///< sinumerik: P
   std::array<double, kMostArguments> values;  ///< arguments, condition or returned value
+};
+
+/// A comment that a control acts on, and not only shows.
+enum class Acting : std::uint8_t {
+  none,
+  abort,   ///< (ABORT,…) ends the program
+  foreign  ///< (PY,…), ;py,…, (PYRUN,…), (PYRELOAD): what it does only the control knows
 };
 
 /// One line of a program, split into words. Reused from line to line: no allocation.
@@ -86,15 +96,18 @@ class Block {
     deleted_ = false;
     end_mark_ = false;
     flow_.kind = FlowKind::none;
+    acting_ = Acting::none;
     shown_ = words_.data();
   }
   /// Refers to the words of another line with the same text, which must outlive their use.
   void take_words(const Block& other) noexcept {
     count_ = other.count_;
     deleted_ = other.deleted_;
+    acting_ = other.acting_;
+    comment_ = other.comment_;
     shown_ = other.shown_;
   }
-  /// A new word to fill in: only its qualifier (none) and `calculated` (false) are set. nullptr
+  /// A new word to fill in: only its qualifier (none), `calculated` and `unknown` are set. nullptr
   /// when the block is full.
   [[nodiscard]] Word* add() noexcept {
     if (count_ == kMostWords) {
@@ -103,6 +116,7 @@ class Block {
     Word& word = words_[count_++];
     word.qualifier = Qualifier::none;
     word.calculated = false;
+    word.unknown = false;
     return &word;
   }
   /// False when the block is full.
@@ -122,6 +136,13 @@ class Block {
   /// The line is the closing `%`.
   [[nodiscard]] bool end_mark() const noexcept { return end_mark_; }
   void set_end_mark() noexcept { end_mark_ = true; }
+  /// Its last comment, where the control acts on it, without the brackets.
+  [[nodiscard]] Acting acting() const noexcept { return acting_; }
+  [[nodiscard]] std::string_view comment() const noexcept { return comment_; }
+  void set_comment(Acting acting, std::string_view comment) noexcept {
+    acting_ = acting;
+    comment_ = comment;
+  }
   /// The line's O-word.
   [[nodiscard]] const Flow& flow() const noexcept { return flow_; }
   [[nodiscard]] Flow& flow() noexcept { return flow_; }
@@ -131,6 +152,8 @@ class Block {
   std::size_t count_ = 0;
   bool deleted_ = false;
   bool end_mark_ = false;
+  Acting acting_ = Acting::none;
+  std::string_view comment_;
   Flow flow_;
   std::array<Word, kMostWords> words_{};
   const Word* shown_ = words_.data();  ///< its own words, or another block's

@@ -42,6 +42,10 @@ class Values {
   /// The increment to which a calculated value of this letter's word is rounded; 0: not rounded.
   [[nodiscard]] virtual double increment(char /*letter*/) const { return 0.0; }
   virtual void drop() noexcept = 0;  ///< forgets assignments that were not committed
+  /// Whether a value read since the last call is one that the control decides: it was assumed.
+  [[nodiscard]] virtual bool take_unknown() const noexcept { return false; }
+  /// The number of the parameter that is being set is not known: it may be any.
+  virtual void sets_any() noexcept {}
 };
 
 }  // namespace steadyrest::nc::read

@@ -11,6 +11,7 @@
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
+#include <steadyrest/nc/rewrite/replace/by_control.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/survey_program.hpp>
 #include <steadyrest/nc/rewrite/text/replaced_text.hpp>
@@ -168,6 +169,11 @@ class CutSurvey {
              move.kind == MoveKind::spline;
     });
     inherit(said, !kept_.moves.empty(), cuts);
+    if (run_.doubt().line) {
+      hold_last();
+    }
+    cut_last_ = cut_last_ && kept_.moves.empty();
+    used_ |= axes_used(run_.block(), kept_.moves);
     by_switch_now_ = false;
     if (run_.block().deleted()) {
       by_switch_.skippable(kept_.moves, before_, modes_of(run_.state()));
@@ -192,6 +198,7 @@ class CutSurvey {
         block.stays = Stays::motion_needed;
       }
     }
+    found_.assumed = run_.unknown();
     return std::move(found_);
   }
 
@@ -229,10 +236,27 @@ class CutSurvey {
       block.start_mm[i] = start[i];
       block.end_mm[i] = end[i];
     }
+    block.plane_known = plane_known(run_.doubt(), dialect_);
+    block.unknown_axes = state.incremental ? 0U : run_.doubt().axes;
     block.stays = judge(said, text);
     found_.blocks.push_back(block);
     motion_open_ = true;
     feed_open_ = true;
+    cut_last_ = true;
+  }
+
+  /// In another run another line may follow the last block that cuts: it finds the machine, the
+  /// motion word and the feed where the original has them.
+  void hold_last() {
+    if (found_.blocks.empty()) {
+      return;
+    }
+    CutBlock& last = found_.blocks.back();
+    last.inherited = true;
+    last.feed_inherited = true;
+    if (cut_last_ && (takes_feed(last.stays) || last.stays == Stays::after_switch)) {
+      last.stays = Stays::before_control;
+    }
   }
 
   Stays judge(const Says& said, std::string_view text) const {
@@ -275,6 +299,9 @@ class CutSurvey {
     if (too_long_to_keep(dialect_, text)) {
       return Stays::too_long;
     }
+    if (depends_on_control(run_.doubt(), state, move, used_, dialect_)) {
+      return Stays::by_control;
+    }
     if (by_switch_now_) {
       return Stays::after_switch;
     }
@@ -291,6 +318,8 @@ class CutSurvey {
   AfterCompensation after_compensation_;
   Survey marks_;  ///< the lines executed twice
   std::vector<bool> seen_;
+  std::uint32_t used_ = 0;    ///< axes that have moved so far, a mask
+  bool cut_last_ = false;     ///< the last move was that of the last block found
   bool motion_open_ = false;  ///< no motion word since the last block found
   bool feed_open_ = false;
 };
@@ -340,42 +369,6 @@ std::string active_comment(read::Dialect dialect, std::string_view line) {
         (comma && std::ranges::find(kWithComma, name) != kWithComma.end())) {
       return name;
     }
-  }
-  return {};
-}
-
-std::string_view sentence(Stays stays) noexcept {
-  switch (stays) {
-    case Stays::free:
-      return "it may be replaced";
-    case Stays::repeated:
-      return "it is in a subprogram, a loop or a condition, or is executed more than once";
-    case Stays::switchable:
-      return "the operator can skip it (block delete)";
-    case Stays::after_switch:
-      return "it begins, or cuts, as a block says that the operator can skip (block delete)";
-    case Stays::calculated:
-      return "its words hold parameters or expressions";
-    case Stays::more_words:
-      return "it does more than cut along a line or an arc";
-    case Stays::feed_mode:
-      return "its feed is a time (G93)";
-    case Stays::compensated:
-      return "cutter radius compensation is on";
-    case Stays::diameter:
-      return "X is a diameter";
-    case Stays::rotary:
-      return "an axis beyond X, Y and Z moves";
-    case Stays::spline:
-      return "it is a spline or a canned cycle";
-    case Stays::locked:
-      return "no feed override acts on it";
-    case Stays::too_long:
-      return "the line is too long to be kept as a comment";
-    case Stays::motion_needed:
-      return "the next block takes its motion word from it";
-    case Stays::line_needed:
-      return "it is the first move after G40, which must be straight";
   }
   return {};
 }

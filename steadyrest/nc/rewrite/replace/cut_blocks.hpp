@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/parameters/known_state.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
@@ -17,21 +18,23 @@ namespace steadyrest::nc::rewrite {
 
 /// Why a block that cuts must stay as it is written. The feed of the last two may change.
 enum class Stays : std::uint8_t {
-  free,           ///< it may be replaced
-  repeated,       ///< it is in a subprogram, a condition or a loop, or is executed twice
-  switchable,     ///< the operator can skip it (block delete)
-  after_switch,   ///< it begins, or cuts, as a block says that the operator can skip
-  calculated,     ///< its words hold parameters or expressions
-  more_words,     ///< it does more than move along a line or an arc
-  feed_mode,      ///< its feed is a time (G93)
-  compensated,    ///< cutter radius compensation is on
-  diameter,       ///< X is a diameter
-  rotary,         ///< an axis beyond X, Y, Z moves
-  spline,         ///< a spline, a drilling cycle, a thread
-  locked,         ///< no override acts: tapping, threading, M49
-  too_long,       ///< the comment that keeps the line would not fit into a block
-  motion_needed,  ///< the next block takes its motion word from it
-  line_needed,    ///< the first move after G40: it must be straight
+  free,            ///< it may be replaced
+  repeated,        ///< it is in a subprogram, a condition or a loop, or is executed twice
+  switchable,      ///< the operator can skip it (block delete)
+  after_switch,    ///< it begins, or cuts, as a block says that the operator can skip
+  by_control,      ///< where it begins, or what its words mean, is the control's decision
+  before_control,  ///< what the control decides may come next: it leaves everything as it was
+  calculated,      ///< its words hold parameters or expressions
+  more_words,      ///< it does more than move along a line or an arc
+  feed_mode,       ///< its feed is a time (G93)
+  compensated,     ///< cutter radius compensation is on
+  diameter,        ///< X is a diameter
+  rotary,          ///< an axis beyond X, Y, Z moves
+  spline,          ///< a spline, a drilling cycle, a thread
+  locked,          ///< no override acts: tapping, threading, M49
+  too_long,        ///< the comment that keeps the line would not fit into a block
+  motion_needed,   ///< the next block takes its motion word from it
+  line_needed,     ///< the first move after G40: it must be straight
 };
 /// The reason in words: "it is executed more than once".
 [[nodiscard]] std::string_view sentence(Stays stays) noexcept;
@@ -61,6 +64,8 @@ struct CutBlock {
   bool incremental = false;
   bool centre_absolute = false;
   interpret::Plane plane = interpret::Plane::xy;
+  bool plane_known = true;            ///< else no arc may come in its place
+  std::uint32_t unknown_axes = 0;     ///< what comes in its place must not name them, a mask
   std::array<double, 3> offset_mm{};  ///< machine = turned work position + offset
   double rotation_deg = 0.0;
   std::array<double, 3> start_mm{};  ///< machine
@@ -70,6 +75,8 @@ struct CutBlock {
 /// The blocks of a program that cut, in the order of their lines.
 struct CutBlocks {
   std::vector<CutBlock> blocks;
+  /// What the program reads of values that the control decides, and what was taken for them.
+  std::vector<interpret::Assumed> assumed;
   /// None when the line does not cut.
   [[nodiscard]] const CutBlock* find(std::uint32_t line) const noexcept;
 };

@@ -156,6 +156,12 @@ class SpanSurvey {
       span.tool = state.tool_in_spindle;
     }
     span.last_cut = number;
+    constexpr interpret::ModeMask kOfSpan =
+        interpret::kSpeedMode | interpret::kSpindleMode | interpret::kFeedMode |
+        mode(interpret::GGroup::feed_mode) | mode(interpret::GGroup::spindle_mode);
+    if ((run_.doubt().lost & kOfSpan) != 0 && span.stays.empty()) {
+      span.stays = fmt::format("the control decides the speed or the feed of line {}", number);
+    }
     span.surface_speed = span.surface_speed || move.surface_speed_mm_s != 0.0;
     if ((move.kind == MoveKind::thread || move.override_locked) && span.stays.empty()) {
       span.stays = fmt::format("line {} taps or cuts a thread", number);

@@ -30,10 +30,11 @@ template <class Survey>
   while (run->step()) {
     survey.line(source->line());
   }
+  auto found = survey.take();
   if (const auto report = run->take(); !report.refused.empty()) {
     return std::unexpected(interpret::first_refusal(report, program));
   }
-  return survey.take();
+  return found;
 }
 
 }  // namespace steadyrest::nc::rewrite

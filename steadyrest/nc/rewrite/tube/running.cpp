@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
 #include <steadyrest/nc/rewrite/tube/running.hpp>
+#include <steadyrest/nc/rewrite/tube/same_line.hpp>
 #include <steadyrest/nc/rewrite/tube/stretch.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -26,6 +30,24 @@ void Running::note_position() {
       used.add(move, run->line());
     }
   }
+}
+
+std::string parted(const Running& original, const Running& changed, double rounding_mm,
+                   bool feeds) {
+  if (!original.run->doubt().line) {
+    return {};
+  }
+  const Running::Standing& a = original.before;
+  const Running::Standing& b = changed.before;
+  const double within_mm = kSameEnd_mm + rounding_mm;
+  const bool place = std::ranges::equal(a.position, b.position, [within_mm](double x, double y) {
+    return std::abs(x - y) <= within_mm;
+  });
+  return place && a.motion == b.motion && (!feeds || a.feed_mm_s == b.feed_mm_s)
+             ? std::string{}
+             : "depends on what the control decides, and begins at another position or with "
+               "another "
+               "motion word or feed in force than in the original";
 }
 
 }  // namespace steadyrest::nc::rewrite

@@ -12,6 +12,7 @@
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
+#include <steadyrest/nc/rewrite/replace/by_control.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
 #include <steadyrest/nc/rewrite/tube/fresh_move.hpp>
@@ -78,6 +79,7 @@ class TubeProver {
     if (!end()) {
       return std::unexpected(refusal_);
     }
+    proof_.assumed = blocks_.assumed;
     proof_.replaced_lines = lines_.replaced();
     proof_.new_lines = lines_.fresh();
     proof_.tube_mm = permitted_.tube_mm;
@@ -139,6 +141,9 @@ class TubeProver {
     if (b_->run->executed() != a_->run->executed()) {
       return refuse("is not executed as in the original");
     }
+    if (auto fault = parted(*a_, *b_, rounding_mm(), !permitted_.speeds); !fault.empty()) {
+      return refuse(std::move(fault));
+    }
     const auto& a = a_->kept.moves;
     const auto& b = b_->kept.moves;
     proof_.moves += b.size();
@@ -185,7 +190,7 @@ class TubeProver {
       return refuse("a comment that keeps a replaced line does something");
     }
     if (may_be_replaced(number)) {
-      return replaced_block(fresh);
+      return replaced_block(*blocks_.find(number), fresh);
     }
     const std::uint32_t was = b_->run->line();
     if (fresh > 0 && !b_->step()) {
@@ -240,7 +245,7 @@ class TubeProver {
     return true;
   }
 
-  bool replaced_block(std::uint32_t fresh) {
+  bool replaced_block(const CutBlock& of, std::uint32_t fresh) {
     if (a_->kept.moves.size() != 1 || !a_->kept.events.empty()) {
       return refuse("replaces a line that does more than cut");
     }
@@ -253,6 +258,9 @@ class TubeProver {
     for (std::uint32_t i = 0; i < fresh; ++i) {
       if (!b_->step()) {
         return refuse_end(*b_, "ends before the original");
+      }
+      if (asks_control(of, b_->run->block(), b_->kept.moves)) {
+        return refuse(std::string(kAsksControl));
       }
       if (!fresh_line(block)) {
         return false;

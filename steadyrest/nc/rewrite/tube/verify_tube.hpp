@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
@@ -22,6 +23,10 @@ struct TubeProof {
   std::uint32_t farthest_line = 0;  ///< of the changed program
   double least_feed_ratio = 1.0;    ///< lowest feed as a share of the original's
   std::uint32_t slowest_line = 0;   ///< of the changed program, where that is; 0: none is lower
+  /// What the original reads of values that the control decides. Lines that depend on one are the
+  /// original's, begin as they do there, and no block that depends on one is replaced: so the proof
+  /// holds for any answer.
+  std::vector<interpret::Assumed> assumed;
 };
 
 /// Proves that `changed`, whose blocks were replaced (replace()), does what `original` does, except

@@ -4,55 +4,18 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/nc/interpret/decode/codes.hpp>
+#include <steadyrest/nc/interpret/provenance/effects.hpp>
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/rewrite/walk/said.hpp>
 
 namespace steadyrest::nc::rewrite {
 
 using interpret::GGroup;
-using interpret::MGroup;
-using interpret::ModeMask;
-
-namespace {
-
-// What a word settles: from then on the program sets the mode, not the control's past.
-ModeMask of_g(double code, bool settable_frames) noexcept {
-  if (settable_frames && (code == 70.0 || code == 71.0 || code == 700.0 || code == 710.0)) {
-    return mode(GGroup::units);
-  }
-  if (settable_frames && code >= 500.0 && code < 600.0) {
-    return mode(GGroup::work_offset);
-  }
-  const auto found = interpret::group_of_g(interpret::g::code_of(code));
-  return found.known && found.group != GGroup::non_modal ? mode(found.group) : 0;
-}
-
-ModeMask of_m(double code) noexcept {
-  const auto found = interpret::group_of_m(static_cast<int>(code));
-  if (!found.known) {
-    return 0;
-  }
-  switch (found.group) {
-    case MGroup::tool_change:
-      return interpret::kToolMode;
-    case MGroup::spindle:
-      return interpret::kSpindleMode;
-    case MGroup::coolant:
-      return interpret::kCoolantMode;
-    case MGroup::override_switch:
-      return interpret::kOverrideMode;
-    default:
-      return 0;
-  }
-}
-
-}  // namespace
 
 void Said::look(const read::Word& word) {
   switch (word.letter) {
     case 'G':
-      modes_ |= of_g(word.value, settable_frames_) & ~lost_;
+      modes_ |= interpret::modes_of_g(word.value, settable_frames_) & ~lost_;
       break;
     case 'M':
       // M72, or the end of the subprogram after M73, brings back what was in force here. A mode not
@@ -60,7 +23,7 @@ void Said::look(const read::Word& word) {
       if (word.value == 70.0 || word.value == 73.0) {
         lost_ |= ~modes_;
       }
-      modes_ |= of_m(word.value) & ~lost_;
+      modes_ |= interpret::modes_of_m(word.value) & ~lost_;
       break;
     case 'F':
       modes_ |= interpret::kFeedMode & ~lost_;

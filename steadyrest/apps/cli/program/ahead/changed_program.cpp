@@ -170,10 +170,13 @@ std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks, Rewri
     const bool changes = rewrites == Rewrites::feeds
                              ? nc::rewrite::takes_feed(block.stays)
                              : block.stays == Stays::free || block.stays == Stays::motion_needed;
-    if (!changes) {
-      lines[block.stays].push_back(block.line);
+    // In place of a line may come an arc.
+    const bool flat = rewrites == Rewrites::path && !block.plane_known;
+    if (!changes || flat) {
+      lines[changes ? Stays::by_control : block.stays].push_back(block.line);
     }
   }
+  put_unknown(answer, blocks.assumed);
   std::string text;
   answer.json["kept"] = Json::array();
   for (const auto& [stays, of] : lines) {

@@ -37,7 +37,7 @@ std::vector<SegmentUse> segment_use(const nc::plan::PlannedPath& path,
     const bool turned =
         block != nullptr && block->rotation_deg != 0.0 && block->plane != nc::interpret::Plane::xy;
     use[i].free = segment.motion == kernel::signal::Motion::feed && block != nullptr &&
-                  block->stays == nc::rewrite::Stays::free && !turned &&
+                  block->stays == nc::rewrite::Stays::free && block->plane_known && !turned &&
                   !barred.contains(segment.line);
     use[i].stops = segment.exit_speed_limit_mm_s <= 0.0;
     use[i].plane = block != nullptr ? block->plane : nc::interpret::Plane::xy;

@@ -33,25 +33,25 @@ std::vector<std::pair<std::uint32_t, Stays>> stays(const CutBlocks& found) {
 TEST(CutBlocks, SaysWhyABlockMustStay) {
   const Workshop shop;
   const auto found = blocks_of(shop,
-                               "G21 G90 G94 G17 G64\n"   // 1
-                               "G0 X0 Y0 Z1\n"           // 2
-                               "G1 Z-1 F100\n"           // 3 free
-                               "G1 X5 M8\n"              // 4 more words
-                               "G2 X6 Y1 I0 J1\n"        // 5 arc that 6 takes its word from
-                               "X7 Y2 I0 J1\n"           // 6
-                               "G1 X[1+2] Y2\n"          // 7 calculated
-                               "#1=5\n"                  // 8
-                               "/G1 X3\n"                // 9 switchable
-                               "G93 G1 X4 F5\n"          // 10
-                               "G1 X5 F5\n"              // 11 feed mode
-                               "G94 G1 X6 F100\n"        // 12 more words
-                               "O100 repeat [2]\n"       // 13
-                               "G1 X7\n"                 // 14 repeated
-                               "G1 X6\n"                 // 15
-                               "O100 endrepeat\n"        // 16
-                               "G81 X1 Y1 Z-2 R1 F50\n"  // 17 a cycle
-                               "G80\n"                   // 18
-                               "G1 X9 F80\n"             // 19 free
+                               "G21 G90 G94 G17 G64 G99\n"  // 1
+                               "G0 X0 Y0 Z1\n"              // 2
+                               "G1 Z-1 F100\n"              // 3 free
+                               "G1 X5 M8\n"                 // 4 more words
+                               "G2 X6 Y1 I0 J1\n"           // 5 arc that 6 takes its word from
+                               "X7 Y2 I0 J1\n"              // 6
+                               "G1 X[1+2] Y2\n"             // 7 calculated
+                               "#1=5\n"                     // 8
+                               "/G1 X3\n"                   // 9 switchable
+                               "G93 G1 X4 F5\n"             // 10
+                               "G1 X5 F5\n"                 // 11 feed mode
+                               "G94 G1 X6 F100\n"           // 12 more words
+                               "O100 repeat [2]\n"          // 13
+                               "G1 X7\n"                    // 14 repeated
+                               "G1 X6\n"                    // 15
+                               "O100 endrepeat\n"           // 16
+                               "G81 X1 Y1 Z-2 R1 F50\n"     // 17 a cycle
+                               "G80\n"                      // 18
+                               "G1 X9 F80\n"                // 19 free
                                "M2\n");
   EXPECT_EQ(stays(found), (std::vector<std::pair<std::uint32_t, Stays>>{{3, Stays::free},
                                                                         {4, Stays::more_words},
@@ -180,9 +180,10 @@ TEST(CutBlocks, ABlockWithACommentThatTheControlActsOnStays) {
   EXPECT_EQ(active_comment(Dialect::linuxcnc, "G1 X5 (message) (log book) (log,x)"), "LOG");
   EXPECT_EQ(active_comment(Dialect::linuxcnc, "G1 X5 (message, of the tool)"), "");
   const Workshop shop;
-  const auto found = blocks_of(shop, "G21 G90 G94\nG1 X5 F100\nX6 (LOG, x)\nX7 (the log)\nM2\n");
+  const auto found =
+      blocks_of(shop, "G21 G90 G94\nG0 X0\nG1 X5 F100\nX6 (LOG, x)\nX7 (the log)\nM2\n");
   EXPECT_EQ(stays(found), (std::vector<std::pair<std::uint32_t, Stays>>{
-                              {2, Stays::free}, {3, Stays::more_words}, {4, Stays::free}}));
+                              {3, Stays::free}, {4, Stays::more_words}, {5, Stays::free}}));
 }
 
 TEST(BlockText, KeepsAllDigitsOfTheBlocksOwnEnd) {

@@ -48,7 +48,7 @@ TEST(VerifyTube, RefusesWhatLeavesTheTubeWithItsLine) {
 }
 
 TEST(VerifyTube, RefusesAPieceOutsideByOneMicrometre) {
-  const std::string line = "G21 G90 G94\nG0 X0 Y0\nG1 X20 F500\nG0 Y5\nM2\n";
+  const std::string line = "G21 G90 G94 G17\nG0 X0 Y0\nG1 X20 F500\nG0 Y5\nM2\n";
   const TubeShop shop("predistort", 0.1);
   EXPECT_EQ(shop.verdict(line, {{3, {"G1 X10 Y0.1 F500.0", "G1 X20 Y0 F500.0"}}}), "proved");
   EXPECT_THAT(shop.verdict(line, {{3, {"G1 X10 Y0.101 F500.0", "G1 X20 Y0 F500.0"}}}),
@@ -155,7 +155,7 @@ TEST(VerifyTube, RefusesAChangedEnd) {
 
 TEST(VerifyTube, RefusesMotionAndFeedThatTheNextBlockWouldTakeOver) {
   const TubeShop shop;
-  const std::string program = "G21 G90 G94\nG0 X0 Y0\nG1 X10 F500\nX20\nG0 X0\nM2\n";
+  const std::string program = "G21 G90 G94 G17\nG0 X0 Y0\nG1 X10 F500\nX20\nG0 X0\nM2\n";
   const std::string line = "G1 X5 F400.0";
   const std::string arc = "G3 X10 Y0 I2.5 J50 F400.0";
   EXPECT_THAT(shop.verdict(program, {{3, {line, arc}}}), StartsWith("changed:7: "));
