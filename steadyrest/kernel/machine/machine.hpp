@@ -18,6 +18,7 @@
 #include <steadyrest/kernel/machine/lines.hpp>
 #include <steadyrest/kernel/machine/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
+#include <steadyrest/kernel/machine/program.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>
 #include <steadyrest/kernel/machine/spindle.hpp>
 #include <steadyrest/kernel/machine/thermal.hpp>
@@ -38,6 +39,7 @@ struct Machine {
   PortKind port = PortKind::sim;
   Mode mode = Mode::observe;
   Control control;
+  Program program;
   std::vector<Axis> axes;  ///< X, Y, Z first
   OverrideTable feed_override;
   OverrideTable rapid_override;

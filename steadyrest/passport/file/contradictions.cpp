@@ -22,6 +22,7 @@ using kernel::machine::Control;
 using kernel::machine::Encoder;
 using kernel::machine::Envelope;
 using kernel::machine::Friction;
+using kernel::machine::Program;
 using kernel::machine::Spindle;
 
 /// A fault unless low ≤ high, shown in the file's own units. A default has no line, so the fault
@@ -96,6 +97,33 @@ void contradictions(const Control& control, const Given& given, Faults& faults) 
                     given.section, shown(control.interpolator_period_s * 1e3),
                     shown(control.servo_period_s * 1e3)),
         "give an interpolator period of 1, 2, 3 … servo periods");
+  }
+}
+
+/// A letter of an axis that the control cannot wrap, a code that none is, half a position.
+void contradictions(const Program& program, const Given& given, Faults& faults) {
+  const auto letters = [&](std::string_view key, const std::string& value) {
+    if (value.find_first_not_of("ABC") != std::string::npos) {
+      faults.add(given.at({key}), fmt::format("{} has {} = \"{}\"", given.section, key, value),
+                 "write letters of rotary axes: A, B, C");
+    }
+  };
+  letters("wrapped_axes", program.wrapped_axes);
+  letters("indexer_axes", program.indexer_axes);
+  for (const auto& [key, size] :
+       {std::pair{"tool_change_position_mm", program.tool_change_position_mm.size()},
+        std::pair{"tool_change_rotary_deg", program.tool_change_rotary_rad.size()}}) {
+    if (size != 0 && size != 3) {
+      faults.add(given.at({key}),
+                 fmt::format("{} has {} with {} numbers", given.section, key, size),
+                 "give three: one for each axis");
+    }
+  }
+  if (const std::string wrong = kernel::machine::odd_code(program.remapped); !wrong.empty()) {
+    faults.add(given.at({"remapped"}),
+               fmt::format("{} has remapped = \"{}\": {} is not a code", given.section,
+                           program.remapped, wrong),
+               "write codes as M6 G88.8 T S F, separated by blanks");
   }
 }
 

@@ -9,6 +9,7 @@
 namespace steadyrest::passport {
 
 void contradictions(const kernel::machine::Control& control, const Given& given, Faults& faults);
+void contradictions(const kernel::machine::Program& program, const Given& given, Faults& faults);
 void contradictions(const kernel::machine::Axis& axis, const Given& given, Faults& faults);
 void contradictions(const kernel::machine::Encoder& encoder, const Given& given, Faults& faults);
 void contradictions(const kernel::machine::Friction& friction, const Given& given, Faults& faults);

@@ -54,9 +54,10 @@ class FileReader {
   Machine read(const toml::table& root) {
     SectionReader<Machine> top(faults_, top_keys(), "the top level");
     top.read(root, machine_,
-             {"control", "axis", "override", "spindle", "contour", "chatter", "compensation",
-              "thermal", "envelope", "simulation", "lines", "recorder", "opcua"});
+             {"control", "program", "axis", "override", "spindle", "contour", "chatter",
+              "compensation", "thermal", "envelope", "simulation", "lines", "recorder", "opcua"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
+    section(root, "program", program_keys(), machine_.program, contradictions);
     axes(root);
     overrides(root);
     section<Spindle>(root, "spindle", spindle_keys(), machine_.spindle, contradictions);

@@ -139,6 +139,10 @@ std::string reference_page() {
   // The order here is the order of the page, and of the example files.
   out += section("Top level", "\nThese come before any section.\n", top_keys());
   out += section("`[control]`", "\nHow the control plans motion. Mandatory.\n", control_keys());
+  out += section("`[program]`",
+                 "\nWhat the control's own configuration makes of a program: every verb that reads "
+                 "one with this machine file reads it so.\n",
+                 program_keys());
   out +=
       section("`[[axis]]`",
               "\nOnce for each axis: at least two, at most eight counting X, Y and Z. A machine "

@@ -73,6 +73,7 @@ struct MappingEntry {
 
 [[nodiscard]] std::span<const Key<kernel::machine::Machine>> top_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Control>> control_keys() noexcept;
+[[nodiscard]] std::span<const Key<kernel::machine::Program>> program_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Axis>> axis_keys() noexcept;
 [[nodiscard]] std::span<const Key<kernel::machine::Encoder>> encoder_keys() noexcept;
 /// Longest table of line errors.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -16,6 +18,27 @@ using kernel::machine::CompensationMethod;
 using kernel::machine::Machine;
 using kernel::machine::SpeedLaw;
 using test::full;
+
+TEST(EveryKey, Program) {
+  const auto program = full().program;
+  EXPECT_EQ(program.startup, "G20 G64 P0.001");
+  EXPECT_EQ(program.remapped, "M6 G88.8 T");
+  EXPECT_EQ(program.wrapped_axes, "A");
+  EXPECT_EQ(program.indexer_axes, "BC");
+  EXPECT_TRUE(program.tool_change_quill_up);
+  EXPECT_TRUE(program.tool_change_at_g30);
+  EXPECT_TRUE(program.tool_change_with_spindle_on);
+  EXPECT_EQ(program.tool_change_position_mm, (std::vector{1.25, -2.5, 31.0}));
+  ASSERT_EQ(program.tool_change_rotary_rad.size(), 3U);
+  EXPECT_DOUBLE_EQ(program.tool_change_rotary_rad[0], 0.5 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(program.tool_change_rotary_rad[2], -std::numbers::pi);
+  EXPECT_TRUE(program.tool_change_keeps_offset);
+  EXPECT_FALSE(program.fanuc_subprograms);
+  EXPECT_FALSE(program.g92_persists);
+  EXPECT_DOUBLE_EQ(program.arc_tolerance_mm, 0.011);
+  EXPECT_DOUBLE_EQ(program.inch_arc_tolerance_mm, 0.012);
+  EXPECT_EQ(program.subprogram_folders, "subs:/macros");
+}
 
 TEST(EveryKey, Chatter) {
   const auto chatter = full().chatter;

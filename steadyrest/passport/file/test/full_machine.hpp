@@ -35,6 +35,22 @@ junction_share = 0.56
 corner_acceleration_share = 0.57
 clips_programmed_feed = true
 stop_between_rapid_and_feed = true
+[program]
+startup = "G20 G64 P0.001"
+remapped = "M6 G88.8 T"
+wrapped_axes = "A"
+indexer_axes = "BC"
+tool_change_quill_up = true
+tool_change_at_g30 = true
+tool_change_with_spindle_on = true
+tool_change_position_mm = [1.25, -2.5, 31]
+tool_change_rotary_deg = [90, 0, -180]
+tool_change_keeps_offset = true
+fanuc_subprograms = false
+g92_persists = false
+arc_tolerance_mm = 0.011
+inch_arc_tolerance_mm = 0.012
+subprogram_folders = "subs:/macros"
 [[axis]]
 name = "X"
 servo_gain_1_s = 11

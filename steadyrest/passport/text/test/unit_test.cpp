@@ -70,6 +70,7 @@ TEST(Schema, EveryDimensionalKeyEndsInItsUnit) {
   expect_units(contour_keys());
   expect_units(chatter_keys());
   expect_units(compensation_keys());
+  expect_units(program_keys());
   expect_units(thermal_keys());
   expect_units(thermal_axis_keys());
   expect_units(thermal_mode_keys());
