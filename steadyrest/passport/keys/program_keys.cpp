@@ -46,7 +46,7 @@ std::span<const Key<Program>> program_keys() noexcept {
              "`DISABLE_G92_PERSISTENCE`."},
       Key<P>{"arc_tolerance_mm", &P::arc_tolerance_mm, 0, 1,
              "linuxcnc: how far an arc's radii at start and end may differ in G21 "
-             "(`CENTER_ARC_RADIUS_TOLERANCE_MM`); 0 = LinuxCNC's own."},
+             "(`CENTER_ARC_RADIUS_TOLERANCE_MM`); 0 = LinuxCNC's own, 0.02828 mm."},
       Key<P>{"inch_arc_tolerance_mm", &P::inch_arc_tolerance_mm, 0, 1,
              "linuxcnc: the same in G20 (`CENTER_ARC_RADIUS_TOLERANCE_INCH`), in mm."},
       Key<P>{"subprogram_folders", &P::subprogram_folders, 0, 4000,

@@ -79,7 +79,7 @@ TEST(FromLinuxCnc, ConvertsEveryFigure) {
 
 TEST(FromLinuxCnc, SaysWhatIsAssumed) {
   const auto answer = answer_of("machine from-linuxcnc examples/linuxcnc/mill.ini -o machine.toml");
-  EXPECT_EQ(answer["from_ini"], 22);
+  EXPECT_EQ(answer["from_ini"], 24);
   ASSERT_EQ(answer["assumed"].size(), 12U);
   EXPECT_THAT(answer["assumed"][1].get<std::string>(),
               HasSubstr("axis X: servo_gain_1_s = 20 (`steadyrest machine from-log`"));
@@ -105,6 +105,114 @@ TEST(FromLinuxCnc, FindsThePlannerOfTheExampleMill) {
   EXPECT_EQ(a.merge_share, b.merge_share);
   EXPECT_EQ(a.corner_acceleration_share, b.corner_acceleration_share);
   EXPECT_EQ(a.stop_between_rapid_and_feed, b.stop_between_rapid_and_feed);
+}
+
+/// A three-axis mill in mm; each part may add lines to a section.
+std::string small_mill(const std::string& interpreter, const std::string& io = "",
+                       const std::string& axis_a = "", const std::string& units = "mm",
+                       const std::string& joint = "", const std::string& hal = "none.hal") {
+  const std::string limits = "MAX_VELOCITY = 40\nMAX_ACCELERATION = 500\n";
+  std::string ini = "[EMCIO]\n" + io +
+                    "[KINS]\nJOINTS = 4\nKINEMATICS = trivkins coordinates=XYZA\n" +
+                    "[TRAJ]\nCOORDINATES = XYZA\nLINEAR_UNITS = " + units +
+                    "\nANGULAR_UNITS = degree\n[EMCMOT]\nSERVO_PERIOD = 1000000\n[RS274NGC]\n" +
+                    interpreter + "[HAL]\nHALFILE = " + hal + "\n[AXIS_A]\n" + limits + axis_a;
+  for (const char* section : {"AXIS_X", "AXIS_Y", "AXIS_Z", "JOINT_1", "JOINT_2"}) {
+    ini += std::string("[") + section + "]\n" + limits;
+  }
+  return ini + "[JOINT_3]\nTYPE = ANGULAR\n[JOINT_0]\n" + joint;
+}
+
+std::string list_of(const nlohmann::json& list) {
+  return list.dump();
+}
+
+// What the INI file tells the interpreter acts on every program that is read with the machine file.
+TEST(FromLinuxCnc, ProgramsAreReadAsTheIniFileTellsTheInterpreter) {
+  const Scratch scratch;
+  const std::string machine = scratch.at("m.toml");
+  const auto moves = [&](const std::string& ini, const std::string& program) {
+    EXPECT_EQ(run({"machine", "from-linuxcnc", scratch.file("m.ini", ini), "-o", machine}).code, 0);
+    const Finished got =
+        run({"program", "moves", scratch.file("p.ngc", program), "--machine", machine});
+    return got.code == 0 ? got.out : got.err;
+  };
+  EXPECT_THAT(
+      moves(small_mill("RS274NGC_STARTUP_CODE = G20 G64 P0.001\n", "", "", "inch"), "G0 X3\nM2\n"),
+      HasSubstr("rapid,76.2"));
+  EXPECT_THAT(moves(small_mill("", "TOOL_CHANGE_QUILL_UP = 1\n"), "G21 G0 Z-20\nM6\nM2\n"),
+              HasSubstr("2,rapid,0.000000,0.000000,0.000000"));
+  EXPECT_THAT(moves(small_mill("", "", "WRAPPED_ROTARY = 1\n"), "G21 G0 A350\nG0 A10\nM2\n"),
+              HasSubstr(",370.000000,"));
+  EXPECT_THAT(moves(small_mill("REMAP = M6 modalgroup=6 ngc=change\nREMAP=G88.8 py=x\n"),
+                    "G21 G0 X1\nM6\nM2\n"),
+              HasSubstr("M6 is remapped on this machine"));
+  const std::string text = text_of_file(machine);
+  EXPECT_THAT(text, HasSubstr("remapped = \"M6 G88.8\""));
+}
+
+TEST(FromLinuxCnc, NamesWhatItDoesNotCarryAndWhereEachValueIsFrom) {
+  const Scratch scratch;
+  const std::string ini = scratch.file(
+      "m.ini", small_mill("PARAMETER_FILE = l.var\nUSER_M_PATH = m\nODD = 1\n",
+                          "RANDOM_TOOLCHANGER = 1\nTOOL_CHANGE_POSITION = 1 2 3\n", "", "inch"));
+  const Finished made =
+      run({"machine", "from-linuxcnc", ini, "-o", scratch.at("m.toml"), "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const auto answer = nlohmann::json::parse(made.out);
+  const std::string lost = list_of(answer["not_carried"]);
+  for (const char* name :
+       {"PARAMETER_FILE", "USER_M_PATH", "ODD", "RANDOM_TOOLCHANGER", "none.hal"}) {
+    EXPECT_THAT(lost, HasSubstr(name));
+  }
+  const std::string values = list_of(answer["values"]);
+  EXPECT_THAT(values, HasSubstr("\"key\":\"program.tool_change_position_mm\",\"value\":\"[25.4, "
+                                "50.8, 76.2]\""));
+  EXPECT_THAT(values, HasSubstr(ini + ":3: [EMCIO] TOOL_CHANGE_POSITION = 1 2 3"));
+}
+
+// What LinuxCNC takes and a machine file does not is cut to the largest allowed, and named.
+TEST(FromLinuxCnc, CutsValuesBeyondItsRangeAndSaysSo) {
+  const Scratch scratch;
+  const std::string ini =
+      scratch.file("m.ini", "[DISPLAY]\nMAX_FEED_OVERRIDE = 15\nMAX_SPINDLE_OVERRIDE = 20\n" +
+                                small_mill("", "", "MAX_LIMIT = 1e99\n") + "[SPINDLE_0]\n" +
+                                "MAX_FORWARD_VELOCITY = 1e9\n");
+  const Finished made =
+      run({"machine", "from-linuxcnc", ini, "-o", scratch.at("m.toml"), "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string clipped = list_of(nlohmann::json::parse(made.out)["clipped"]);
+  EXPECT_THAT(clipped, HasSubstr(":2: [DISPLAY] MAX_FEED_OVERRIDE = 15 is 1500 %: 1000 is taken"));
+  EXPECT_THAT(clipped, HasSubstr("MAX_SPINDLE_OVERRIDE = 20 is 2000 %"));
+  EXPECT_THAT(clipped, HasSubstr("MAX_FORWARD_VELOCITY = 1e9"));
+}
+
+// A loop whose output is a velocity has its gain in 1/s.
+TEST(FromLinuxCnc, TakesTheServoDataOfIniAndHal) {
+  const Scratch scratch;
+  const std::string hal =
+      "loadrt pid names=pid.x\nsetp pid.x.Pgain [JOINT_0]P\nsetp pid.x.FF1 [JOINT_0]FF1\n"
+      "setp hm2.0.stepgen.00.position-scale [JOINT_0]STEP_SCALE\n"
+      "net x-cmd joint.0.motor-pos-cmd => pid.x.command\n"
+      "net x-out pid.x.output => hm2.0.stepgen.00.velocity-cmd\n"
+      "net x-fb hm2.0.stepgen.00.position-fb => pid.x.feedback joint.0.motor-pos-fb\n";
+  scratch.file("x.hal", hal);
+  const auto machine = machine_of(
+      scratch, small_mill("", "", "", "mm", "P = 50\nFF1 = 0.95\nSTEP_SCALE = -800\n", "x.hal"));
+  ASSERT_FALSE(machine.axes.empty());
+  EXPECT_DOUBLE_EQ(machine.axes[0].servo_gain_1_s, 50.0);
+  EXPECT_DOUBLE_EQ(machine.axes[0].feed_forward, 0.95);
+  EXPECT_DOUBLE_EQ(machine.axes[0].encoder.count_au, 0.00125);
+  EXPECT_THAT(text_of_file(scratch.at("machine.toml")), HasSubstr("x.hal:2: setp pid.x.Pgain 50"));
+  // An output in volts tells no gain: it stays ASSUMED, and the entry is named.
+  std::string volts = hal;
+  volts.replace(volts.find("velocity-cmd"), 12, "value-of-dac");
+  scratch.file("x.hal", volts);
+  const auto open = machine_of(
+      scratch, small_mill("", "", "", "mm", "P = 50\nFF1 = 0.1\nSTEP_SCALE = 800\n", "x.hal"));
+  EXPECT_DOUBLE_EQ(open.axes[0].servo_gain_1_s, 20.0);
+  EXPECT_THAT(text_of_file(scratch.at("machine.toml")),
+              HasSubstr("only if its output is a velocity"));
 }
 
 struct Fault {
@@ -133,7 +241,7 @@ TEST(FromLinuxCnc, RefusesByLineAndName) {
            Fault{"MAX_LIMIT = 0.5", "MAX_LIMIT = -9.5", "44",
                  "[JOINT_2] MAX_LIMIT = -9.5 is not above [JOINT_1] MIN_LIMIT = -9"},
            Fault{"MAX_VELOCITY = 3", "MAX_VELOCITY = 0", "33", "is 0 mm/s; allowed:"},
-           Fault{"MAX_ACCELERATION = 360", "MAX_ACCELERATION = 1e9", "37", "allowed: 0.1 …"},
+           Fault{"MAX_ACCELERATION = 360", "MAX_ACCELERATION = -1", "37", "allowed: 0.1 …"},
            Fault{"TYPE = LINEAR", "TYPE = ANGULAR", "39", "for the axis X, which is linear"},
        }) {
     std::string ini = inch_lathe();

@@ -208,6 +208,9 @@ class HalReader {
       alias_[words[3]] = real(words[2]);
     } else if (verb == "setp" && words.size() > 1) {
       out_.set_.try_emplace(real(words[1]), where);
+      if (words.size() > 2) {
+        out_.settings_.insert_or_assign(real(words[1]), HalUse::Setting{words[2], where});
+      }
     } else if (verb == "source" && words.size() > 1) {
       Where inner = where;
       inner.sourced = true;
@@ -278,6 +281,11 @@ const Linked* HalUse::linked(const std::string& pin) const {
 const Where* HalUse::set(const std::string& pin) const {
   const auto found = set_.find(pin);
   return found == set_.end() ? nullptr : &found->second;
+}
+
+const HalUse::Setting* HalUse::setting(const std::string& pin) const {
+  const auto found = settings_.find(pin);
+  return found == settings_.end() ? nullptr : &found->second;
 }
 
 const Where* HalUse::named(const std::string& prefix) const {

@@ -60,6 +60,12 @@ class HalUse {
   [[nodiscard]] const Linked* linked(const std::string& pin) const;
   /// The first `setp` of the pin.
   [[nodiscard]] const Where* set(const std::string& pin) const;
+  /// A pin or parameter with its value; the last `setp` counts.
+  struct Setting {
+    std::string value;
+    Where where;
+  };
+  [[nodiscard]] const Setting* setting(const std::string& pin) const;
   [[nodiscard]] std::vector<SpindleUse> spindle_uses() const;
   /// The first signal or component instance whose name begins so.
   [[nodiscard]] const Where* named(const std::string& prefix) const;
@@ -71,6 +77,7 @@ class HalUse {
   std::map<std::string, Loaded> loaded_;
   std::map<std::string, Linked> pins_;
   std::map<std::string, Where> set_;
+  std::map<std::string, Setting> settings_;
   std::map<std::string, Where> names_;
 };
 

@@ -46,6 +46,7 @@ class IniFile {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Files that it includes.
   [[nodiscard]] const std::vector<std::string>& included() const noexcept { return included_; }
+  [[nodiscard]] const std::vector<IniEntry>& entries() const noexcept { return entries_; }
   [[nodiscard]] const IniEntry* find(std::string_view section, std::string_view key) const noexcept;
   [[nodiscard]] std::vector<const IniEntry*> all(std::string_view section,
                                                  std::string_view key) const;

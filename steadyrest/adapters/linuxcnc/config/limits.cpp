@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -34,7 +35,10 @@ Result<Figure> rate(const IniFile& ini, const std::string& section, const char* 
   if (*given) {
     return **given;
   }
-  return Figure{factor, fmt::format("[{}] {} is missing: LinuxCNC takes 1", section, key)};
+  return Figure{.value = factor,
+                .from = fmt::format("[{}] {} is missing: LinuxCNC takes 1", section, key),
+                .where = {},
+                .clipped = {}};
 }
 
 /// One end of the travel; `sign` +1: the upper. The axis's and its joints', the tightest counts.
@@ -64,7 +68,11 @@ std::optional<Figure> bounded(const End& end, double factor, double no_limit) {
   if (!end.tightest || std::abs(end.tightest->value * factor) > no_limit) {
     return std::nullopt;
   }
-  return Figure{end.tightest->value * factor, end.tightest->entry->text()};
+  const IniEntry& entry = *end.tightest->entry;
+  return Figure{.value = end.tightest->value * factor,
+                .from = entry.text(),
+                .where = fmt::format("{}:{}", entry.file, entry.line),
+                .clipped = {}};
 }
 
 Result<std::string> slower_joint(const IniFile& ini, const ConfiguredAxis& axis,
@@ -94,13 +102,21 @@ Result<std::optional<Figure>> figure(const IniFile& ini, const char* section, co
   }
   const double value = (*number)->value * factor;
   const IniEntry& entry = *(*number)->entry;
-  if (value < range.least || value > range.most) {
+  if (value < range.least) {
     return refuse(entry.file, entry.line,
                   fmt::format("{} is {:.6g} {}; allowed: {:.6g} … {:.6g}", entry.text(), value,
                               range.unit, range.least, range.most),
                   fmt::format("correct {}", key));
   }
-  return Figure{value, entry.text()};
+  Figure out{.value = std::min(value, range.most),
+             .from = entry.text(),
+             .where = fmt::format("{}:{}", entry.file, entry.line),
+             .clipped = {}};
+  if (value > range.most) {
+    out.clipped = fmt::format("{}: {} is {:.6g} {}: {:.6g} is taken, the largest allowed",
+                              out.where, out.from, value, range.unit, range.most);
+  }
+  return out;
 }
 
 Result<AxisLimits> limits_of(const IniFile& ini, const Configuration& machine,

@@ -13,7 +13,9 @@ namespace steadyrest::adapters::linuxcnc::config {
 /// A value for the machine file and where it is from.
 struct Figure {
   double value = 0.0;
-  std::string from;  ///< `[AXIS_X] MAX_VELOCITY = 4`, or LinuxCNC's default
+  std::string from;     ///< `[AXIS_X] MAX_VELOCITY = 4`, or LinuxCNC's default
+  std::string where;    ///< `FILE:LINE` of an entry
+  std::string clipped;  ///< why it is not the entry's: the entry is above what a machine file takes
 };
 
 /// What the figures of a machine may be.
@@ -38,7 +40,8 @@ struct AxisLimits {
                                                             const Configuration& machine,
                                                             const ConfiguredAxis& axis);
 
-/// A value × `factor` within the range; nothing without the key.
+/// A value × `factor`, at most the largest of the range; nothing without the key. Refused: a value
+/// below the range.
 [[nodiscard]] kernel::outcome::Result<std::optional<Figure>> figure(const IniFile& ini,
                                                                     const char* section,
                                                                     const char* key, double factor,

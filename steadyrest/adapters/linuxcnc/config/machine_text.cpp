@@ -3,12 +3,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 #include <fmt/core.h>
 
 #include <steadyrest/adapters/linuxcnc/config/limits.hpp>
 #include <steadyrest/adapters/linuxcnc/config/machine_text.hpp>
+#include <steadyrest/adapters/linuxcnc/config/program_section.hpp>
+#include <steadyrest/adapters/linuxcnc/config/servo_data.hpp>
 
 // Each line names the entry that it is from, so that a reader can check it against the INI file.
 namespace steadyrest::adapters::linuxcnc::config {
@@ -16,56 +19,16 @@ namespace {
 
 using kernel::outcome::Result;
 
-/// Length of a UTF-8 character at the beginning of `text`; 0: not UTF-8.
-std::size_t utf8_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t size = first < 0x80                    ? 1
-                           : first >= 0xC2 && first < 0xE0 ? 2
-                           : first >= 0xE0 && first < 0xF0 ? 3
-                           : first >= 0xF0 && first < 0xF5 ? 4
-                                                           : 0;
-  const bool whole =
-      size != 0 && size <= text.size() &&
-      std::ranges::all_of(text.substr(1, size - 1), [](char c) { return (c & 0xC0) == 0x80; });
-  return whole ? size : 0;
-}
-
-/// As a TOML string of 1 … 80 characters; what is no text becomes `?`.
-std::string toml_string(std::string_view name) {
-  constexpr std::size_t kMostCharacters = 80;
-  std::string out;
-  for (std::size_t i = 0; !name.empty() && i < kMostCharacters; ++i) {
-    const std::size_t size = utf8_length(name);
-    const bool control = size == 1 && (name.front() < ' ' || name.front() == '\x7f');
-    if (name.front() == '"' || name.front() == '\\') {
-      out += '\\';
-    }
-    // E0 and F0 have over-long forms and surrogates behind them, which TOML refuses.
-    const bool odd = size > 2 && static_cast<unsigned char>(name[0]) % 16 == 0 &&
-                     static_cast<unsigned char>(name[1]) < 0xA0;
-    const bool surrogate =
-        name.starts_with('\xED') && size == 3 && static_cast<unsigned char>(name[1]) >= 0xA0;
-    out += size == 0 || control || odd || surrogate ? std::string_view("?") : name.substr(0, size);
-    name.remove_prefix(std::max<std::size_t>(size, 1));
-  }
-  return '"' + (out.empty() ? std::string("LinuxCNC machine") : out) + '"';
-}
-
-/// Comments take the INI's text; anything but printable ASCII would need TOML's rules there.
-std::string comment_of(std::string_view text) {
-  std::string out(text);
-  std::ranges::replace_if(out, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return out;
-}
-
 class Writer {
  public:
-  Writer(const IniFile& ini, const Configuration& machine) : ini_(ini), machine_(machine) {}
+  Writer(const IniFile& ini, const Configuration& machine, const HalUse* hal,
+         const std::string& hal_unread)
+      : ini_(ini), machine_(machine), hal_(hal), hal_unread_(hal_unread) {}
 
   Result<MachineText> write() {
     head();
-    for (const auto part :
-         {&Writer::control, &Writer::axes, &Writer::overrides, &Writer::spindle}) {
+    for (const auto part : {&Writer::control, &Writer::program, &Writer::axes, &Writer::overrides,
+                            &Writer::spindle}) {
       if (auto done = (this->*part)(); !done) {
         return std::unexpected(done.error());
       }
@@ -79,9 +42,25 @@ class Writer {
   void noted(const std::string& assignment, const std::string& comment) {
     line(fmt::format("{:<31} # {}", assignment, comment));
   }
-  void given(const char* key, double value, const std::string& from) {
-    noted(fmt::format("{} = {:.10g}", key, value), comment_of(from));
+  void given(const char* key, double value, const std::string& from,
+             const std::string& where = {}) {
+    const std::string text = fmt::format("{:.10g}", value);
+    noted(fmt::format("{} = {}", key, text), comment_of(from));
     ++out_.from_ini;
+    out_.values.push_back({.key = section_ + key,
+                           .value = text,
+                           .from = where.empty() ? from : fmt::format("{}: {}", where, from)});
+  }
+  /// A figure in the key's unit, `scale` of the figure's own.
+  void given(const char* key, const Figure& figure, double scale = 1.0) {
+    clip(figure);
+    given(key, figure.value * scale, figure.from, figure.where);
+  }
+  void clip(const std::optional<Figure>& figure) {
+    if (figure && !figure->clipped.empty()) {
+      line("# " + comment_of(figure->clipped));
+      out_.clipped.push_back(figure->clipped);
+    }
   }
   void assumed(const char* key, double value, const char* measure) {
     noted(fmt::format("{} = {:.10g}", key, value), fmt::format("ASSUMED: {}", measure));
@@ -95,7 +74,7 @@ class Writer {
       return std::unexpected(value.error());
     }
     if (*value) {
-      given(key, (*value)->value * scale, (*value)->from);
+      given(key, **value, scale);
     } else {
       line(fmt::format("# {}: no [{}] {}; {}", key, section, ini_key, without));
     }
@@ -108,9 +87,12 @@ class Writer {
     if (!value) {
       return std::unexpected(value.error());
     }
-    given(key, *value ? (*value)->value : by_default * factor,
-          *value ? (*value)->from
-                 : fmt::format("[TRAJ] {} is missing: LinuxCNC takes {:g}", ini_key, by_default));
+    if (*value) {
+      given(key, **value);
+    } else {
+      given(key, by_default * factor,
+            fmt::format("[TRAJ] {} is missing: LinuxCNC takes {:g}", ini_key, by_default));
+    }
     return {};
   }
 
@@ -123,19 +105,25 @@ class Writer {
     line(
         "# `steadyrest doctor --machine FILE` checks the result; port = \"sim\" tries it without "
         "the machine.");
-    line(fmt::format("name = {}", toml_string(machine_.name)));
+    constexpr std::size_t kLongestName = 80;
+    line(fmt::format("name = {}", machine_.name.empty()
+                                      ? "\"LinuxCNC machine\""
+                                      : toml_string(machine_.name, kLongestName)));
     line("port = \"linuxcnc\"");
     line("mode = \"observe\"");
   }
 
   Result<void> control() {
+    section_ = "control.";
     line("\n[control]");
     line("dialect = \"linuxcnc\"");
     line(fmt::format("units = \"{}\"  # {}", machine_.mm_per_unit == 1.0 ? "mm" : "inch",
                      comment_of(ini_.find("TRAJ", "LINEAR_UNITS")->text())));
-    const std::string period = ini_.find("EMCMOT", "SERVO_PERIOD")->text() + " ns";
-    given("interpolator_period_ms", machine_.servo_period_ms, period);
-    given("servo_period_ms", machine_.servo_period_ms, period);
+    const IniEntry& entry = *ini_.find("EMCMOT", "SERVO_PERIOD");
+    const std::string period = entry.text() + " ns";
+    const std::string where = fmt::format("{}:{}", entry.file, entry.line);
+    given("interpolator_period_ms", machine_.servo_period_ms, period, where);
+    given("servo_period_ms", machine_.servo_period_ms, period, where);
     const double mm = machine_.mm_per_unit;
     if (auto done = optional("max_path_acceleration_mm_s2", "TRAJ", "MAX_LINEAR_ACCELERATION", mm,
                              {1.0, 1e6, "mm/s²"}, 1.0, "the axes' own limits count");
@@ -188,6 +176,15 @@ class Writer {
     return {};
   }
 
+  Result<void> program() {
+    ProgramSection made = program_section(ini_, machine_, hal_unread_);
+    out_.text += made.text;
+    out_.from_ini += made.values.size();
+    std::ranges::move(made.values, std::back_inserter(out_.values));
+    out_.not_carried = std::move(made.not_carried);
+    return {};
+  }
+
   Result<void> axes() {
     for (const ConfiguredAxis& axis : machine_.axes) {
       if (auto done = axis.present() ? one_axis(axis) : Result<void>{}; !done) {
@@ -210,38 +207,79 @@ class Writer {
     noted(fmt::format("name = \"{}\"", axis.letter),
           fmt::format("joint {}{}", joints,
                       axis.joints.size() > 1 ? "; the layer reads the first" : ""));
-    assumed("servo_gain_1_s", 20.0,
-            "`steadyrest machine from-log` finds it from a record of a test program");
+    section_ = fmt::format("axis.{}.", axis.letter);
+    const ServoData servo = servo_data(ini_, hal_, axis);
+    position_loop(servo);
     const bool rotary = axis.rotary;
-    given(rotary ? "max_speed_deg_s" : "max_feed_mm_min",
-          limits->speed_units_s.value * (rotary ? 1.0 : 60.0), limits->speed_units_s.from);
+    given(rotary ? "max_speed_deg_s" : "max_feed_mm_min", limits->speed_units_s,
+          rotary ? 1.0 : 60.0);
     if (!limits->slower_joint.empty()) {
       line(fmt::format("# {} is lower; LinuxCNC plans with the axis's.",
                        comment_of(limits->slower_joint)));
     }
     given(rotary ? "max_acceleration_deg_s2" : "max_acceleration_mm_s2",
-          limits->acceleration_units_s2.value, limits->acceleration_units_s2.from);
+          limits->acceleration_units_s2);
     end(rotary ? "min_deg" : "min_mm", limits->min);
     end(rotary ? "max_deg" : "max_mm", limits->max);
     line("[axis.encoder]");
-    assumed(rotary ? "count_deg" : "count_um", rotary ? 0.001 : 1.0,
-            "1 / counts per unit of the encoder (or step) scale in the HAL files");
+    count(servo, rotary);
     return {};
+  }
+
+  void position_loop(const ServoData& servo) {
+    if (servo.gain_1_s) {
+      found("servo_gain_1_s", *servo.gain_1_s, servo.gain_1_s->value, {1.0, 1000.0, ""});
+    } else {
+      assumed("servo_gain_1_s", 20.0,
+              "`steadyrest machine from-log` finds it from a record of a test program");
+    }
+    if (servo.feed_forward) {
+      found("feed_forward", *servo.feed_forward, servo.feed_forward->value, {0.0, 1.5, ""});
+    }
+    for (const std::string& unused : servo.unused) {
+      line("# not carried: " + comment_of(unused));
+      out_.not_carried.push_back(unused);
+    }
+  }
+
+  void count(const ServoData& servo, bool rotary) {
+    const char* const key = rotary ? "count_deg" : "count_um";
+    section_ += "encoder.";
+    if (servo.counts_per_unit) {
+      const double unit = rotary ? machine_.deg_per_unit : 1e3 * machine_.mm_per_unit;
+      found(key, *servo.counts_per_unit, unit / std::abs(servo.counts_per_unit->value),
+            {0.0, rotary ? 10.0 : 1000.0, ""});
+    } else {
+      assumed(key, rotary ? 0.001 : 1.0,
+              "1 / counts per unit of the encoder (or step) scale in the HAL files");
+    }
+  }
+
+  /// A value made of a servo figure, within what a machine file takes.
+  void found(const char* key, const ServoFigure& figure, double value, const Range& range) {
+    const double taken = std::clamp(value, range.least, range.most);
+    const auto clipped = fmt::format("{}: {} would be {:g}: {:g} is taken, the nearest allowed",
+                                     figure.from, key, value, taken);
+    given(key, {.value = taken,
+                .from = figure.from,
+                .where = {},
+                .clipped = taken == value ? std::string{} : clipped});
   }
 
   void end(const char* key, const std::optional<Figure>& value) {
     if (value) {
-      given(key, value->value, value->from);
+      given(key, *value);
     } else {
       line(fmt::format("# {}: the INI file sets no limit", key));
     }
   }
 
   Result<void> overrides() {
-    const auto most = figure(ini_, "DISPLAY", "MAX_FEED_OVERRIDE", 100.0, {1.0, 1000.0, "%"});
+    const auto most = figure(ini_, "DISPLAY", "MAX_FEED_OVERRIDE", 100.0, {-1e9, 1000.0, "%"});
     if (!most) {
       return std::unexpected(most.error());
     }
+    clip(*most);
     line(
         "\n# motion.adaptive-feed (after M52 P1): a number that acts in the same servo cycle. 2.9 "
         "clamps it to 100 %, so");
@@ -261,15 +299,17 @@ class Writer {
   }
 
   Result<void> spindle_override() {
-    const Range range{0.0, 1000.0, "%"};
+    const Range range{-1e9, 1000.0, "%"};
     const auto least = figure(ini_, "DISPLAY", "MIN_SPINDLE_OVERRIDE", 100.0, range);
     const auto most = least ? figure(ini_, "DISPLAY", "MAX_SPINDLE_OVERRIDE", 100.0, range)
                             : std::unexpected(least.error());
     if (!most) {
       return std::unexpected(most.error());
     }
+    clip(*least);
+    clip(*most);
     // 100 % is always a step: it is what the program says.
-    const double low = std::min(100.0, std::ceil(*least ? (*least)->value : 50.0));
+    const double low = std::clamp(std::ceil(*least ? (*least)->value : 50.0), 0.0, 100.0);
     const double high = std::max(100.0, std::floor(*most ? (*most)->value : 100.0));
     low_percent_ = low;
     high_percent_ = std::min(high, 200.0);
@@ -295,9 +335,9 @@ class Writer {
   }
 
   Result<void> spindle() {
+    section_ = "spindle.";
     line("\n[spindle]");
-    const Range range{1.0, 1e6, "rpm"};
-    const auto most = figure(ini_, "SPINDLE_0", "MAX_FORWARD_VELOCITY", 1.0, range);
+    const auto most = figure(ini_, "SPINDLE_0", "MAX_FORWARD_VELOCITY", 1.0, {1.0, 1e6, "rpm"});
     const auto least = most ? figure(ini_, "SPINDLE_0", "MIN_FORWARD_VELOCITY", 1.0,
                                      {0.0, *most ? (*most)->value : 1e6, "rpm"})
                             : std::unexpected(most.error());
@@ -305,12 +345,12 @@ class Writer {
       return std::unexpected(least.error());
     }
     if (*least) {
-      given("min_rpm", (*least)->value, (*least)->from);
+      given("min_rpm", **least);
     } else {
       line("min_rpm = 0");
     }
     if (*most) {
-      given("max_rpm", (*most)->value, (*most)->from);
+      given("max_rpm", **most);
     } else {
       assumed("max_rpm", std::max(24000.0, *least ? (*least)->value : 0.0),
               "no [SPINDLE_0] MAX_FORWARD_VELOCITY; the fastest the spindle may turn");
@@ -340,6 +380,9 @@ class Writer {
 
   const IniFile& ini_;
   const Configuration& machine_;
+  const HalUse* hal_;
+  const std::string& hal_unread_;
+  std::string section_;  ///< of the keys being written, `axis.X.`
   MachineText out_;
   double low_percent_ = 50.0;
   double high_percent_ = 100.0;
@@ -347,8 +390,9 @@ class Writer {
 
 }  // namespace
 
-Result<MachineText> machine_text(const IniFile& ini, const Configuration& machine) {
-  return Writer(ini, machine).write();
+Result<MachineText> machine_text(const IniFile& ini, const Configuration& machine,
+                                 const HalUse* hal, const std::string& hal_unread) {
+  return Writer(ini, machine, hal, hal_unread).write();
 }
 
 }  // namespace steadyrest::adapters::linuxcnc::config

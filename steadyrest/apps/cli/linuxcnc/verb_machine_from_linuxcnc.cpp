@@ -9,7 +9,9 @@
 #include <steadyrest/adapters/linuxcnc/config/ini_file.hpp>
 #include <steadyrest/adapters/linuxcnc/config/machine_text.hpp>
 #include <steadyrest/apps/cli/linuxcnc/verb_machine_from_linuxcnc.hpp>
+#include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
 // The adapter writes the text, the passport's reader judges it: what is written can be read.
@@ -18,6 +20,12 @@ namespace from_linuxcnc {
 namespace {
 
 namespace config = adapters::linuxcnc::config;
+
+class NoMoves final : public nc::interpret::Sink {
+ public:
+  void on_move(const nc::interpret::Move& /*move*/) override {}
+  void on_event(const nc::interpret::Event& /*event*/) override {}
+};
 
 struct Options {
   std::string ini;
@@ -31,14 +39,39 @@ std::expected<config::MachineText, Refusals> made_text(const config::IniFile& in
   if (!machine) {
     return refused(machine.error());
   }
-  auto made = config::machine_text(ini, *machine);
+  // A HAL file that is missing or in Tcl leaves the servo data to the INI file.
+  const auto hal = config::HalUse::of(ini);
+  auto made = config::machine_text(ini, *machine, hal ? &*hal : nullptr,
+                                   hal ? std::string{} : kernel::outcome::text(hal.error()));
   if (!made) {
     return refused(made.error());
   }
-  if (auto read = passport::parse_all_faults(made->text, output); !read) {
-    return std::unexpected(std::move(read.error()));
+  const auto read = passport::parse_all_faults(made->text, output);
+  if (!read) {
+    return std::unexpected(read.error());
+  }
+  // The text is kept either way: programs are then refused by this name, not read without it.
+  if (const auto config = program_config({}, *read); config && !read->program.startup.empty()) {
+    NoMoves nothing;
+    if (const auto started = nc::interpret::run_text("M2\n", *config, nothing); !started) {
+      made->not_carried.push_back(kernel::outcome::text(started.error()) +
+                                  " (programs are refused until then)");
+    }
   }
   return std::move(*made);
+}
+
+/// What has no place in the answer's table of values.
+void put_list(Answer& answer, const char* key, const char* head,
+              const std::vector<std::string>& list) {
+  answer.json[key] = Json::array();
+  if (!list.empty()) {
+    answer.text += head;
+  }
+  for (const std::string& one : list) {
+    answer.json[key].push_back(one);
+    answer.text += "  " + one + "\n";
+  }
 }
 
 /// Lines of the text that hold a guess, for people who do not open the file.
@@ -85,6 +118,14 @@ Outcome run(const Options& options) {
     answer.json["assumed"].push_back(line);
     answer.text += "  " + line + "\n";
   }
+  answer.json["values"] = Json::array();
+  for (const config::FoundValue& value : made->values) {
+    answer.json["values"].push_back(
+        {{"key", value.key}, {"value", value.value}, {"from", value.from}});
+  }
+  answer.json["missing"] = answer.json["assumed"];
+  put_list(answer, "clipped", "beyond the range of a machine file:\n", made->clipped);
+  put_list(answer, "not_carried", "not carried into the machine file:\n", made->not_carried);
   return answer;
 }
 

@@ -81,6 +81,8 @@ Result<steadyrest::live::LoadedProgram> loaded_program(const ControlState& state
   start.subprogram_folders = state.folders;
   start.subprogram_folders.push_back(std::filesystem::path(state.program).parent_path().string());
   start.block_delete = state.block_delete;
+  // The control's modes are known; what it executed when it was started is in them.
+  start.settings.startup.clear();
   start.inch = state.inch;
   start.unit_known = true;
   start.incremental = state.incremental;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <steadyrest/apps/cli/program/verb_program_moves.hpp>
+#include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/interpret/state/move_table.hpp>
@@ -15,12 +18,26 @@ using nc::interpret::MoveTable;
 struct Options {
   ProgramOptions program;
   std::string output;
+  std::string machine;  ///< empty: a control without settings of its own
 };
 
 // Without -o the table itself is the text for people, written as it arises: a program of ten
 // million lines must not be held in memory. With --json stdout belongs to the JSON object.
 Outcome run(const Options& options, bool json) {
-  const auto config = program_config(options.program);
+  if (options.machine.empty() && options.program.dialect.empty()) {
+    return refused(bad_input("--dialect is required",
+                             "give --dialect, or --machine with the machine the program is for"));
+  }
+  std::optional<kernel::machine::Machine> machine;
+  if (!options.machine.empty()) {
+    auto read = read_machine(options.machine);
+    if (!read) {
+      return std::unexpected(read.error());
+    }
+    machine = std::move(*read);
+  }
+  const auto config =
+      machine ? program_config(options.program, *machine) : program_config(options.program);
   if (!config) {
     return refused(config.error());
   }
@@ -41,6 +58,9 @@ Outcome run(const Options& options, bool json) {
   }
   Answer answer;
   put_report(answer, *report, options.program.file);
+  if (machine) {
+    say_dialect(answer, options.program, *machine);
+  }
   answer.json["moves"] = report->moves;
   answer.notes = put_assumed(answer, *report);
   return answer;
@@ -52,6 +72,10 @@ Outcome run(const Options& options, bool json) {
 void add_verb_program_moves(Session& session, Verb& verb) {
   auto options = std::make_shared<program_moves::Options>();
   add_program_options(verb, options->program);
+  verb.get_option("--dialect")->required(false);
+  verb.add_option("--machine", options->machine,
+                  "Machine file: sets dialect and axes, and what its control makes of programs")
+      ->option_text("FILE");
   verb.writes(
       "-o,--output", options->output, "Write the table to this file instead of stdout",
       csv_content("a table of moves (CSV)", {std::string(program_moves::MoveTable::kHead)}));

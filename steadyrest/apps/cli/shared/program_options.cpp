@@ -126,6 +126,33 @@ Result<Config> program_config(const ProgramOptions& options) {
   return config;
 }
 
+namespace {
+
+/// The machine file's, then the program's own. A folder that is not there is none to LinuxCNC,
+/// either.
+std::vector<std::string> folders_of(const kernel::machine::Machine& machine,
+                                    const std::string& program) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> out;
+  std::string_view left = machine.program.subprogram_folders;
+  while (!left.empty()) {
+    const std::size_t end = std::min(left.find(':'), left.size());
+    const fs::path path = fs::path(machine.file).parent_path() / left.substr(0, end);
+    if (std::error_code error; end != 0 && fs::is_directory(path, error)) {
+      out.push_back(path.string());
+    }
+    left.remove_prefix(std::min(end + 1, left.size()));
+  }
+  if (!out.empty()) {
+    out.push_back(fs::path(program).parent_path().string());
+  }
+  // An empty name is the current folder to the search, and none to who lists them.
+  std::ranges::replace(out, std::string{}, std::string{"."});
+  return out;
+}
+
+}  // namespace
+
 /// With a machine file: dialect, axis letters and M words are the machine's.
 Result<Config> program_config(const ProgramOptions& options,
                               const kernel::machine::Machine& machine) {
@@ -138,16 +165,26 @@ Result<Config> program_config(const ProgramOptions& options,
   for (const kernel::machine::Axis& axis : machine.axes) {
     of_machine.axes += axis.name;
   }
-  // The setting is that of the control in the file, not of another that the program was posted for.
-  if (of_machine.start_units.empty() &&
-      of_machine.dialect == nc::read::name(machine.control.dialect) &&
+  // Its settings are those of its own control, not of another that the program was posted for.
+  const bool own = of_machine.dialect == nc::read::name(machine.control.dialect);
+  if (own && of_machine.start_units.empty() &&
       machine.control.units != kernel::machine::ProgramUnit::unknown) {
     of_machine.start_units =
         machine.control.units == kernel::machine::ProgramUnit::inch ? "inch" : "mm";
   }
+  if (own && of_machine.subprograms.empty()) {
+    of_machine.subprograms = folders_of(machine, options.file);
+  }
   auto config = program_config(of_machine);
   if (config) {
     config->on_machine = true;
+  }
+  if (config && own) {
+    config->settings = machine.program;
+    if (!machine.program.g92_persists) {
+      config->g92 = {};
+      config->g92_on = false;
+    }
   }
   // Only a machine whose modulator is enabled knows the two M words.
   if (config && machine.chatter.enabled) {

@@ -6,6 +6,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/check/settings_check.hpp>
 #include <steadyrest/nc/interpret/decode/codes.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -39,7 +40,11 @@ kernel::outcome::Result<std::unique_ptr<Interpreter>> Interpreter::make(Config c
       !std::ranges::all_of(config.home, finite)) {
     return refuse("an offset or start position that is not finite", "give finite numbers");
   }
-  return std::unique_ptr<Interpreter>(new Interpreter(std::move(config)));
+  auto made = std::unique_ptr<Interpreter>(new Interpreter(std::move(config)));
+  if (auto started = made->start_up(); !started) {
+    return std::unexpected(started.error());
+  }
+  return made;
 }
 
 Interpreter::Interpreter(Config config) : control_(std::move(config)) {
@@ -82,8 +87,8 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   // The checks come before anything acts. Faults that show only during execution are refused there;
   // either way nothing runs after a refusal.
-  if (!(check_.choose_motion(step_) && check_.check(step_) && frames_.settle(step_) &&
-        act(step_))) {
+  if (!(check_.choose_motion(step_) && check_.check(step_) && check_rotary(step_, control_) &&
+        frames_.settle(step_) && act(step_))) {
     return false;
   }
   // A modal cycle (MCALL) drills after each block that moves.
@@ -118,6 +123,9 @@ void Interpreter::leave_call(Sink& sink) {
 }
 
 bool Interpreter::decode(const Block& block) {
+  if (!check_remapped(block, control_)) {
+    return false;
+  }
   step_.reset(block);
   const bool accepted = control_.rules.decode(decoding_, block, step_);
   // fanuc: a motion word in the block of G28 or G53 only sets the mode; the axis words belong to
@@ -140,8 +148,13 @@ bool Interpreter::act(const Step& step) {
     modes_.units(step);
   }
   machine_.feed(step);
-  if (!machine_.spindle_speed(step) || !machine_.select_tool(step) || !machine_.change_tool(step) ||
-      !modes_.keep(step)) {
+  if (!machine_.spindle_speed(step) || !machine_.select_tool(step)) {
+    return false;
+  }
+  if (step.code(MGroup::tool_change) == m::kToolChange) {
+    motion_.to_tool_change();
+  }
+  if (!machine_.change_tool(step) || !modes_.keep(step)) {
     return false;
   }
   machine_.spindle(step);

@@ -73,6 +73,8 @@ class Interpreter {
  private:
   explicit Interpreter(Config config);
 
+  /// Executes Config::settings.startup: refused where it moves, or is not one block.
+  kernel::outcome::Result<void> start_up();
   bool decode(const read::Block& block);
   bool act(const Step& step);
   bool non_modal(const Step& step);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <steadyrest/nc/interpret/blocks/machine_words.hpp>
+#include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/control/tool_table.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -114,11 +115,14 @@ bool MachineWords::change_tool(const Step& step) {
     load_tool(control_);
     return true;
   }
-  // M6 stops the spindle, as on LinuxCNC, and M3 must start it again.
-  state_.spindle_direction = 0;
-  out_.spindle();
   state_.tool_in_spindle = state_.selected_tool;
   load_tool(control_);
+  // LinuxCNC takes G43 as in force while some length is.
+  if (control_.config.settings.tool_change_keeps_offset && state_.tool_offset != Axes{}) {
+    const Tool* const tool = find_tool(control_.config, state_.tool_in_spindle);
+    state_.tool_offset = tool == nullptr ? Axes{} : tool->offset;
+    update_offset(state_);
+  }
   state_.position = out_.take_beside(state_.position);
   out_.event(EventKind::tool_change, static_cast<double>(state_.tool_in_spindle), selected_name_);
   return true;

@@ -21,7 +21,8 @@ bool PlainBlock::takes(const Step& step) const noexcept {
   const int now = motion != kNoCode ? motion : state_.motion;
   // Cutter compensation and open splines hold a move back or change it: not here.
   return !step.others && control_.rules.short_way && (now == g::kRapid || now == g::kLinear) &&
-         (motion != kNoCode || (step.mask & kAxisMask) != 0) && state_.cutter_side == 0 &&
+         (motion != kNoCode || (step.mask & kAxisMask) != 0) &&
+         (step.mask & (control_.wrapped | control_.indexers)) == 0 && state_.cutter_side == 0 &&
          !cutter_.active() && !splines_.open();
 }
 

@@ -10,6 +10,17 @@ Control::Control(Config start) : config(std::move(start)), rules(rules_of(config
   for (const char letter : config.axes) {
     axes |= Step::bit(letter);
   }
+  for (const char letter : config.settings.wrapped_axes) {
+    wrapped |= Step::bit(letter);
+  }
+  for (const char letter : config.settings.indexer_axes) {
+    indexers |= Step::bit(letter);
+  }
+  kernel::machine::each_remapped(config.settings.remapped, [this](std::string_view text) {
+    if (const auto code = kernel::machine::remapped_code(text)) {
+      remapped.push_back(*code);
+    }
+  });
   state.work_offset = config.work_offset;
   state.rotation_deg = config.rotation_deg;
   state.active_offset = config.active_offset;

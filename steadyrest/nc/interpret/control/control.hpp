@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
@@ -20,7 +21,10 @@ struct Control {
 
   Config config;  ///< G10 changes its tool table
   const DialectRules& rules;
-  std::uint32_t axes = 0;  ///< mask of the axis letters that the machine has
+  std::uint32_t axes = 0;      ///< mask of the axis letters that the machine has
+  std::uint32_t wrapped = 0;   ///< mask of those that count in turns
+  std::uint32_t indexers = 0;  ///< mask of those that move alone, by G0
+  std::vector<kernel::machine::RemappedCode> remapped;
   State state;
   Refusals refusals;
 };

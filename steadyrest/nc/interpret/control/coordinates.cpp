@@ -30,13 +30,28 @@ Axes machine_end(const Step& step, const Control& control) {
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     const bool turns = i < 2 && state.rotation_in_force_deg != 0.0;
     if (step.has(kAxisLetters[i]) || turns) {
-      end[i] = work[i];
+      end[i] = is_wrapped(control, i)
+                   ? within_turn(step[kAxisLetters[i]], work[i], state.position[i])
+                   : work[i];
     }
   }
   return end;
 }
 
 }  // namespace
+
+double within_turn(double written_deg, double wanted_deg, double now_deg) noexcept {
+  constexpr double kTurn_deg = 360.0;
+  const double end = std::abs(wanted_deg) + std::floor(now_deg / kTurn_deg) * kTurn_deg;
+  if (std::signbit(written_deg)) {
+    return end > now_deg ? end - kTurn_deg : end;
+  }
+  return end < now_deg ? end + kTurn_deg : end;
+}
+
+bool is_wrapped(const Control& control, std::size_t axis) noexcept {
+  return (control.wrapped & Step::bit(kAxisLetters[axis])) != 0;
+}
 
 double component(const Step& step, std::size_t axis, const State& state) noexcept {
   const double value = step[kAxisLetters[axis]];
@@ -122,7 +137,11 @@ Axes end_point(const Step& step, const Control& control) noexcept {
     const bool incremental =
         (step.incremental & bit) != 0 || (state.incremental && (step.absolute & bit) == 0);
     const double value = component(step, i, state);
-    end[i] = incremental ? state.position[i] + value : value;
+    if (incremental) {
+      end[i] = state.position[i] + value;
+    } else {
+      end[i] = is_wrapped(control, i) ? within_turn(value, value, state.position[i]) : value;
+    }
   }
   if (step.polar) {
     end[0] = state.position[0];

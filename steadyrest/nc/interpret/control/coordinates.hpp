@@ -33,4 +33,10 @@ void polar_point(const Step& step, const State& state, Axes& point) noexcept;
 /// LinuxCNC 2.9 removes the tool offset for machine coordinates, except for A, B and C.
 [[nodiscard]] bool tool_stays(const DialectRules& rules, std::size_t axis) noexcept;
 
+/// linuxcnc: where an axis with WRAPPED_ROTARY goes for the angle `wanted_deg` (offsets taken off);
+/// the sign of `written_deg`, as the program has it, is the direction. LinuxCNC 2.9's law, measured
+/// with rs274.
+[[nodiscard]] double within_turn(double written_deg, double wanted_deg, double now_deg) noexcept;
+[[nodiscard]] bool is_wrapped(const Control& control, std::size_t axis) noexcept;
+
 }  // namespace steadyrest::nc::interpret

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
+#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/interpret/check/block_check.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
@@ -122,7 +124,11 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
                          .second = state_.position[axes.second]};
   const PlanePoint stop{.first = end[axes.first], .second = end[axes.second]};
   // In the units in force, since LinuxCNC's bounds differ between them.
-  const ArcTolerance tolerance = arc_tolerance(state_.unit_mm != 1.0);
+  const bool inch = state_.unit_mm != 1.0;
+  ArcTolerance tolerance = arc_tolerance(inch);
+  const kernel::machine::Program& settings = control_.config.settings;
+  const double own_mm = inch ? settings.inch_arc_tolerance_mm : settings.arc_tolerance_mm;
+  tolerance.spiral_mm = own_mm > 0.0 ? own_mm : tolerance.spiral_mm;
   if (step.has('R')) {
     const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm,
                                           step.moves_by == g::kArcClockwise, tolerance);
@@ -226,10 +232,55 @@ void Motion::home(const Step& step, std::size_t which) {
   const Axes reference = to_work(state_, state_.home[which]);
   for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
     if (!some || step.has(kAxisLetters[i])) {
-      end[i] = reference[i] + (tool_stays(control_.rules, i) ? state_.tool_offset[i] : 0.0);
+      end[i] = reference_of(which, i, reference[i]);
     }
   }
   out_.move(MoveKind::rapid, end);
+}
+
+// One axis of the reference point in work coordinates, from where the axis is now.
+double Motion::reference_of(std::size_t which, std::size_t axis, double reference) const noexcept {
+  const double end =
+      reference + (tool_stays(control_.rules, axis) ? state_.tool_offset[axis] : 0.0);
+  return is_wrapped(control_, axis)
+             ? within_turn(state_.home[which][axis], end, state_.position[axis])
+             : end;
+}
+
+// The order is LinuxCNC's: the interpreter lifts the quill and goes to G30, its task then goes to
+// TOOL_CHANGE_POSITION. After G40 the moves start beside the contour, as any move does.
+void Motion::to_tool_change() {
+  const kernel::machine::Program& settings = control_.config.settings;
+  if (!settings.tool_change_with_spindle_on) {  // M3 must start it again
+    state_.spindle_direction = 0;
+    out_.spindle();
+  }
+  if (settings.tool_change_quill_up) {
+    Axes machine = to_machine(state_, state_.position);
+    machine[2] = 0.0;
+    Axes end = state_.position;
+    end[2] = to_work(state_, machine)[2];
+    out_.current().machine_axes = 1U << 2U;
+    out_.move(MoveKind::rapid, end);
+  }
+  if (settings.tool_change_at_g30) {
+    Axes end = to_work(state_, state_.home[1]);
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      end[i] = reference_of(1, i, end[i]);
+    }
+    out_.move(MoveKind::rapid, end);
+  }
+  if (settings.tool_change_position_mm.size() == 3) {
+    Axes machine = to_machine(state_, state_.position);
+    std::uint32_t named = 0b111;
+    std::ranges::copy(settings.tool_change_position_mm, machine.begin());
+    for (std::size_t i = 0; i < settings.tool_change_rotary_rad.size(); ++i) {
+      machine[3 + i] = settings.tool_change_rotary_rad[i] / kernel::units::kDegree;
+      named |= 1U << (3 + i);
+    }
+    out_.current().machine_axes = named;
+    out_.move(MoveKind::rapid, to_work(state_, machine));
+  }
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -21,10 +21,14 @@ class Motion : private Stage {
   bool probe(const Step& step);
   /// G28 (`which` 0), G30 (1).
   void home(const Step& step, std::size_t which);
+  /// M6 before the change: stops the spindle and goes where the control's configuration says.
+  void to_tool_change();
 
  private:
   bool arc_words(const Step& step, const PlaneAxes& axes);
   bool arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end, PlanePoint& centre);
+  [[nodiscard]] double reference_of(std::size_t which, std::size_t axis,
+                                    double reference) const noexcept;
   bool refuse_arc(const Step& step, ArcFault fault);
 
   CutterStage& cutter_;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <steadyrest/kernel/machine/program.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
@@ -86,6 +87,8 @@ struct Config {
   std::uint64_t most_repeated_lines = 20'000'000;
   std::int32_t tool_in_spindle = 0;
   std::optional<std::int32_t> selected_tool;  ///< by T, at the start; else that in the spindle
+  /// What the control's own configuration makes of a program; its folders are not used here.
+  kernel::machine::Program settings;
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none
   std::int32_t modulation_off = 0;
 
