@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <steadyrest/nc/interpret/blocks/offsets.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/control/tool_table.hpp>
@@ -120,7 +122,13 @@ bool Offsets::origin(const Step& step, int code) {
 
 void Offsets::store_home(int code) noexcept {
   // G28.1 stores the machine position, so later offsets do not move it.
-  state_.home[code == g::kStoreHome ? 0 : 1] = to_machine(state_, state_.position);
+  Axes& home = state_.home[code == g::kStoreHome ? 0 : 1];
+  home = to_machine(state_, state_.position);
+  // An axis that counts in turns is stored as an angle within one.
+  constexpr double kTurn_deg = 360.0;
+  for (std::size_t i = 0; i < home.size(); ++i) {
+    home[i] -= is_wrapped(control_, i) ? kTurn_deg * std::floor(home[i] / kTurn_deg) : 0.0;
+  }
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -27,12 +27,12 @@ std::string refusal(const std::string& text, const Config& config) {
 
 TEST(Settings, AStartupBlockSetsTheModesOfTheFirstLine) {
   const auto moves =
-      moves_of("G0 X1 Z2\nG2 X3 Z0 K-2 F10\nM2\n",
+      moves_of("G0 X1 Z2\nG2 X2 I1 F10\nM2\n",
                with([](auto& settings) { settings.startup = "G20 G18 G64 P0.001 G91 G94"; }));
   ASSERT_EQ(moves.size(), 2U);
   EXPECT_DOUBLE_EQ(moves[0].end[0], 25.4);
   EXPECT_DOUBLE_EQ(moves[0].path_tolerance_mm, 0.0254);
-  EXPECT_DOUBLE_EQ(moves[1].end[0], 101.6);
+  EXPECT_DOUBLE_EQ(moves[1].end[0], 76.2);
   EXPECT_DOUBLE_EQ(moves[1].normal[1], 1.0);
   EXPECT_DOUBLE_EQ(moves[1].feed_mm_s, 10.0 * 25.4 / 60.0);
   // G7 halves a lathe's X.
@@ -78,8 +78,8 @@ TEST(Settings, AToolChangeLiftsTheQuillAndGoesToG30) {
   EXPECT_NEAR(moves[1].end[2], -53.0, 1e-9);
   EXPECT_EQ(moves[1].end[0], 1.0);
   EXPECT_EQ(moves[1].kind, MoveKind::rapid);
-  EXPECT_NEAR(moves[2].end[0], -167.0755, 1e-4);
-  EXPECT_NEAR(moves[2].end[1], -111.6514, 1e-4);
+  EXPECT_NEAR(moves[2].end[0], -167.07626, 1e-4);
+  EXPECT_NEAR(moves[2].end[1], -111.65252, 1e-4);
   EXPECT_NEAR(moves[2].end[2], -20.0, 1e-9);
   EXPECT_NEAR(moves[2].end[3], 355.0, 1e-9);
   // With a tool's length in force Z is higher by it; A is not.
@@ -138,10 +138,23 @@ TEST(Settings, AWrappedAxisGoesTheWayItsSignSays) {
   const auto feeds = moves_of("G0 X0 A350\nG1 F500 X10 A10\nX20 A-10\nG2 X30 I5 A-20\nM2\n",
                               with([](auto& settings) { settings.wrapped_axes = "A"; }));
   ASSERT_EQ(feeds.size(), 4U);
-  EXPECT_DOUBLE_EQ(feeds[0].end[3], -10.0);
-  EXPECT_DOUBLE_EQ(feeds[1].end[3], 10.0);
-  EXPECT_DOUBLE_EQ(feeds[2].end[3], 10.0);
-  EXPECT_DOUBLE_EQ(feeds[3].end[3], -340.0);
+  EXPECT_DOUBLE_EQ(feeds[0].end[3], 350.0);
+  EXPECT_DOUBLE_EQ(feeds[1].end[3], 370.0);
+  EXPECT_DOUBLE_EQ(feeds[2].end[3], 370.0);
+  EXPECT_DOUBLE_EQ(feeds[3].end[3], 20.0);
+}
+
+// rs274: stored within a turn, reached from below.
+TEST(Settings, AReferencePointOfAWrappedAxisIsWithinATurn) {
+  const Config config = with([](auto& settings) {
+    settings.wrapped_axes = "A";
+    settings.tool_change_at_g30 = true;
+  });
+  const auto last = [&](const char* program) { return moves_of(program, config).back().end[3]; };
+  EXPECT_DOUBLE_EQ(last("G0 A-189\nG30.1\nG0 A-200\nG30 A-210\nM2\n"), -531.0);
+  EXPECT_DOUBLE_EQ(last("G91 G0 A-100\nG28.1\nG0 A-600\nG28\nM2\n"), -460.0);
+  EXPECT_DOUBLE_EQ(last("G91 G0 A-600\nG30.1\nG30\nM2\n"), -600.0);
+  EXPECT_DOUBLE_EQ(last("G0 A189\nG30.1\nG0 A100\nM6\nM2\n"), 549.0);
 }
 
 TEST(Settings, AWrappedAxisTakesAnglesWithinATurn) {
