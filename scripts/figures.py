@@ -6,7 +6,7 @@
 
 docs/figures.toml names runs of the program and lines of pages made from their answers. Without --write a page whose line
 differs is a fault, shown with what the line should be; with --write the line is put right. A line is found by its text
-outside the figures. WORD takes only the pages whose name contains it.
+outside the figures; it is the whole line. WORD takes only the pages whose name contains it.
 """
 
 import argparse
@@ -80,7 +80,7 @@ def rendered(template, runs):
 
 def pattern_of(template):
     parts = [re.escape(part) for part in FIELD.sub("\0", template).split("\0")]
-    return re.compile(FIGURE.join(parts))
+    return re.compile("^" + FIGURE.join(parts) + "$", re.MULTILINE)
 
 
 def main():
