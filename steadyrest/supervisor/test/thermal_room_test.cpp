@@ -21,7 +21,7 @@ using test::kCycle_s;
 
 constexpr double kSlope_mm_s = 0.060 / 60.0;
 constexpr double kMost_mm = 0.020;
-constexpr std::size_t kZ = 2;
+constexpr std::size_t kHeatZ = 2;
 
 /// Z grows fast, so that a test of a few seconds shows something.
 kernel::machine::Machine warming(Mode mode) {
@@ -57,11 +57,11 @@ TEST(ThermalRoom, MovesTheAxisAgainstItsGrowth) {
   Warm bench;
   const auto command = bench.cycles(20'000);
   const double grown = 0.005 * (1.0 - std::exp(-2.0));
-  EXPECT_NEAR(command.offset_mm[kZ], -grown, 6e-4) << "handed on once a second";
+  EXPECT_NEAR(command.offset_mm[kHeatZ], -grown, 6e-4) << "handed on once a second";
   EXPECT_EQ(command.offset_reason, Reason::thermal_correcting);
   EXPECT_TRUE(command.write);
   ASSERT_TRUE(bench.supervisor.estimates().thermal);
-  EXPECT_NEAR(bench.supervisor.estimates().thermal->displacement_mm[kZ], grown, 6e-4);
+  EXPECT_NEAR(bench.supervisor.estimates().thermal->displacement_mm[kHeatZ], grown, 6e-4);
 }
 
 TEST(ThermalRoom, IsOffUnlessTheMachineFileSaysSo) {
@@ -69,7 +69,7 @@ TEST(ThermalRoom, IsOffUnlessTheMachineFileSaysSo) {
   machine.thermal.enabled = false;
   Bench bench(machine);
   bench.frame.spindle_actual_rev_s = 50.0;
-  EXPECT_EQ(bench.cycles(5000).offset_mm[kZ], 0.0);
+  EXPECT_EQ(bench.cycles(5000).offset_mm[kHeatZ], 0.0);
   EXPECT_FALSE(bench.supervisor.estimates().thermal);
   EXPECT_EQ(bench.supervisor.thermal(), nullptr);
 }
@@ -78,9 +78,9 @@ TEST(ThermalRoom, IsOffUnlessTheMachineFileSaysSo) {
 TEST(ThermalRoom, ObservingItForecastsAndWritesNothing) {
   Warm bench(Mode::observe);
   const auto command = bench.cycles(5000);
-  EXPECT_EQ(command.offset_mm[kZ], 0.0);
+  EXPECT_EQ(command.offset_mm[kHeatZ], 0.0);
   EXPECT_FALSE(command.write);
-  EXPECT_GT(bench.supervisor.estimates().thermal->displacement_mm[kZ], 0.001);
+  EXPECT_GT(bench.supervisor.estimates().thermal->displacement_mm[kHeatZ], 0.001);
 }
 
 // On the way to act the advised offset must not appear at once: it has never been on the machine,
@@ -91,7 +91,7 @@ TEST(ThermalRoom, WhatWasOnlyAdvisedIsNotTakenOverByAJump) {
   bench.supervisor.set_mode(Mode::act);
   double before = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    const double offset = bench.cycle().offset_mm[kZ];
+    const double offset = bench.cycle().offset_mm[kHeatZ];
     ASSERT_LE(std::abs(offset - before), kSlope_mm_s * kCycle_s * (1.0 + 1e-6));
     before = offset;
   }
@@ -106,12 +106,13 @@ TEST(ThermalRoom, AfterStaleInputTheOffsetComesBackByTheSlope) {
   bench.frame.motion = Motion::rapid;
   bench.cycle();
   bench.frame.age_s = 1.0;
-  EXPECT_EQ(bench.cycles(500).offset_mm[kZ], 0.0) << "out of the cut: ramped out by the envelope";
+  EXPECT_EQ(bench.cycles(500).offset_mm[kHeatZ], 0.0)
+      << "out of the cut: ramped out by the envelope";
   bench.frame.age_s = 0.0;
   bench.frame.motion = Motion::feed;
   double before = 0.0;
   for (int i = 0; i < 1000; ++i) {
-    const double offset = bench.cycle().offset_mm[kZ];
+    const double offset = bench.cycle().offset_mm[kHeatZ];
     ASSERT_LE(std::abs(offset - before), kSlope_mm_s * kCycle_s * (1.0 + 1e-6));
     before = offset;
   }
@@ -120,7 +121,7 @@ TEST(ThermalRoom, AfterStaleInputTheOffsetComesBackByTheSlope) {
 TEST(ThermalRoom, APortThatTakesNoOffsetsGetsNone) {
   Warm bench(Mode::act, {.feed_override = true, .spindle_override = true, .latched_word = true});
   const auto command = bench.cycles(5000);
-  EXPECT_EQ(command.offset_mm[kZ], 0.0);
+  EXPECT_EQ(command.offset_mm[kHeatZ], 0.0);
   EXPECT_EQ(command.offset_reason, Reason::port_cannot_write);
 }
 
@@ -150,17 +151,17 @@ TEST(ThermalRoom, AReadingOfThePortIsOfWhatStandsInEveryMode) {
   for (const Mode mode : {Mode::observe, Mode::advise, Mode::act}) {
     Warm bench(mode);
     const auto command = bench.cycles(20'000);
-    const double stands = mode == Mode::act ? command.offset_mm[kZ] : 0.0;
+    const double stands = mode == Mode::act ? command.offset_mm[kHeatZ] : 0.0;
     const auto& thermal = bench.supervisor.estimates().thermal;
     bench.frame.probe = {.number = 1,
-                         .axis = kZ,
-                         .displacement_mm = thermal->displacement_mm[kZ] + stands + 0.0003,
+                         .axis = kHeatZ,
+                         .displacement_mm = thermal->displacement_mm[kHeatZ] + stands + 0.0003,
                          .sd_mm = 0.0002};
     bench.cycle();
     EXPECT_EQ(thermal->probed.verdict.reason, Reason::thermal_reading_taken);
     EXPECT_NEAR(thermal->probed.verdict.innovation_mm, 0.0003, 1e-4) << "but for a second's heat";
     bench.cycles(100);
-    EXPECT_EQ(bench.supervisor.thermal()->state().axis[kZ].filter.readings, 1U);
+    EXPECT_EQ(bench.supervisor.thermal()->state().axis[kHeatZ].filter.readings, 1U);
   }
 }
 
@@ -169,7 +170,7 @@ TEST(ThermalRoom, AReadingThatIsNoneDoesNotMakeTheFrameUnfit) {
   Warm bench;
   bench.cycles(10);
   bench.frame.probe = {
-      .number = 1, .axis = kZ, .displacement_mm = kernel::units::kNan, .sd_mm = 0.0};
+      .number = 1, .axis = kHeatZ, .displacement_mm = kernel::units::kNan, .sd_mm = 0.0};
   const auto command = bench.cycle();
   EXPECT_EQ(command.feed_reason, Reason::none);
   EXPECT_EQ(bench.supervisor.estimates().thermal->probed.verdict.reason, Reason::input_not_finite);
@@ -189,7 +190,7 @@ RC_GTEST_PROP(ThermalRoomSafety, NoHistoryLeavesClampSlopeOrFreeze, ()) {
   Warm bench;
   const double slew = warming(Mode::act).envelope.offset_slew_mm_s;
   bench.cycles(4000);
-  double before = bench.cycle().offset_mm[kZ];
+  double before = bench.cycle().offset_mm[kHeatZ];
   bool in_cut = true;
   for (int k = 0; k < 30; ++k) {
     bench.frame.motion = static_cast<Motion>(*rc::gen::inRange(0, 9));
@@ -201,7 +202,7 @@ RC_GTEST_PROP(ThermalRoomSafety, NoHistoryLeavesClampSlopeOrFreeze, ()) {
     const int cycles = *rc::gen::inRange(1, 60);
     for (int i = 0; i < cycles; ++i) {
       const auto command = bench.cycle();
-      const double offset = command.offset_mm[kZ];
+      const double offset = command.offset_mm[kHeatZ];
       if (!unfit) {
         const Motion m = bench.frame.motion;
         in_cut = m == Motion::feed || m == Motion::thread || m == Motion::tap

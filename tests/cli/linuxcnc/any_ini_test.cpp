@@ -65,8 +65,8 @@ TEST(AnyIniFile, GivesAMachineFileThatReadsBackOrARefusal) {
     const std::string text = mutated();
     const auto ini = config::IniFile::parse(text, "m.ini");
     const auto machine = ini ? config::configuration_of(*ini) : std::unexpected(ini.error());
-    const auto out =
-        machine ? config::machine_text(*ini, *machine) : std::unexpected(machine.error());
+    const auto out = machine ? config::machine_text(*ini, *machine, nullptr, {})
+                             : std::unexpected(machine.error());
     if (!out) {
       RC_ASSERT(out.error().file == "m.ini");
       RC_ASSERT(!out.error().what.empty());

@@ -46,8 +46,8 @@ TEST_F(StockConfigurations, GiveAMachineFileThatReadsBackOrARefusal) {
     ++tried;
     const auto ini = config::IniFile::read(path.string());
     const auto machine = ini ? config::configuration_of(*ini) : std::unexpected(ini.error());
-    const auto text =
-        machine ? config::machine_text(*ini, *machine) : std::unexpected(machine.error());
+    const auto text = machine ? config::machine_text(*ini, *machine, nullptr, {})
+                              : std::unexpected(machine.error());
     if (!text) {
       expect_clear(text.error(), path);
       continue;

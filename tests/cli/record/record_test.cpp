@@ -29,8 +29,8 @@ constexpr int kCycles = 7200;
 constexpr int kCircleLine = 10;  ///< of circle-r10.mpf
 
 /// The record's own machine file with another line.
-std::string machine_with(const Scratch& scratch, const std::string& line,
-                         const std::string& instead) {
+std::string own_machine_with(const Scratch& scratch, const std::string& line,
+                             const std::string& instead) {
   std::string text = text_of_file(project_file("examples/machines/ideal-k50.toml"));
   const std::size_t at = text.find(line);
   EXPECT_NE(at, std::string::npos);
@@ -170,7 +170,7 @@ TEST(RecordExport, HasTheContourErrorAndTheNamesOfReasons) {
 
 TEST(RecordReplay, ComparesEveryCycle) {
   const Scratch scratch;
-  const std::string other = machine_with(scratch, "limit_um = 10", "limit_um = 20");
+  const std::string other = own_machine_with(scratch, "limit_um = 10", "limit_um = 20");
   const json answer = answer_of("record replay " + kRecord + " --machine " + other);
   EXPECT_EQ(answer["cycles"], kCycles);
   const json& first = answer["first_difference"];

@@ -18,6 +18,7 @@
 #include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/record_writer.hpp>
 #include <steadyrest/record/tables/record_table.hpp>
+#include <steadyrest/trial/replay/derived_columns.hpp>
 
 namespace steadyrest::apps::live_page::past_runs {
 namespace {
@@ -145,7 +146,8 @@ TEST_F(PastRun, IsExportedAsTheCommandLineDoes) {
   std::string table;
   auto reader = RecordReader::open(file).value();
   ASSERT_TRUE(record::tables::write_csv(
-      reader, [&table](std::string_view line) { table += line; }, [](auto) { return true; }));
+      reader, [&table](std::string_view line) { table += line; }, [](auto) { return true; },
+      trial::replay::derived_columns(reader.run())));
   const std::size_t before = files();
   {
     const auto csv = exported("csv");

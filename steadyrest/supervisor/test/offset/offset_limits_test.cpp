@@ -43,8 +43,8 @@ Machine limited() {
 }
 
 /// A layer in the cut, and what its machine has.
-struct Cut {
-  explicit Cut(const Machine& of) : machine(of) { start(); }
+struct LimitedCut {
+  explicit LimitedCut(const Machine& of) : machine(of) { start(); }
 
   void start() { layer.emplace(Supervisor::make(machine, kOffsets).value()); }
   void ask() {
@@ -103,7 +103,7 @@ struct Cut {
 };
 
 RC_GTEST_PROP(OffsetLimits, NothingJumpsWhateverLimitsARestartOrAReloadBrings, ()) {
-  Cut cut(limited());
+  LimitedCut cut(limited());
   for (int act = 0; act < 12; ++act) {
     cut.ask();
     const int cycles = *rc::gen::inRange(1, 120);
@@ -134,7 +134,7 @@ RC_GTEST_PROP(OffsetLimits, NothingJumpsWhateverLimitsARestartOrAReloadBrings, (
 
 // Each lowered limit is reached and kept, in the cut, whatever is asked for.
 RC_GTEST_PROP(OffsetLimits, ALowerLimitIsReachedAfterARestart, ()) {
-  Cut cut(limited());
+  LimitedCut cut(limited());
   cut.ask();
   for (int i = 0; i < 300; ++i) {
     cut.cycle();
@@ -160,7 +160,7 @@ TEST(OffsetLimits, AnImpossibleStateIsWaitedOut) {
   Machine machine = test::mill(Mode::act);
   machine.contour.enabled = false;
   machine.thermal.enabled = false;
-  Cut cut(machine);
+  LimitedCut cut(machine);
   cut.heat = {{.reason = Reason::contour_cancelled}};
   cut.heat[0].offset_mm[0] = 0.02;
   for (int i = 0; i < 500; ++i) {
