@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,6 +19,12 @@ namespace steadyrest::record {
 
 /// `mode`, `unread`, `undelivered`, `note`, `reload`, `wish`; ends with 0.
 [[nodiscard]] std::string_view word(EventKind kind) noexcept;
+
+/// A column of a table that is worked out from a run's samples, given in their order.
+struct Derived {
+  std::string name;  ///< ends in its unit
+  std::function<double(const Sample&)> value;
+};
 
 /// Reads a record in order, bit for bit as it was written. A run that is still being written may be
 /// read too: as far as it was when open() was called, at least.

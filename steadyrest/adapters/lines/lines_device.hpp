@@ -9,7 +9,7 @@
 #include <steadyrest/adapters/lines/override_line.hpp>
 #include <steadyrest/adapters/lines/wires.hpp>
 #include <steadyrest/kernel/link/exchange.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 
 namespace steadyrest::adapters::lines {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <steadyrest/adapters/lines/wires.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// Two layers on one module would flip its words for ever: the second one must not begin.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <steadyrest/adapters/lines/wires.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/kernel/override/table.hpp>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/link/event.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::lines {

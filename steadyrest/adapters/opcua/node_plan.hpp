@@ -8,7 +8,7 @@
 
 #include <steadyrest/adapters/opcua/reading.hpp>
 #include <steadyrest/adapters/opcua/wire.hpp>
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/links/opcua.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::opcua {

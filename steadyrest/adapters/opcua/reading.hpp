@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/links/opcua.hpp>
 #include <steadyrest/kernel/signal/path.hpp>
 
 namespace steadyrest::adapters::opcua {

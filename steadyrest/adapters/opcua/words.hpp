@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/links/opcua.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::adapters::opcua {

@@ -15,8 +15,8 @@
 #include <steadyrest/kernel/machine/contour.hpp>
 #include <steadyrest/kernel/machine/control.hpp>
 #include <steadyrest/kernel/machine/envelope.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
-#include <steadyrest/kernel/machine/opcua.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
+#include <steadyrest/kernel/machine/links/opcua.hpp>
 #include <steadyrest/kernel/machine/override_table.hpp>
 #include <steadyrest/kernel/machine/program.hpp>
 #include <steadyrest/kernel/machine/simulation.hpp>

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/record/derived.hpp>
 #include <steadyrest/record/record_reader.hpp>
 
 /// A record as a table for other programs.

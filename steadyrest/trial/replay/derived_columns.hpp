@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <steadyrest/record/derived.hpp>
+#include <steadyrest/record/record_reader.hpp>
 #include <steadyrest/record/sample.hpp>
 
 namespace steadyrest::trial::replay {

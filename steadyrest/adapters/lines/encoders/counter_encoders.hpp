@@ -9,7 +9,7 @@
 
 #include <steadyrest/adapters/lines/encoders/device_calls.hpp>
 #include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 
 namespace steadyrest::adapters::lines {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <steadyrest/adapters/lines/encoders/encoder_source.hpp>
-#include <steadyrest/kernel/machine/lines.hpp>
+#include <steadyrest/kernel/machine/links/lines.hpp>
 
 namespace steadyrest::adapters::lines {
 

@@ -4,6 +4,7 @@
 
 #include <steadyrest/adapters/linuxcnc/config/hal_use.hpp>
 #include <steadyrest/adapters/linuxcnc/config/ini_file.hpp>
+#include <steadyrest/adapters/linuxcnc/config/layer_text.hpp>
 #include <steadyrest/adapters/linuxcnc/config/marked_lines.hpp>
 #include <steadyrest/adapters/linuxcnc/config/setup.hpp>
 #include <steadyrest/adapters/linuxcnc/config/text_lines.hpp>
@@ -11,7 +12,7 @@
 #include <steadyrest/kernel/file/place.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 
-// Undo, and what it shares with setup.
+// Undo, what it shares with setup, and the layer's files as they are shipped.
 namespace steadyrest::adapters::linuxcnc::config {
 
 namespace fs = std::filesystem;
@@ -92,6 +93,12 @@ Result<void> undo_hal_files(const std::string& ini_path, const IniFile& ini, Set
     }
   }
   return {};
+}
+
+LayerHal three_axes() {
+  LayerHal layer;
+  layer.axes = {{'X', 0, false}, {'Y', 1, false}, {'Z', 2, false}};
+  return layer;
 }
 
 }  // namespace
@@ -188,6 +195,28 @@ Result<void> carry_out(const SetupPlan& plan) {
     }
   }
   return {};
+}
+
+// What lies beside this folder as layer.hal and layer_offsets.hal.
+std::string shipped_layer_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp; `cmake --build --preset release --target layer_hal` "
+         "writes it. For three axes and one\n"
+         "# spindle: a further HALFILE after the machine's own. `steadyrest linuxcnc setup` makes "
+         "one for any other machine.\n"
+         "# The machine's own files must leave motion.adaptive-feed free and load none of these "
+         "components.\n" +
+         layer_text(three_axes());
+}
+
+std::string shipped_offsets_hal() {
+  return "# SPDX-License-Identifier: Apache-2.0\n"
+         "# Made from config/layer_text.cpp, as layer.hal. Axis offsets of three linear axes: a "
+         "HALFILE after layer.hal, where the\n"
+         "# machine does not use axis.L.eoffset itself. Each [AXIS_L] section of the INI file "
+         "needs OFFSET_AV_RATIO: the share of its\n"
+         "# speed and acceleration kept for offsets.\n" +
+         offsets_text(three_axes());
 }
 
 }  // namespace steadyrest::adapters::linuxcnc::config
