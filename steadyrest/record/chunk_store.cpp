@@ -76,15 +76,16 @@ ChunkStore::ChunkStore(Database database, const std::string& file)
 Result<void> ChunkStore::begin_file(const std::string& file, const RunInfo& info) {
   const std::string begun = file + kBegun;
   std::error_code fault;
-  for (const char* const beside : {"", "-journal"}) {
+  for (const char* const beside : {"", "-journal", "-wal", "-shm"}) {
     std::filesystem::remove(begun + beside, fault);
   }
   auto database = Database::create(begun);
   if (!database) {
     return std::unexpected(std::move(database.error()));
   }
-  return in_turn([&] { return database->run("BEGIN"); }, [&] { return database->run(kSchema); },
-                 [&] { return write_run(*database, info); },
+  // The change to a log goes by a journal, which a reader that must not write cannot play back.
+  return in_turn([&] { return database->run(kWriting); }, [&] { return database->run("BEGIN"); },
+                 [&] { return database->run(kSchema); }, [&] { return write_run(*database, info); },
                  [&] { return database->run("COMMIT"); });
 }
 

@@ -72,12 +72,8 @@ class ProgramRun::Run {
   }
 
  private:
-  /// False when it is refused.
-  /// More values than PROC takes show at the subprogram's first block after PROC.
-  bool line() {
-    if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
-      return refuse(flow_.refused());
-    }
+  /// Before a line is read.
+  void at_line() {
     asked().clear();
     executed_ = false;
     at_top_ = files_.in_main() && !flow_.repeating();
@@ -85,6 +81,15 @@ class ProgramRun::Run {
     line_ = files_.now().number();
     interpreter_->at_line(line_);
     provenance_.at_line(line_, flow_.in_doubt(), flow_.repeating());
+  }
+
+  /// False when it is refused.
+  /// More values than PROC takes show at the subprogram's first block after PROC.
+  bool line() {
+    if (!flow_.count_line(report_.moves - std::exchange(moves_before_, report_.moves))) {
+      return refuse(flow_.refused());
+    }
+    at_line();
     if (flow_.passing_over()) {
       return pass_over();
     }
@@ -125,6 +130,11 @@ class ProgramRun::Run {
       return refuse(at_block(block_, "subprogram_end",
                              "the end of a program in a subprogram; write M17 or RET"));
     }
+    return program_call();
+  }
+
+  /// A call or an end of a subprogram that the block has asked for.
+  bool program_call() {
     const Interpreter::ProgramCall& call = interpreter_->program_call();
     switch (call.kind) {
       case Interpreter::ProgramCall::Kind::none:

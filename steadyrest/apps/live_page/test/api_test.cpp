@@ -256,7 +256,8 @@ TEST_F(PageApi, RefusesWhatIsNestedWithoutEnd) {
   for (const Route& route : Api::routes()) {
     if (route.method == "POST") {
       const auto got = desk.ask("POST", address_of(route), R"({"mode":)" + deep + "}");
-      EXPECT_EQ(got.status, 400U) << route.path;
+      // A log-in has a bound of its own.
+      EXPECT_EQ(got.status, address_of(route) == "/api/v1/session" ? 413U : 400U) << route.path;
     }
   }
 }
@@ -287,7 +288,7 @@ TEST_F(PageApi, CookieIsTheBrowsersAloneAndSecureOverTls) {
   auto request = PageDesk::request("POST", "/api/v1/session",
                                    R"({"name":"anna","password":"secret of anna"})");
   request.secure = true;
-  const auto got = desk.api().answer(request);
+  const auto got = desk.answered(request);
   EXPECT_THAT(got.head,
               Contains(Pair("Set-Cookie", HasSubstr("; HttpOnly; SameSite=Strict; Secure"))));
 }
@@ -296,7 +297,7 @@ TEST_F(PageApi, SessionsOfTwoPagesOnOneComputerDoNotMix) {
   auto request = PageDesk::request("POST", "/api/v1/session",
                                    R"({"name":"anna","password":"secret of anna"})");
   request.host = "127.0.0.1:8080";
-  const auto got = desk.api().answer(request);
+  const auto got = desk.answered(request);
   const std::string own = got.head[0].second.substr(0, got.head[0].second.find(';'));
   EXPECT_THAT(own, testing::StartsWith("steadyrest_session_8080="));
   auto later = PageDesk::request("GET", "/api/v1/status");

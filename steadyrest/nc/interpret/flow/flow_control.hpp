@@ -104,8 +104,9 @@ class FlowControl {
     bool by_number = false;
     std::vector<Open> open;
     bool doubtful = false;  ///< from here to its end
-    std::vector<std::uint32_t> left_heads =
-        {};  ///< lines of loops whose further turns are in doubt
+    /// Lines of loops whose further turns are in doubt. Designated initialisers may leave it out.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::vector<std::uint32_t> left_heads = {};
   };
 
   bool sub(const read::Block& block);

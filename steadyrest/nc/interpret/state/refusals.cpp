@@ -25,7 +25,9 @@ bool Refusals::letter(const Step& step, char letter, std::string_view reason,
                       std::string_view text) {
   // First the words under another name: with CR= the block's own R would be another word.
   if ((step.renamed_letters & Step::bit(letter)) != 0) {
-    return word(step.line, step.block->words()[step.letter_from[letter - 'A']], reason, text);
+    return word(step.line,
+                step.block->words()[step.letter_from[static_cast<std::size_t>(letter - 'A')]],
+                reason, text);
   }
   for (const Word& one : step.block->words()) {
     if (one.letter == letter) {
