@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
@@ -19,7 +18,7 @@ std::vector<record::Derived> derived_columns(const record::RunInfo& run) {
   if (!made) {
     return {};
   }
-  auto error = std::make_shared<ContourError>(std::move(*made));
+  auto error = std::make_shared<ContourError>(*made);
   return {{"contour_error_mm", [error](const record::Sample& sample) {
              const ContourError::Output seen = error->update(sample.frame);
              return seen.valid ? seen.error_mm : std::numeric_limits<double>::quiet_NaN();

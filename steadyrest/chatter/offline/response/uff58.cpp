@@ -22,7 +22,6 @@ using kernel::outcome::bad_input;
 using kernel::outcome::Refusal;
 using kernel::outcome::Result;
 
-constexpr int kMultipleCoherence = 26;
 constexpr double kSameFrequency = 1e-6;
 constexpr long kLastTranslation = 3;
 
@@ -139,7 +138,7 @@ class FrfMaker {
                                    crosses == 1 ? "response" : "responses"));
     }
     if (!first.points_read || !first.reference.stated()) {
-      notes_.push_back("where the force acted is not stated; taken as the drive point");
+      notes_.emplace_back("where the force acted is not stated; taken as the drive point");
     }
     return std::nullopt;
   }
