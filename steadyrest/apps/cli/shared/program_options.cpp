@@ -227,7 +227,7 @@ Result<void> no_assumption(const nc::interpret::Report& report, const std::strin
   if (bars == report.assumed.end()) {
     return {};
   }
-  return kernel::outcome::refuse(file, static_cast<int>(bars->line), bars->text, bars->to_do);
+  return kernel::outcome::refuse(file, bars->line, bars->text, bars->to_do);
 }
 
 Result<void> no_assumption(const std::string& file, const Config& config) {
