@@ -196,8 +196,8 @@ bool OffsetEnvelope::approach(const signal::AxisValues& target_mm,
     const double returned_mm = std::abs(offset_mm - before_mm);
     // A slope that is NaN or negative moves nothing.
     const double slope = slope_mm_s[axis] >= 0.0 ? slope_mm_s[axis] : 0.0;
-    const double step_mm = std::min(std::min(slope, config_.slew_mm_s) * step_s,
-                                    std::max(0.0, most_mm - returned_mm));
+    const double step_mm =
+        std::min(std::min(slope, config_.slew_mm_s) * step_s, std::max(0.0, most_mm - returned_mm));
     offset_mm = toward(offset_mm, target_mm[axis], step_mm, step_mm);
     reached = reached &&
               (offset_mm == target_mm[axis] || (returned_mm == 0.0 && slope <= config_.slew_mm_s));

@@ -28,8 +28,8 @@ std::string beside(const std::string& plan, const std::string& named) {
 
 }  // namespace
 
-/// Parsed twice: once as the rewriter does it, with all its checks, once for the notes, which may be
-/// missing in a plan written by hand.
+/// Parsed twice: once as the rewriter does it, with all its checks, once for the notes, which may
+/// be missing in a plan written by hand.
 Result<ThermalPlanFile> read_thermal_plan(const std::string& path) {
   const auto text = nc::rewrite::read_plan_text(path);
   if (!text) {  // a wrong path is the caller's mistake, whatever the reason
