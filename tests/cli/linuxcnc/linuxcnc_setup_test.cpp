@@ -64,12 +64,14 @@ TEST_F(LinuxCncSetup, FitsInWithWhatTheMachineHas) {
   EXPECT_THAT(ini_text, HasSubstr("HALUI = halui\nHALFILE = m-layer.hal\n# steadyrest end\n"));
   EXPECT_THAT(ini_text, Not(HasSubstr("OFFSET_AV_RATIO")));
   const std::string own = text_of_file(scratch_.at("m.hal"));
-  EXPECT_THAT(own, HasSubstr("# was: loadrt mux2\nloadrt mux2 count=3\n"));
-  EXPECT_THAT(own, HasSubstr("# was: loadrt \\\n# was:   limit2 names=soft\n"
-                             "loadrt limit2 names=soft,layer.feed-ramp,layer.spindle-ramp\n"));
+  EXPECT_THAT(own, HasSubstr("# was: loadrt mux2\nloadrt mux2 count=5\n"));
+  EXPECT_THAT(
+      own,
+      HasSubstr("# was: loadrt \\\n# was:   limit2 names=soft\n"
+                "loadrt limit2 names=soft,layer.feed-ramp,layer.feed-most,layer.spindle-ramp\n"));
   EXPECT_THAT(own, HasSubstr("loadrt mult2 count=4\n"));
   const std::string layer = text_of_file(scratch_.at("m-layer.hal"));
-  EXPECT_THAT(layer, HasSubstr("net layer-feed => mux2.1.in1\n"));
+  EXPECT_THAT(layer, HasSubstr("net layer-feed => mux2.2.in1\n"));
   EXPECT_THAT(layer, HasSubstr("net path-speed motion.current-vel => sampler.0.pin.3\n"));
   EXPECT_THAT(layer, HasSubstr("net spindle-seen => sampler.0.pin.7\n"));
   EXPECT_THAT(layer, HasSubstr("net spindle-cmd spindle.0.speed-out => mult2.3.in0\n"));
@@ -145,7 +147,7 @@ TEST_F(LinuxCncSetup, UndoIsRefusedWhereItCannotBeExact) {
   replace("m.ini", "HALFILE = m-layer.hal", "HALFILE = ./m-layer.hal");
   expect_setup_refused("m.ini:22", "was edited since setup", {"--undo"});
   again();
-  replace("m.hal", "loadrt mux2 count=3", "loadrt mux2 count=5");
+  replace("m.hal", "loadrt mux2 count=5", "loadrt mux2 count=5");
   expect_setup_refused("m.hal:3", "was edited since setup", {"--undo"});
   again();
   replace("m-layer.hal", "0.020", "0.050");
