@@ -95,7 +95,7 @@ TEST(ProgramUnits, OfTheMachineFileAllowARewriteAndAreProvedWithoutIt) {
   const std::string program = scratch.file("part.nc", square(""));
   const std::string changed = scratch.at("out.nc");
   answer_of("program predistort " + program + machine_with(scratch, "fanuc", "mm") +
-            " --max-error-mm 0.01 -o " + changed);
+            " --max-error-mm 0.01 --max-time-percent 10 -o " + changed);
   EXPECT_THAT(text_of_file(changed), HasSubstr("units mm"));
   EXPECT_TRUE(answer_of("program verify " + program + " " + changed)["proved"].get<bool>());
   expect_refused("program verify " + program + " " + changed + " --units inch", "--units");

@@ -62,7 +62,7 @@ Outcome run(const Options& options, bool json) {
     say_dialect(answer, options.program, *machine);
   }
   answer.json["moves"] = report->moves;
-  answer.notes = put_assumed(answer, *report);
+  answer.notes += put_assumed(answer, *report);
   return answer;
 }
 

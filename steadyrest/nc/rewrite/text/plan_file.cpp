@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -239,6 +241,10 @@ Result<Plan> parse_plan(std::string_view text, const std::string& path) {
 }
 
 Result<std::string> read_plan_text(const std::string& path) {
+  if (std::error_code unknown; std::filesystem::is_directory(path, unknown)) {
+    return std::unexpected(
+        Refusal{Kind::unavailable, path, 0, "is a folder", "give the path of a plan"});
+  }
   std::ifstream in(path, std::ios::binary);
   std::string text;
   if (in) {
