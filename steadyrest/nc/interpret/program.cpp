@@ -135,20 +135,16 @@ class ProgramRun::Run {
 
   /// A call or an end of a subprogram that the block has asked for.
   bool program_call() {
+    using Kind = Interpreter::ProgramCall::Kind;
     const Interpreter::ProgramCall& call = interpreter_->program_call();
-    switch (call.kind) {
-      case Interpreter::ProgramCall::Kind::none:
-        return true;
-      case Interpreter::ProgramCall::Kind::call:
-        if (rules_.numbered_programs) {
-          return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
-        }
-        return call.repeats < 0.5 ||
-               follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
-      case Interpreter::ProgramCall::Kind::end:
-        return end_of_subprogram();
+    if (call.kind != Kind::call) {
+      return call.kind == Kind::none || end_of_subprogram();
     }
-    return true;
+    if (rules_.numbered_programs) {
+      return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
+    }
+    return call.repeats < 0.5 ||
+           follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
   }
 
   /// A line that a condition, a count or a search skips.
