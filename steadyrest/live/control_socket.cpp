@@ -51,7 +51,7 @@ class Client : public std::enable_shared_from_this<Client> {
   void give_way() {
     std::erase(all_, this);
     error_code ignored;
-    (void)socket_.close(ignored);
+    ignored = socket_.close(ignored);
   }
 
   void next() {
