@@ -119,6 +119,11 @@ def floods(token):
     }
 
 
+def aside(flood, port, until):
+    os.nice(10)  # a flood comes from other computers: it does not take the layer's
+    flood(port, until)
+
+
 def hand_backs(port, token, until):
     times, bad = [], 0
     text = body("POST", "/api/v1/hand-back", port, b"{}", f"Authorization: Bearer {token}\r\n")
@@ -162,7 +167,7 @@ def main():
                 if options.only not in name:
                     continue
                 until = time.time() + options.seconds
-                work = [multiprocessing.Process(target=flood, args=(port, until), daemon=True) for _ in range(processes)]
+                work = [multiprocessing.Process(target=aside, args=(flood, port, until), daemon=True) for _ in range(processes)]
                 for one_of in work:
                     one_of.start()
                 time.sleep(0.5)

@@ -32,6 +32,10 @@ Guests::Place Guests::find(const std::string& address) {
   if (entries_.size() - kept_ < most_ || make_room(address, false)) {
     return Place::any;
   }
+  return find_kept(address);
+}
+
+Guests::Place Guests::find_kept(const std::string& address) {
   return kept_ < most_kept_ || make_room(address, true) ? Place::kept : Place::none;
 }
 

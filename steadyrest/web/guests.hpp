@@ -63,6 +63,7 @@ class Guests {
   enum class Place { none, any, kept };
   /// For a connection from there; another one may have given way.
   [[nodiscard]] Place find(const std::string& address);
+  [[nodiscard]] Place find_kept(const std::string& address);
 
  private:
   bool make_room(const std::string& address, bool kept);

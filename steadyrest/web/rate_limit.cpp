@@ -5,25 +5,27 @@
 
 namespace steadyrest::web {
 
-double RateLimit::left(const std::string& key, double now_s) const {
-  const auto at = by_key_.find(key);
-  if (at == by_key_.end()) {
-    return config_.burst;
-  }
-  const double more = std::max(0.0, now_s - at->second.at_s) * config_.per_s;
-  return std::min(config_.burst, at->second.left + more);
+double RateLimit::left(const Bucket& bucket, double now_s) const {
+  const double more = std::max(0.0, now_s - bucket.at_s) * config_.per_s;
+  return std::min(config_.burst, bucket.left + more);
 }
 
-/// Forgets those that are full again, where there is no room for a new key; else the fullest.
+double RateLimit::left(const std::string& key, double now_s) const {
+  const auto at = by_key_.find(key);
+  return at == by_key_.end() ? config_.burst : left(at->second, now_s);
+}
+
+/// Forgets those that have more than half left, where there is no room for a new key; else the
+/// fullest. All that have so much, since a flood of keys would else search all of them each time.
 void RateLimit::make_room(const std::string& key, double now_s) {
   if (by_key_.size() < config_.most_keys || by_key_.contains(key)) {
     return;
   }
-  const double full_s = config_.burst / config_.per_s;
-  std::erase_if(by_key_, [&](const auto& at) { return now_s - at.second.at_s > full_s; });
+  std::erase_if(by_key_,
+                [&](const auto& at) { return left(at.second, now_s) > 0.5 * config_.burst; });
   if (by_key_.size() >= config_.most_keys) {
     by_key_.erase(std::ranges::max_element(by_key_, {},
-                                           [&](const auto& at) { return left(at.first, now_s); }));
+                                           [&](const auto& at) { return left(at.second, now_s); }));
   }
 }
 

@@ -9,8 +9,8 @@
 namespace steadyrest::web {
 
 /// So many events at once and so many a second, for each key: a token bucket. Memory is bounded:
-/// beyond `most_keys` the one that has most left is forgotten for a new one, so that many addresses
-/// shut nobody out and none that has used up its share gets it back. From any thread.
+/// beyond `most_keys` those with more than half left are forgotten for a new one, so that many
+/// addresses shut nobody out and none that has used up its share gets it back. From any thread.
 class RateLimit {
  public:
   struct Config {
@@ -33,6 +33,7 @@ class RateLimit {
     double left = 0.0;
     double at_s = 0.0;
   };
+  [[nodiscard]] double left(const Bucket& bucket, double now_s) const;
   [[nodiscard]] double left(const std::string& key, double now_s) const;
   void make_room(const std::string& key, double now_s);
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include <fmt/core.h>
 #include <openssl/ssl.h>
+#include <sys/socket.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/web/connection.hpp>
@@ -20,6 +24,12 @@ using kernel::outcome::Result;
 
 constexpr auto kPauseAfterFault = std::chrono::milliseconds(100);
 constexpr auto kLook = std::chrono::seconds(1);
+constexpr int kMostAtOnce = 256;
+
+// New connections of one address, and of all: further ones get the kept places alone. Each costs
+// the traffic's thread about a millisecond with its answer.
+constexpr RateLimit::Config kNewOfOne{.per_s = 150.0, .burst = 300.0, .most_keys = 4096};
+constexpr RateLimit::Config kNewOfAll{.per_s = 300.0, .burst = 600.0, .most_keys = 1};
 
 class BeastServer final : public Server {
  public:
@@ -66,6 +76,7 @@ class BeastServer final : public Server {
       return refuse(fmt::format("{} port {}: {}", config.address, config.port, fault.message()),
                     "give another --listen");
     }
+    fault = acceptor_.non_blocking(true, fault);
     port_ = acceptor_.local_endpoint().port();
     accept();
     look();
@@ -126,12 +137,16 @@ class BeastServer final : public Server {
 
   void accept() {
     acceptor_.async_accept([this](beast::error_code fault, tcp::socket socket) {
-      if (!fault) {
+      // All that have come: those of a flood must not keep others waiting behind them.
+      for (int i = 0; !fault && i < kMostAtOnce; ++i) {
         take(std::move(socket));
+        socket = tcp::socket(traffic_.io);
+        fault = acceptor_.accept(socket, fault);
       }
       if (!acceptor_.is_open()) {
         return;
       }
+      fault = fault == asio::error::would_block ? beast::error_code() : fault;
       if (fault) {
         pause_.expires_after(kPauseAfterFault);
         pause_.async_wait([this](beast::error_code /*fault*/) { accept(); });
@@ -149,7 +164,12 @@ class BeastServer final : public Server {
     if (fault || !may_connect(traffic_.config.gate, address)) {
       return;  // it is closed
     }
-    const auto place = traffic_.guests.find(address);
+    const double now_s = traffic_.handlers.now_s();
+    const bool floods = !of_one_.take(address, now_s) || !of_all_.take("", now_s);
+    if (floods && says_else(socket)) {
+      return;
+    }
+    const auto place = floods ? traffic_.guests.find_kept(address) : traffic_.guests.find(address);
     if (place == Guests::Place::none) {
       return;
     }
@@ -166,6 +186,17 @@ class BeastServer final : public Server {
     }
   }
 
+  /// It has sent the begin of a request that is not urgent. Over TLS nobody can tell.
+  bool says_else(tcp::socket& socket) const {
+    const std::string urgent = "POST " + traffic_.config.gate.urgent_path;
+    std::array<char, 64> said{};
+    const ssize_t got =
+        tls_ ? 0
+             : ::recv(socket.native_handle(), said.data(), said.size(), MSG_PEEK | MSG_DONTWAIT);
+    const std::string_view begin(said.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    return !begin.empty() && begin.substr(0, urgent.size()) != urgent.substr(0, begin.size());
+  }
+
   void look() {
     look_.expires_after(kLook);
     look_.async_wait([this](beast::error_code /*fault*/) {
@@ -180,6 +211,8 @@ class BeastServer final : public Server {
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   asio::steady_timer look_;
+  RateLimit of_one_{kNewOfOne};
+  RateLimit of_all_{kNewOfAll};
   std::uint16_t port_ = 0;
   std::thread thread_;
 };

@@ -36,7 +36,7 @@ class Server {
     // NOLINTEND(readability-redundant-member-init)
     std::size_t most_connections =
         64;                         ///< beyond, one that waits for its client gives way (Guests)
-    std::size_t most_kept = 8;      ///< further ones, for urgent requests alone
+    std::size_t most_kept = 256;    ///< further ones, for urgent requests alone
     std::size_t most_streams = 32;  ///< beyond, one of an address that has more than the newcomer's
     std::size_t most_head = 16'384;
     std::size_t most_body = 262'144;

@@ -79,6 +79,21 @@ TEST_F(Flooded, FromManyAddressesOthersAreServed) {
   }
 }
 
+// Each with its request, as fast as they can be made.
+TEST_F(Flooded, WithConnectionsAHandBackOfTheSameAddressIsAnswered) {
+  const auto server = open();
+  int closed = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string got = said(*server, request("GET /a"));
+    closed += got.find(" 200 ") == std::string::npos ? 1 : 0;
+    if (i % 100 == 99) {
+      EXPECT_THAT(hand_back(*server), HasSubstr(" 200 ")) << i;
+      EXPECT_THAT(said(*server, request("GET /a"), "127.0.0.3"), HasSubstr(" 200 ")) << i;
+    }
+  }
+  EXPECT_LT(closed, 2000);
+}
+
 TEST_F(Flooded, WhoeverTakesNothingIsCutOff) {
   Server::Config config;
   config.patience_s = 0.2;

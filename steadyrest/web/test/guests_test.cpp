@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,6 +74,14 @@ TEST_F(PlacesOfFour, NobodyGivesWayToAnAddressThatHasMore) {
   EXPECT_TRUE(honest->is_there());
   ASSERT_NE(more, nullptr);
   EXPECT_TRUE(more->seat->is_kept()) << "one of the kept places, where it can do little";
+}
+
+TEST_F(PlacesOfFour, OfAFloodNoneTakesAPlaceOfTheOthers) {
+  for (const char* const address : {"a", "b", "c", "d"}) {
+    come(address);
+  }
+  EXPECT_EQ(guests.find_kept("flood"), Guests::Place::kept);
+  EXPECT_TRUE(std::ranges::all_of(all, [](const auto& guest) { return guest->is_there(); }));
 }
 
 TEST_F(PlacesOfFour, APlaceIsKeptWhileAllOthersAreAnswered) {

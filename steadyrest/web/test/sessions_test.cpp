@@ -80,6 +80,10 @@ TEST(RateLimit, HoldsABoundedNumberOfKeysAndForgetsTheFullest) {
     EXPECT_TRUE(limit.take(other, 0.0)) << "many keys shut nobody out";
   }
   EXPECT_FALSE(limit.has_room("a", 0.0)) << "nor is one that has used up its share forgotten";
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(limit.take("key " + std::to_string(i), 0.0));
+    EXPECT_FALSE(limit.has_room("a", 0.0)) << i;
+  }
   EXPECT_TRUE(limit.take("a", 3.0));
 }
 
