@@ -118,8 +118,10 @@ TEST_F(SetupLoads, AStockConfigurationWithAFileOfLinuxCncsLibrary) {
   }
   copy(stock);
   ASSERT_EQ(setup("axis_mm.ini", ""), 0);
-  EXPECT_THAT(text_of_file(folder_.at("cfg/axis_mm-layer-sim_spindle_encoder.hal")),
-              HasSubstr("loadrt limit2 names=limit_speed,layer.feed-ramp,layer.feed-most,layer.spindle-ramp\n"));
+  EXPECT_THAT(
+      text_of_file(folder_.at("cfg/axis_mm-layer-sim_spindle_encoder.hal")),
+      HasSubstr(
+          "loadrt limit2 names=limit_speed,layer.feed-ramp,layer.feed-most,layer.spindle-ramp\n"));
   const int status = start("axis_mm.ini");
   if (status == kCannotRun) {
     GTEST_SKIP() << "LinuxCNC cannot run here";
