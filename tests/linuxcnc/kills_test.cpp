@@ -34,7 +34,6 @@ constexpr double kFeed_mm_s = 4000.0 / 60.0;
 /// In servo cycles of 1 ms: late_hold_ms, for so long the ratio stays; then 2 1/s, the slower of
 /// feed_rise and spindle_slew in the mill's file.
 constexpr double kHold = 1000.0;
-constexpr double kCycle = 1.0;  ///< the one-shot counts the cycle that starts it
 constexpr double kLongestReturn = kHold + 500.0 + 5.0;
 constexpr double kLongestSpeedReturn = kLongestReturn + 10.0;
 constexpr double kRamp = 0.015;             ///< a servo cycle: layer.hal's 15 1/s
@@ -109,8 +108,7 @@ Life life(const std::vector<ServoRow>& log, double from, double killed) {
   out.speed_back = cycles_until(
       [](const ServoRow& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
   out.next = cycles_until([&](const ServoRow& row) { return row.beat != last->beat; });
-  for (At i = last; i != log.end() && i->tick - last->tick < std::min(kHold - kCycle, out.next);
-       ++i) {
+  for (At i = last; i != log.end() && i->tick - last->tick < std::min(kHold, out.next); ++i) {
     out.risen = std::max(out.risen, i->ratio - last->ratio);
   }
   const At end = at_tick(log, out.last_beat + kLongestSpeedReturn);

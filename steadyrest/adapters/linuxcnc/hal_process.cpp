@@ -157,7 +157,8 @@ Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
     return std::unexpected(std::move(connected.error()));
   }
   if (hal->pins) {
-    hal->pins->values().hold->f = config.hold_s;
+    // oneshot counts the cycle that starts it.
+    hal->pins->values().hold->f = config.hold_s + config.servo_period_s;
     hal->pins->values().rise->f = config.rise_1_s;
   }
   return std::unique_ptr<HalProcess>(new HalProcess(std::move(hal)));
