@@ -147,7 +147,7 @@ TEST_F(LinuxCncSetup, UndoIsRefusedWhereItCannotBeExact) {
   replace("m.ini", "HALFILE = m-layer.hal", "HALFILE = ./m-layer.hal");
   expect_setup_refused("m.ini:22", "was edited since setup", {"--undo"});
   again();
-  replace("m.hal", "loadrt mux2 count=5", "loadrt mux2 count=5");
+  replace("m.hal", "loadrt mux2 count=5", "loadrt mux2 count=7");
   expect_setup_refused("m.hal:3", "was edited since setup", {"--undo"});
   again();
   replace("m-layer.hal", "0.020", "0.050");
