@@ -63,7 +63,7 @@ Scene::Scene(const machine::Machine& of, std::uint64_t seed)
   }
   layer_.emplace(std::move(made.value()));
   cycle_s_ = layer_cycle_s(machine_);
-  watchdog_s_ = machine_.envelope.stale_after_s;
+  watchdog_s_ = machine::holds_s(machine_);
   const double slack_s = kLateSteps * cycle_s_;
   const auto& e = machine_.envelope;
   if (!machine_.feed_override.ratio.empty()) {

@@ -81,7 +81,8 @@ TEST(ControlText, RepeatedPositionsAreInTheStatedTime) {
   }
   const std::string text = adapters::opcua::control_texts(of).value()[2].text;
   ASSERT_NE(text.find("step := wait >= L#250;"), std::string::npos);
-  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.5, 1.0), 0.2 + (2 + 9 + 2) * 0.25, 1e-9);
+  EXPECT_NEAR(adapters::opcua::neutral_after_s(of, 0.5, 1.0),
+              of.opcua.dead_man_s + (2 + 9 + 2) * 0.25, 1e-9);
 }
 
 TEST(ControlText, TheStatedTimeIsThatOfTheSlowerOne) {

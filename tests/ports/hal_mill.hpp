@@ -14,7 +14,8 @@
 namespace steadyrest::ports {
 
 /// LinuxCNC's side of the HAL pins with layer.hal loaded: cuts along X, one servo cycle of 1 ms for
-/// each row that is asked for. Watchdog, ramp and adaptive feed as in layer.hal.
+/// each row that is asked for. Watchdog, hold, ceiling of the feed, ramp and adaptive feed as in
+/// layer.hal.
 class HalMill final : public adapters::linuxcnc::HalSide {
  public:
   static constexpr double kPeriod_s = 0.001;
@@ -35,6 +36,7 @@ class HalMill final : public adapters::linuxcnc::HalSide {
   [[nodiscard]] std::size_t waiting(std::size_t /*channel*/) const noexcept override { return 0; }
   void write_pins(const adapters::linuxcnc::Pins& pins) noexcept override {
     unheard_ = pins.heartbeat == pins_.heartbeat ? unheard_ : 0;
+    heard_ = heard_ || unheard_ == 0;
     alive_ = alive_ || (pins.armed && !pins_.armed);
     pins_ = pins;
   }
@@ -52,8 +54,11 @@ class HalMill final : public adapters::linuxcnc::HalSide {
 
  private:
   static constexpr double kFeed_mm_s = 20.0;
-  static constexpr int kWatchdog = 20;          ///< cycles
-  static constexpr double kRise = 0.015;        ///< a cycle
+  static constexpr int kWatchdog = 20;      ///< cycles
+  static constexpr int kHold = 1000;        ///< cycles
+  static constexpr double kRise = 0.015;    ///< a cycle, of a layer that lives
+  static constexpr double kReturn = 0.002;  ///< a cycle, after a late or dead one
+  static constexpr double kNoCeiling = 10.0;
   static constexpr double kOffsetStep = 0.002;  ///< mm a cycle
 
   void step() noexcept {
@@ -61,9 +66,12 @@ class HalMill final : public adapters::linuxcnc::HalSide {
     for (const Turn& turn : turns_) {
       panel_ = turn.time_s <= static_cast<double>(tick_) * kPeriod_s ? turn.ratio : panel_;
     }
-    alive_ = alive_ && pins_.armed && ++unheard_ <= kWatchdog;
-    feed_ = std::min(alive_ ? pins_.feed : 1.0, feed_ + kRise);
-    spindle_ = std::min(alive_ ? pins_.spindle : 1.0, spindle_ + kRise);
+    alive_ = ++unheard_ <= kWatchdog && alive_ && pins_.armed;
+    const bool held = heard_ && unheard_ <= kHold;
+    const double rate = alive_ ? kRise : kReturn;
+    ceiling_ = std::min(held ? pins_.feed : kNoCeiling, ceiling_ + rate);
+    feed_ = std::min(1.0, ceiling_ / (panel_ > 0.0 ? panel_ : 1.0));
+    spindle_ += std::clamp((held ? pins_.spindle : 1.0) - spindle_, -rate, rate);
     x_mm_ += kFeed_mm_s * panel_ * feed_ * kPeriod_s;
     for (std::size_t i = 0; i < offset_mm_.size(); ++i) {
       const double goal_mm = pins_.offset[i] + (alive_ ? pins_.path_offset[i] : 0.0);
@@ -106,10 +114,12 @@ class HalMill final : public adapters::linuxcnc::HalSide {
   kernel::signal::AxisValues offset_mm_{};
   std::uint64_t tick_ = 0;
   double panel_ = 1.0;
+  double ceiling_ = kNoCeiling;  ///< of the feed, on top of the panel
   double feed_ = 1.0;
   double spindle_ = 1.0;
   double x_mm_ = 0.0;
   int unheard_ = 0;
+  bool heard_ = false;
   bool alive_ = false;
 };
 

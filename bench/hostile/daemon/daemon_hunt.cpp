@@ -166,7 +166,7 @@ void DaemonScene::begin_cycle() {
   const double period_s = layer_cycle_s(machine_);
   ++cycle_;
   unheard_s_ += period_s;
-  const bool dropped = unheard_s_ > machine_.envelope.stale_after_s;
+  const bool dropped = unheard_s_ > machine::holds_s(machine_);
   for (auto* watch : {&*feed_, &*spindle_}) {
     watch->pass(period_s);
     if (dropped) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -131,21 +132,33 @@ std::string list_of(const nlohmann::json& list) {
 TEST(FromLinuxCnc, ProgramsAreReadAsTheIniFileTellsTheInterpreter) {
   const Scratch scratch;
   const std::string machine = scratch.at("m.toml");
-  const auto moves = [&](const std::string& ini, const std::string& program) {
+  const auto said = [&](const std::string& ini, const std::string& program) {
     EXPECT_EQ(run({"machine", "from-linuxcnc", scratch.file("m.ini", ini), "-o", machine}).code, 0);
     const Finished got =
         run({"program", "moves", scratch.file("p.ngc", program), "--machine", machine});
     return got.code == 0 ? got.out : got.err;
   };
-  EXPECT_THAT(
-      moves(small_mill("RS274NGC_STARTUP_CODE = G20 G64 P0.001\n", "", "", "inch"), "G0 X3\nM2\n"),
-      HasSubstr("rapid,76.2"));
-  EXPECT_THAT(moves(small_mill("", "TOOL_CHANGE_QUILL_UP = 1\n"), "G21 G0 Z-20\nM6\nM2\n"),
-              HasSubstr("2,rapid,0.000000,0.000000,0.000000"));
-  EXPECT_THAT(moves(small_mill("", "", "WRAPPED_ROTARY = 1\n"), "G21 G0 A350\nG0 A10\nM2\n"),
-              HasSubstr(",370.000000,"));
-  EXPECT_THAT(moves(small_mill("REMAP = M6 modalgroup=6 ngc=change\nREMAP=G88.8 py=x\n"),
-                    "G21 G0 X1\nM6\nM2\n"),
+  // A column of the last move.
+  const auto last = [&](const std::string& ini, const std::string& program, std::size_t column) {
+    const std::string text = said(ini, program);
+    std::istringstream line(text.substr(text.rfind('\n', text.size() - 2) + 1));
+    std::string cell;
+    for (std::size_t i = 0; i <= column; ++i) {
+      std::getline(line, cell, ',');
+    }
+    return std::stod(cell);
+  };
+  constexpr std::size_t kX = 2;
+  constexpr std::size_t kZ = 4;
+  constexpr std::size_t kA = 5;
+  EXPECT_NEAR(last(small_mill("RS274NGC_STARTUP_CODE = G20 G64 P0.001\n", "", "", "inch"),
+                   "G0 X3\nM2\n", kX),
+              76.2, 1e-9);
+  EXPECT_EQ(last(small_mill("", "TOOL_CHANGE_QUILL_UP = 1\n"), "G21 G0 Z-20\nM6\nM2\n", kZ), 0.0);
+  EXPECT_EQ(last(small_mill("", "", "WRAPPED_ROTARY = 1\n"), "G21 G0 A350\nG0 A10\nM2\n", kA),
+            370.0);
+  EXPECT_THAT(said(small_mill("REMAP = M6 modalgroup=6 ngc=change\nREMAP=G88.8 py=x\n"),
+                   "G21 G0 X1\nM6\nM2\n"),
               HasSubstr("M6 is remapped on this machine"));
   const std::string text = text_of_file(machine);
   EXPECT_THAT(text, HasSubstr("remapped = \"M6 G88.8\""));
