@@ -15,11 +15,13 @@ constexpr std::size_t kMostSteps = 256;  // of a byte
 std::vector<double> repeated(const std::vector<double>& ratio, Dice& dice) {
   const std::size_t seldom = dice.of<std::size_t>({1, 1, 3, 10});
   std::vector<double> out;
+  // Each value has its step: a panel above the highest one would be of another switch.
+  std::size_t spare = kMostSteps - std::min(kMostSteps, ratio.size());
   for (const double step : ratio) {
-    const std::size_t times = dice.one_in(seldom) ? 1 + dice.below(5) : 1;
-    out.insert(out.end(), times, step);
+    const std::size_t more = std::min(spare, dice.one_in(seldom) ? dice.below(5) : 0);
+    spare -= more;
+    out.insert(out.end(), 1 + more, step);
   }
-  out.resize(std::min(out.size(), kMostSteps));
   return out;
 }
 
