@@ -14,10 +14,10 @@ namespace steadyrest::apps::cli {
 struct ChatterEvent {
   double start_s = 0.0;
   double end_s = 0.0;
-  double frequency_hz = 0.0;            ///< median over the stretch
-  double speed_rev_s = 0.0;             ///< mean over the stretch
-  bool flip = false;                    ///< majority of the spectra
-  std::vector<std::size_t> channels{};  ///< that hear it, the first to do so in front
+  double frequency_hz = 0.0;          ///< median over the stretch
+  double speed_rev_s = 0.0;           ///< mean over the stretch
+  bool flip = false;                  ///< majority of the spectra
+  std::vector<std::size_t> channels;  ///< that hear it, the first to do so in front
 };
 
 /// What the detector hears from the signal's first sample to its last; the signal has a speed.
