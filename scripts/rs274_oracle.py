@@ -20,7 +20,7 @@ KINDS = {"STRAIGHT_TRAVERSE": "rapid", "STRAIGHT_FEED": "linear", "ARC_FEED": "a
 
 
 def numbers(text):
-    return [float(part) for part in re.split(r"[,\s]+", text) if re.fullmatch(r"-?[\d.]+", part)]
+    return [float(part) for part in re.split(r"[,\s]+", text) if re.fullmatch(r"-?(\d+\.?\d*|\.\d+)", part)]
 
 
 def oracle_parser(doc):

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <system_error>
 
 #include <fmt/core.h>
 
@@ -29,31 +26,6 @@ std::string text_of(const nc::interpret::Report& report) {
   return fmt::format("refused after {} blocks; not accepted:\n", report.blocks) + table.text();
 }
 
-/// Runs the program to its end and reports progress by the position in the file.
-Result<nc::interpret::Report> read_program(const std::string& path,
-                                           const nc::interpret::Config& config,
-                                           nc::interpret::Sink& sink, Progress& progress) {
-  // Every 16384 lines, a few times a second.
-  constexpr std::uint32_t kEvery = 1U << 14U;
-  auto source = nc::read::LineSource::open(path);
-  if (!source) {
-    return std::unexpected(source.error());
-  }
-  auto run = nc::interpret::ProgramRun::make(*source, config, sink);
-  if (!run) {
-    return std::unexpected(run.error());
-  }
-  // stdin and pipes have no size: then there is no bar.
-  std::error_code unknown;
-  const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
-  while (run->step()) {
-    if (!unknown && run->line() % kEvery == 0) {
-      progress.update(static_cast<double>(source->offset()) / bytes, "reading");
-    }
-  }
-  return run->take();
-}
-
 struct Options {
   ProgramOptions program;
   std::string machine;  ///< empty: only the program's words are checked
@@ -73,7 +45,7 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
     check.emplace(*machine, known_of(options.program));
   }
   nc::interpret::Sink& sink = check ? static_cast<nc::interpret::Sink&>(*check) : nothing;
-  const auto report = read_program(options.program.file, *config, sink, progress);
+  const auto report = run_program(options.program.file, *config, sink, progress);
   if (!report) {
     return refused(report.error());
   }

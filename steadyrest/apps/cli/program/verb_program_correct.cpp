@@ -22,9 +22,7 @@
 #include <steadyrest/kernel/file/memory_file.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/nc/rewrite/replace/stages.hpp>
-#include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
-#include <steadyrest/nc/rewrite/tube/permitted.hpp>
-#include <steadyrest/nc/rewrite/tube/verify_tube.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 // All that can be known beforehand, in one program. The order is that of cause and effect: a
 // spindle speed takes its feeds with it, the path is made for those feeds, and heat shifts the
@@ -119,22 +117,12 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   return nc::rewrite::composed(lines, *stage, path->lines);
 }
 
-/// A refusal about the text that was made, which is in no file yet: the original's line.
-Refusals of_made(Refusal refusal, const MemoryFile& made, const std::string& original) {
-  if (refusal.file == made.path()) {
-    const auto lines = nc::rewrite::ChangedLines::compare(original, made.path());
-    refusal.file = original;
-    refusal.line = lines ? lines->origin(static_cast<std::uint32_t>(refusal.line)) : 0;
-  }
-  return {std::move(refusal)};
-}
-
 /// The text with its blocks replaced, proved against the original.
 std::expected<nc::rewrite::Replaced, Refusals> replace(const Options& options,
                                                        const SourceProgram& program,
                                                        const NewLines& lines,
                                                        const std::vector<Told>& told,
-                                                       Answer& answer) {
+                                                       Answer& answer, Progress& progress) {
   auto changed = nc::rewrite::replace(options.file(), program.config.dialect, lines, told);
   if (!changed) {
     return refused(changed.error());
@@ -144,19 +132,10 @@ std::expected<nc::rewrite::Replaced, Refusals> replace(const Options& options,
     answer.text += "no block had to be replaced\n";
     return std::move(*changed);
   }
-  const auto file = MemoryFile::make(changed->text);
-  if (!file) {
-    return refused(file.error());
-  }
-  const auto permitted =
-      nc::rewrite::permitted_of(file->path(), told, std::nullopt, &program.machine);
-  if (!permitted) {
-    return std::unexpected(of_made(permitted.error(), *file, options.file()));
-  }
-  const auto proof =
-      nc::rewrite::verify_tube(options.file(), file->path(), program.config, *permitted);
+  const auto proof = nc::rewrite::prove_made(options.file(), *changed, program.config,
+                                             program.machine, progress.reporter());
   if (!proof) {
-    return std::unexpected(of_made(proof.error(), *file, options.file()));
+    return refused(proof.error());
   }
   answer.json["tube_mm"] = proof->tube_mm;
   answer.json["farthest_mm"] = proof->farthest_mm;
@@ -217,7 +196,7 @@ std::expected<nc::rewrite::Replaced, Refusals> changed(const Options& options, A
   if (!lines) {
     return std::unexpected(lines.error());
   }
-  return replace(options, *program, *lines, *told, answer);
+  return replace(options, *program, *lines, *told, answer, progress);
 }
 
 /// The corrections first: they are lines of their own, and the path is made for what is cut then.

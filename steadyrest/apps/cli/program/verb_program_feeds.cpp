@@ -68,7 +68,7 @@ Answer answer_of(const FeedsAhead& done, const SourceProgram& program, const Fee
 
 Outcome run(const Options& options, Progress& progress) {
   progress.update(0.0, "reading the program");
-  const auto program = read_source_program(options.program, options.machine);
+  auto program = read_source_program(options.program, options.machine);
   if (!program) {
     return std::unexpected(program.error());
   }

@@ -23,7 +23,7 @@ struct Options {
 
 // Without -o the table itself is the text for people, written as it arises: a program of ten
 // million lines must not be held in memory. With --json stdout belongs to the JSON object.
-Outcome run(const Options& options, bool json) {
+Outcome run(const Options& options, bool json, Progress& progress) {
   if (options.machine.empty() && options.program.dialect.empty()) {
     return refused(bad_input("--dialect is required",
                              "give --dialect, or --machine with the machine the program is for"));
@@ -46,7 +46,10 @@ Outcome run(const Options& options, bool json) {
     return refused(out.error());
   }
   MoveTable table(*out);
-  const auto report = nc::interpret::run_file(options.program.file, *config, table);
+  // The table and a bar on one screen would spoil each other.
+  const bool on_screen = options.output.empty() && !json;
+  const auto report = on_screen ? nc::interpret::run_file(options.program.file, *config, table)
+                                : run_program(options.program.file, *config, table, progress);
   if (!report) {
     return refused(report.error());
   }
@@ -79,8 +82,8 @@ void add_verb_program_moves(Session& session, Verb& verb) {
   verb.writes(
       "-o,--output", options->output, "Write the table to this file instead of stdout",
       csv_content("a table of moves (CSV)", {std::string(program_moves::MoveTable::kHead)}));
-  session.on(verb, [options, &session](Progress& /*progress*/) {
-    return program_moves::run(*options, session.json());
+  session.on(verb, [options, &session](Progress& progress) {
+    return program_moves::run(*options, session.json(), progress);
   });
 }
 

@@ -9,7 +9,7 @@
 #include <steadyrest/apps/cli/program/verb_program_speeds.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
-#include <steadyrest/nc/rewrite/replace/same_cut.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 // For a control without a live connection: the speed that keeps a cut stable is known beforehand,
 // so it can be written into the program.
@@ -44,8 +44,8 @@ Outcome run(const Options& options, Progress& progress) {
   if (!changed) {
     return refused(changed.error());
   }
-  if (const auto proof = nc::rewrite::prove_same_cut(
-          file, *changed, program->config, nc::rewrite::Changes::speeds, tolerance_mm(*program));
+  if (const auto proof = nc::rewrite::prove_made(file, *changed, program->config, program->machine,
+                                                 progress.reporter());
       !proof) {
     return refused(proof.error());
   }

@@ -133,7 +133,7 @@ std::string text_of(const ProgramTime& time) {
 }
 
 /// The check runs alongside the timer: a time for a program that leaves the travel is misleading.
-Outcome run(const Options& options) {
+Outcome run(const Options& options, Progress& progress) {
   const auto machine = read_machine(options.machine);
   if (!machine) {
     return std::unexpected(machine.error());
@@ -152,7 +152,7 @@ Outcome run(const Options& options) {
                        options.spindle_percent / 100.0);
   nc::plan::MachineCheck check(*machine, known_of(options.program));
   nc::plan::Both both(*timer, check);
-  const auto report = nc::interpret::run_file(options.program.file, *config, both);
+  const auto report = run_program(options.program.file, *config, both, progress);
   if (!report) {
     return refused(report.error());
   }
@@ -197,7 +197,7 @@ void add_verb_program_time(Session& session, Verb& verb) {
   verb.writes("--cyclogram", options->cyclogram,
               "Write the transitions (tool, spindle speed, feed, load, time) to this TOML file",
               toml_content("a cyclogram (TOML: [[transition]])", {"transition", "resolution_min"}));
-  session.on(verb, [options](Progress& /*progress*/) { return program_time::run(*options); });
+  session.on(verb, [options](Progress& progress) { return program_time::run(*options, progress); });
 }
 
 }  // namespace steadyrest::apps::cli

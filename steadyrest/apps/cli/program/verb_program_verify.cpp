@@ -121,7 +121,9 @@ struct Reading {
 };
 
 std::expected<Reading, Refusals> read(const Options& options, const std::vector<Told>& mark) {
-  const auto told = with_told(options.rewrite, options.changed, mark);
+  // Without a mark the program is unchanged, and the options alone say how it is read.
+  const auto told = mark.empty() ? std::expected<RewriteOptions, Refusals>(options.rewrite)
+                                 : with_told(options.rewrite, options.changed, mark);
   if (!told) {
     return std::unexpected(told.error());
   }

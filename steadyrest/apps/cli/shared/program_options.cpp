@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include <steadyrest/kernel/machine/dialect.hpp>
 #include <steadyrest/nc/interpret/parameters/linuxcnc_files.hpp>
 #include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/read/text/line_source.hpp>
 
 namespace steadyrest::apps::cli {
 
@@ -253,6 +255,31 @@ void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assu
   if (list.size() > kShown) {
     answer.notes += fmt::format("… {} more assumptions (--json has all)\n", list.size() - kShown);
   }
+}
+
+Result<nc::interpret::Report> run_program(const std::string& path,
+                                          const nc::interpret::Config& config,
+                                          nc::interpret::Sink& sink, Progress& progress) {
+  // Every 16384 lines that are executed, a few times a second.
+  constexpr std::uint32_t kEvery = 1U << 14U;
+  auto source = nc::read::LineSource::open(path);
+  if (!source) {
+    return std::unexpected(source.error());
+  }
+  auto run = nc::interpret::ProgramRun::make(*source, config, sink);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  // stdin and pipes have no size: then there is no bar.
+  std::error_code unknown;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
+  std::uint32_t steps = 0;
+  while (run->step()) {
+    if (++steps % kEvery == 0 && !unknown) {
+      progress.update(static_cast<double>(source->offset()) / bytes, "reading");
+    }
+  }
+  return run->take();
 }
 
 /// Every refused word is in the JSON with its line; exit code 2 as soon as there is one.

@@ -56,6 +56,10 @@ std::string put_assumed(Answer& answer, const nc::interpret::Report& report);
 /// The key `assumed[]` (`line`, `name`, `value`): what the program reads of values that the control
 /// decides, and what was taken for them; the first ten as notes.
 void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assumed);
+/// Runs a program; how much of its file is read is shown.
+[[nodiscard]] kernel::outcome::Result<nc::interpret::Report> run_program(
+    const std::string& path, const nc::interpret::Config& config, nc::interpret::Sink& sink,
+    Progress& progress);
 
 /// The keys `blocks` and `refused[]`, the refusals for stderr and the exit code.
 void put_report(Answer& answer, const nc::interpret::Report& report, const std::string& file);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -29,6 +30,10 @@ class Progress {
 
   /// `share` of the work done, 0 … 1; `what` is being done.
   void update(double share, std::string_view what) { update_at(Clock::now(), share, what); }
+  /// update(), for code that does not know this class. This object outlives it.
+  [[nodiscard]] std::function<void(double share, std::string_view what)> reporter() {
+    return [this](double share, std::string_view what) { update(share, what); };
+  }
   void update_at(Clock::time_point now, double share, std::string_view what);
   /// Draws the seconds if nothing has been drawn for one.
   void tick_at(Clock::time_point now);

@@ -60,7 +60,13 @@ Result<Cyclogram> of_program(const ThermalOptions& options, std::vector<std::str
     refusal.file = options.program.file;
     return std::unexpected(std::move(refusal));
   }
-  return thermal::offline::cyclogram_of(time->cyclogram, options.program.file);
+  auto cyclogram = thermal::offline::cyclogram_of(time->cyclogram, options.program.file);
+  if (!(cyclogram.total_s() > 0.0)) {
+    return refuse(options.program.file,
+                  "the program takes no time: nothing moves, and nothing is waited for",
+                  "give the program that makes the part");
+  }
+  return cyclogram;
 }
 
 /// SENSOR=°C, -60 … 150 °C: wider than any shop, narrow enough to catch a value in kelvin.

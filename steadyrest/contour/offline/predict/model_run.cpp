@@ -10,6 +10,7 @@
 #include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
+#include <steadyrest/nc/plan/time/spindle_clock.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
@@ -276,17 +277,16 @@ kernel::outcome::Result<double> run_model(
     return std::unexpected(contour.error());
   }
   Runner runner(run, *contour);
-  const double reach =
-      run.machine.spindle.acceleration_rev_s2 * run.machine.control.interpolator_period_s;
-  double spindle_rev_s = 0.0;
+  nc::plan::SpindleClock spindle(run.machine.spindle);
   for (;;) {
-    const Setpoint s = interpolator->update({.spindle_actual_rev_s = spindle_rev_s});
+    const Setpoint s = interpolator->update({.spindle_actual_rev_s = spindle.speed_rev_s()});
     if (s.finished) {
       const double seconds = runner.time_s();
       runner.arrive(s, on_sample);
       return seconds;
     }
-    spindle_rev_s += std::clamp(s.spindle_rev_s - spindle_rev_s, -reach, reach);
+    spindle.command(s.spindle_rev_s);
+    spindle.advance(run.machine.control.interpolator_period_s);
     runner.setpoint(s, on_sample);
   }
 }

@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
@@ -79,21 +81,24 @@ class Writer {
       if (next_ < pieces_.size() && pieces_[next_].segment.line == block->line) {
         if (auto texts = texts_of(*block, source->line(), segment)) {
           out[block->line] = std::move(*texts);
+        } else {
+          put_back(out);
         }
       } else if (block->stays == Stays::free && moves_nothing(*block) && led_) {
         if (modes_kept_ && same_place(at_mm_, block->start_mm)) {
           continue;
         }
         // The same point again: the command is elsewhere now.
-        out[block->line] = block->feed_inherited
-                               ? std::vector{nc::rewrite::BlockText::feed_word(*block, 1.0)}
-                               : std::vector<std::string>{};
+        out[block->line] = {};
+        restore_ = {block->line, mode_words(*block)};
         written_.emplace_back();
         modes_kept_ = false;
       } else {
+        put_back(out);
         led_ = false;
       }
     }
+    put_back(out);
     return out;
   }
 
@@ -180,13 +185,27 @@ class Writer {
         moves.push_back(move);
       }
     }
-    // Where the next block is not replaced it may take motion and feed over.
-    std::string restore = writer.restore(block, moves);
-    modes_kept_ = !moves.empty() && restore.empty();
-    if (!restore.empty() && (next_ == pieces_.size() || pieces_[next_].begins_run)) {
-      texts.push_back(std::move(restore));
-    }
+    restore_ = {block.line, writer.restore(block, moves)};
+    modes_kept_ = !moves.empty() && restore_.words.empty();
     return texts;
+  }
+
+  /// What later blocks may take over from one whose text is left out.
+  static std::string mode_words(const CutBlock& block) {
+    std::string words = block.inherited ? fmt::format("G{}", block.motion / 10) : std::string{};
+    if (block.feed_inherited) {
+      words += (words.empty() ? "" : " ") + nc::rewrite::BlockText::feed_word(block, 1.0);
+    }
+    return words;
+  }
+
+  /// The next block that cuts is not replaced: it may take motion and feed over from the last one
+  /// that is.
+  void put_back(NewLines& out) {
+    if (!restore_.words.empty()) {
+      out[restore_.line].push_back(std::move(restore_.words));
+      restore_ = {};
+    }
   }
 
   const Program& program_;
@@ -195,6 +214,11 @@ class Writer {
   bool led_ = false;  ///< the blocks so far have pieces, back to a block that has none
   /// A block that is written as it was has the motion word and the feed that it had.
   bool modes_kept_ = true;
+  struct Restore {
+    std::uint32_t line = 0;
+    std::string words;
+  };
+  Restore restore_;  ///< motion and feed after the last new block, as the program has them
   Point at_mm_{};
   std::vector<std::vector<std::size_t>> written_;
   std::map<std::uint32_t, std::size_t> as_they_are_;
@@ -344,7 +368,6 @@ kernel::outcome::Refusal of_original(kernel::outcome::Refusal refusal, const std
   if (refusal.file == file && line > 0 && line < origin.size()) {
     refusal.line = origin[line];
     refusal.what = "the control would refuse what would replace this block: " + refusal.what;
-    refusal.to_do = "report this as a fault of predistort, with the program";
   }
   return refusal;
 }

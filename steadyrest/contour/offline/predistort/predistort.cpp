@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <steadyrest/contour/offline/predistort/barred_lines.hpp>
+#include <steadyrest/contour/offline/predistort/command_pieces.hpp>
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
 #include <steadyrest/contour/offline/predistort/phase_progress.hpp>
@@ -13,13 +14,13 @@
 #include <steadyrest/contour/offline/predistort/refinement.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
 #include <steadyrest/contour/offline/predistort/round_score.hpp>
-#include <steadyrest/contour/offline/predistort/shape/command_shape.hpp>
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
 #include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/nc/plan/path/limits.hpp>
+#include <steadyrest/nc/rewrite/replace/at_worst.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
@@ -27,7 +28,6 @@ namespace {
 using kernel::machine::Machine;
 using kernel::outcome::Result;
 
-constexpr double kAcrossShare = 0.9;   ///< of the acceleration across the path, for kinks
 constexpr int kMostRevisions = 3;      ///< runs that must stay are found at most so often
 constexpr int kLastRounds = 2;         ///< with the best share at each corner
 constexpr int kRefinements = 8;        ///< of a part of two minutes; longer parts get fewer …
@@ -61,11 +61,10 @@ class Predistortion {
 
   Result<Predistorted> run() {
     progress_.phase("predicting the error", 1);
-    if (auto read = this->read(); !read) {
-      return std::unexpected(read.error());
-    }
-    if (auto done = learn_from_parts(); !done) {
-      return std::unexpected(done.error());
+    auto ready = read();
+    ready = ready ? learn_from_parts() : ready;
+    if (!ready) {
+      return std::unexpected(ready.error());
     }
     barred_.emplace(path_, machine_.axes, how_.max_shift_mm);
     runs_.emplace(path_, use());
@@ -92,31 +91,51 @@ class Predistortion {
         barred_->bar(runs_->lines(i));
       }
     }
-    keep_original(std::move(planned->replaced));
-    for (int revision = 0; revision <= kMostRevisions; ++revision) {
-      if (auto done = attempt(revision); !done) {
-        return std::unexpected(done.error());
-      }
-      if (best_mm_ < 0.0 ||
-          !barred_->bar_worse(worse_runs(*runs_, *runs_before_, *runs_after_, barred_->lines()),
-                              *runs_)) {
-        break;
-      }
-      // What was found has blocks that must stay.
-      best_mm_ = -1.0;
-      keep_original({});
+    original_ = std::move(planned->replaced);
+    if (auto done = proved(); !done) {
+      return std::unexpected(done.error());
     }
     out_.lines = std::move(best_.lines);
     out_.replaced = std::move(best_.replaced);
     out_.too_far = std::move(barred_->too_far);
     out_.past_travel = std::move(barred_->past_travel);
     out_.worse = std::move(barred_->worse);
+    out_.unproved = blocks_.lines_that_stay(nc::rewrite::Stays::unproved);
     out_.slower = score_->slower(out_.after.nominal());
     add_report(out_, how_.limit_mm);
     return std::move(out_);
   }
 
  private:
+  /// The best text that the proof accepts.
+  Result<void> proved() {
+    Result<void> revised;
+    int revision = 0;
+    const auto proof =
+        nc::rewrite::at_worst_they_stay(blocks_, [&]() -> Result<nc::rewrite::TubeProof> {
+          revised = revise(revision);
+          return revised ? nc::rewrite::prove_made(file_, best_.replaced, config_, machine_)
+                         : nc::rewrite::TubeProof{};
+        });
+    return proof ? revised : std::unexpected(proof.error());
+  }
+
+  /// Attempts until no run gets worse.
+  Result<void> revise(int& revision) {
+    for (const int last = revision + kMostRevisions;;) {
+      best_mm_ = -1.0;
+      keep_original();
+      if (auto done = attempt(revision); !done) {
+        return done;
+      }
+      if (revision++ >= last || best_mm_ < 0.0 ||
+          !barred_->bar_worse(worse_runs(*runs_, *runs_before_, *runs_after_, barred_->lines()),
+                              *runs_)) {
+        return {};
+      }
+    }
+  }
+
   /// All rounds with the blocks that may be changed now.
   Result<void> attempt(int revision) {
     speed_ = best_speed_ = first_speed_;
@@ -141,10 +160,7 @@ class Predistortion {
   }
 
   /// The result is the program as it is, until a round is better.
-  void keep_original(nc::rewrite::Replaced replaced) {
-    if (!replaced.text.empty()) {
-      original_ = std::move(replaced);
-    }
+  void keep_original() {
     best_.lines.clear();
     best_.replaced = original_;
     out_.after = out_.before;
@@ -184,11 +200,12 @@ class Predistortion {
     return {};
   }
 
-  [[nodiscard]] Judging judging() {
+  [[nodiscard]] Judging judging() { return judging(model_, others_); }
+  [[nodiscard]] Judging judging(const ServoModels& model, const std::vector<ServoModels>& others) {
     return {.machine = machine_,
             .original = path_,
-            .model = model_,
-            .others = others_,
+            .model = model,
+            .others = others,
             .learnt = learnt_,
             .runs = *runs_,
             .limit_mm = how_.limit_mm,
@@ -196,32 +213,29 @@ class Predistortion {
             .progress = [this](double share) { progress_.run(share); }};
   }
 
-  /// The pieces for a command at this speed.
-  std::vector<Piece> pieces(const std::vector<SegmentUse>& use, const CommandSpeed& speed) {
-    const ToolMotion motion(inverse_, path_, speed);
-    const nc::plan::PathLimits limits(machine_.axes, machine_.control);
-    ShapeConfig shape;
-    shape.across_mm_s2 = kAcrossShare * limits.centripetal_share() *
-                         limits.plane({0.0, 0.0, 1.0}).acceleration_mm_s2;
-    auto made = CommandShape(path_, use, inverse_, motion, learnt_, shape).pieces();
-    made = lead_corners(made, motion, corners_);
-    return caps_->apply(round_kinks(made, limits, kAcrossShare));
-  }
-
   /// Rounds until the speeds agree; the best is kept.
   Result<void> rounds(int count) {
-    auto use = this->use();
     for (int round = 0; round < count; ++round) {
-      std::vector<Piece> made = pieces(use, speed_);
-      while (barred_->bar_beyond(made)) {
-        use = this->use();
-        made = pieces(use, speed_);
+      auto changed =
+          nc::rewrite::at_worst_they_stay(blocks_, [this] { return write(pieces_within()); });
+      if (!changed) {
+        return std::unexpected(changed.error());
       }
-      if (auto done = try_pieces(made); !done) {
+      if (auto done = try_text(std::move(*changed)); !done) {
         return done;
       }
     }
     return {};
+  }
+
+  /// The pieces for the speed in hand; lines whose pieces would go too far are barred.
+  std::vector<Piece> pieces_within() {
+    const CommandTask task{machine_, path_, inverse_, learnt_, *caps_};
+    std::vector<Piece> made = command_pieces(task, use(), speed_, corners_);
+    while (barred_->bar_beyond(made)) {
+      made = command_pieces(task, use(), speed_, corners_);
+    }
+    return made;
   }
 
   [[nodiscard]] Result<Changed> write(const std::vector<Piece>& made) const {
@@ -234,12 +248,8 @@ class Predistortion {
                         made);
   }
 
-  Result<void> try_pieces(const std::vector<Piece>& made) {
-    auto changed = write(made);
-    if (!changed) {
-      return std::unexpected(changed.error());
-    }
-    auto run = follow(judging(), *changed, corners_);
+  Result<void> try_text(Changed changed) {
+    auto run = follow(judging(), changed, corners_);
     if (!run) {
       return std::unexpected(run.error());
     }
@@ -258,7 +268,7 @@ class Predistortion {
       runs_after_ = std::move(run->runs);
       best_errors_ = std::move(run->errors);
       best_speed_ = speed_;
-      best_ = std::move(*changed);
+      best_ = std::move(changed);
       out_.after = std::move(run->figures);
       out_.seconds_after = run->seconds;
       out_.largest_shift_mm = best_.lines.empty() ? 0.0 : barred_->largest_shift_mm();
@@ -310,26 +320,16 @@ class Predistortion {
     return {};
   }
 
-  /// What the best round leaves on the model whose inverse is written: on the machine itself it
-  /// would be differences of gains that may not be there.
+  /// What the best round leaves on the model whose inverse is written (cautious()).
   Result<std::vector<ErrorSample>> left() {
     const ServoModels sure = cautious(model_, how_.gain_uncertainty);
     if (sure == model_) {
       return best_errors_;
     }
     const std::vector<ServoModels> none;
-    auto run = follow({.machine = machine_,
-                       .original = path_,
-                       .model = sure,
-                       .others = none,
-                       .learnt = learnt_,
-                       .runs = *runs_,
-                       .limit_mm = how_.limit_mm},
-                      best_, corners_);
-    if (!run) {
-      return std::unexpected(run.error());
-    }
-    return std::move(run->errors);
+    auto run = follow(judging(sure, none), best_, corners_);
+    return run ? std::move(run->errors)
+               : Result<std::vector<ErrorSample>>(std::unexpected(run.error()));
   }
 
   /// Takes half of it away, like what a record has shown; less where that is too much.

@@ -29,7 +29,9 @@ namespace steadyrest::contour::offline {
 /// Bounded: where the command would leave the path by more than `max_shift_mm` the block stays. The
 /// control plans what is written, so no axis exceeds its speed, acceleration or jerk. Robust: the
 /// error of the changed program is worked out for every model whose gains are all off by
-/// `gain_uncertainty`, each axis up or down; a block that any of them makes worse stays.
+/// `gain_uncertainty`, each axis up or down; a block that any of them makes worse stays. Proved
+/// (nc/rewrite/tube/prove_made): where the proof or the control would refuse what is written, the
+/// blocks there stay.
 struct PredistortConfig {
   double limit_mm = 0.01;
   double max_shift_mm = 0.5;
@@ -69,9 +71,10 @@ struct Predistorted : PredictedChange {
   std::optional<Slower> slower;
   std::vector<Remaining> remaining;  ///< the worst first
   std::vector<std::uint32_t>
-      past_travel;                     ///< lines that stay, since an axis would leave its travel
-  std::vector<std::uint32_t> too_far;  ///< lines that stay, since the shift would be too large
-  std::vector<std::uint32_t> worse;    ///< lines that stay, since some model makes them worse
+      past_travel;                      ///< lines that stay, since an axis would leave its travel
+  std::vector<std::uint32_t> too_far;   ///< lines that stay, since the shift would be too large
+  std::vector<std::uint32_t> worse;     ///< lines that stay, since some model makes them worse
+  std::vector<std::uint32_t> unproved;  ///< lines that stay, since no proof was found
 };
 
 /// Refused: what the interpreter or planner refuses; a program that cuts nothing.

@@ -36,9 +36,10 @@ class RoundScore {
   [[nodiscard]] bool in_time(double seconds, bool refined) const noexcept {
     return seconds <= (refined ? refined_s_ : most_s_);
   }
-  /// Keeps in mind the best round that takes too long, up to twice the program's time.
+  /// Keeps in mind the best round that takes longer than is permitted, up to twice the program's
+  /// time.
   void note_slower(double seconds, const ErrorFigures::Of& round) {
-    if (seconds <= slowest_s_ && round.max_mm <= most_mm_ &&
+    if (seconds > most_s_ && seconds <= slowest_s_ && round.max_mm <= most_mm_ &&
         (!slower_ || round.rms_mm() < slower_->rms_mm)) {
       slower_ = {.seconds = seconds, .rms_mm = round.rms_mm(), .max_mm = round.max_mm};
     }

@@ -108,7 +108,7 @@ bool MachineWords::change_tool(const Step& step) {
       return refusals_.m_word(step, 61, "tool_missing",
                               "M61 without the number of the tool in the spindle (Q)");
     }
-    state_.position = out_.take_beside(state_.position);
+    state_.position = out_.take_place();
     if (!tool_number(control_, step, 'Q', state_.tool_in_spindle)) {
       return false;
     }
@@ -123,7 +123,7 @@ bool MachineWords::change_tool(const Step& step) {
     state_.tool_offset = tool == nullptr ? Axes{} : tool->offset;
     update_offset(state_);
   }
-  state_.position = out_.take_beside(state_.position);
+  state_.position = out_.take_place();
   out_.event(EventKind::tool_change, static_cast<double>(state_.tool_in_spindle), selected_name_);
   return true;
 }

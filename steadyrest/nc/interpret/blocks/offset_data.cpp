@@ -59,7 +59,8 @@ bool OffsetData::work(const Step& step, double form) {
   if (set != state_.active_offset) {
     return true;
   }
-  // Needed below: the old offset, and the position along the machine's axes.
+  // Needed below: where the machine is, the old offset, and the position along the machine's axes.
+  const Axes machine = to_machine(state_, out_.place());
   const Axes before = state_.work_in_force;
   state_.work_in_force = offset;
   const double before_deg = state_.rotation_in_force_deg;
@@ -74,8 +75,18 @@ bool OffsetData::work(const Step& step, double form) {
     place = turned(place, -state_.rotation_in_force_deg);
     state_.position[0] = place[0];
     state_.position[1] = place[1];
+    stand_at_machine(machine);
   }
   return true;
+}
+
+void OffsetData::stand_at_machine(const Axes& machine) {
+  constexpr double kSame_mm = 1e-9;
+  const Axes place = to_work(state_, machine);
+  if (std::abs(place[0] - state_.position[0]) > kSame_mm ||
+      std::abs(place[1] - state_.position[1]) > kSame_mm) {
+    out_.stand_at(place);
+  }
 }
 
 // L2 alone: P1 to P6 are G54 to G59, P0 is the external offset added to all of them; on a Haas P0

@@ -16,6 +16,8 @@ class OffsetData : private Stage {
   bool work(const Step& step, double form);
   bool added_work(const Step& step, double form);
   bool tool(const Step& step, double form);
+  /// Where the control now counts with another point, the next move begins where the machine is.
+  void stand_at_machine(const Axes& machine);
   void place_here(const Step& step, double rotation_deg, Axes& offset) const;
   void place_tool(const Step& step, const Axes& machine, const Axes& frame, double turn_deg,
                   Tool& tool) const;

@@ -55,9 +55,9 @@ void MoveOutput::move(MoveKind kind, const Axes& end) {
   fill(kind, end);
   // After G40 the tool is still off the contour. The first move starts there and ends on the
   // contour.
-  if (beside_) {
+  if (beside_mm_) {
     time_by_contour();
-    current_.start = take_beside(current_.start);
+    current_.start = take_place();
   }
   state_.position = end;
   sink_->on_move(current_);
@@ -69,15 +69,11 @@ void MoveOutput::dwell(double seconds) {
   Move out;
   out.kind = MoveKind::dwell;
   out.line = current_.line;
-  out.start = state_.position;
-  out.end = state_.position;
+  out.start = place();
+  out.end = out.start;
   put_modes(out);
   out.override_locked = state_.override_off;
   out.dwell_s = seconds;
-  for (std::size_t i = 0; beside_ && i < out.end.size(); ++i) {
-    out.start[i] += (*beside_)[i];
-    out.end[i] = out.start[i];
-  }
   sink_->on_move(out);
 }
 
@@ -117,13 +113,18 @@ void MoveOutput::time_by_contour() noexcept {
   }
 }
 
-// Only once: from then on the tool is where the program says.
-Axes MoveOutput::take_beside(Axes point) noexcept {
-  for (std::size_t i = 0; beside_ && i < point.size(); ++i) {
-    point[i] += (*beside_)[i];
-  }
-  beside_.reset();
-  return point;
+void MoveOutput::stand_at(const Axes& place) noexcept {
+  beside_mm_ = to_machine(state_, place);
+}
+
+Axes MoveOutput::place() const noexcept {
+  return beside_mm_ ? to_work(state_, *beside_mm_) : state_.position;
+}
+
+Axes MoveOutput::take_place() noexcept {
+  const Axes out = place();
+  beside_mm_.reset();
+  return out;
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -46,11 +46,15 @@ class MoveOutput {
 
   /// In G93 the contour's length gives the feed, whatever the path of the tool centre.
   void time_by_contour() noexcept;
-  /// The tool's offset from the current point after G40, until the next move.
-  [[nodiscard]] const std::optional<Axes>& beside() const noexcept { return beside_; }
-  void stand_beside(const Axes& by) noexcept { beside_ = by; }
-  /// `point` plus the tool's offset from it, which is cleared.
-  [[nodiscard]] Axes take_beside(Axes point) noexcept;
+  /// Until the next move the machine is elsewhere than the control counts with: after G40, and on
+  /// linuxcnc after a rotation that has changed under G52 or G92.
+  [[nodiscard]] bool beside() const noexcept { return beside_mm_.has_value(); }
+  /// It is at this point, work coordinates; offsets that change meanwhile do not move it.
+  void stand_at(const Axes& place) noexcept;
+  /// Where the machine is, in the work coordinates in force.
+  [[nodiscard]] Axes place() const noexcept;
+  /// The same; from then on the control counts with it.
+  [[nodiscard]] Axes take_place() noexcept;
 
  private:
   /// Copies frame, modes and spindle from the state.
@@ -59,7 +63,7 @@ class MoveOutput {
   State& state_;
   Sink* sink_ = nullptr;
   Move current_;
-  std::optional<Axes> beside_;
+  std::optional<Axes> beside_mm_;  ///< machine coordinates
 };
 
 }  // namespace steadyrest::nc::interpret

@@ -36,7 +36,7 @@ bool CutterStage::set(const Step& step) {
     return false;
   }
   // From where the tool is: after a G40 without a move it may still be off the contour.
-  compensation_.begin(state_.plane, tool, out_.take_beside(state_.position));
+  compensation_.begin(state_.plane, tool, out_.take_place());
   out_.send_to(compensation_);
   state_.cutter_side = compensation_.side();
   return true;
@@ -49,11 +49,7 @@ bool CutterStage::end(const Step& step) {
       return refuse(step, fault);
     }
     // The tool stays off the contour until the next move, whose start includes the difference.
-    Axes beside = compensation_.machine();
-    for (std::size_t i = 0; i < beside.size(); ++i) {
-      beside[i] -= state_.position[i];
-    }
-    out_.stand_beside(beside);
+    out_.stand_at(compensation_.machine());
     arc_allowed_ = false;
   }
   compensation_.forget();

@@ -77,10 +77,7 @@ bool Motion::probe(const Step& step) {
     }
   }
   // After G40 the probe starts off the contour.
-  Axes start = state_.position;
-  for (std::size_t i = 0; out_.beside() && i < start.size(); ++i) {
-    start[i] += (*out_.beside())[i];
-  }
+  const Axes start = out_.place();
   const double distance = std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
   // G38.3 and G38.5 may end without a touch; the others would fail.
   const bool may_fail = step.moves_by == g::kProbe || step.moves_by == g::kProbeAway;

@@ -36,7 +36,7 @@ struct Provenance::Words {
 };
 
 Provenance::Provenance(const Config& config, bool settable_frames, Parameters& parameters)
-    : config_(config),
+    : tools_known_(config.tools.has_value()),
       settable_frames_(settable_frames),
       lathe_(config.axes.find('Y') == std::string::npos),
       parameters_(parameters),
@@ -151,7 +151,7 @@ void Provenance::offsets(const Words& words) {
   if ((words.sets_offsets() || words.frame) && !known_.offsets) {
     known_.axes = 0;
   }
-  if (words.length && !(known_.offsets && config_.tools)) {
+  if (words.length && !(known_.offsets && tools_known_)) {
     known_.axes &= words.any_unknown() ? 0U : ~(kZ | (lathe_ ? kX : 0U));
   }
 }

@@ -63,7 +63,7 @@ class Provenance {
   void offsets(const Words& words);
   void axes(const Words& words, const State& state);
 
-  const Config& config_;
+  bool tools_known_;  ///< of the control's tool table
   bool settable_frames_;
   bool lathe_;
   Parameters& parameters_;

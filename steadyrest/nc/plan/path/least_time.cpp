@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -11,14 +9,10 @@ namespace steadyrest::nc::plan {
 using kernel::outcome::Refusal;
 
 std::optional<Refusal> LeastTime::add(const Piece& piece, const interpret::Move& move) {
-  const SegmentPlan& plan = piece.plan;
-  if (plan.rapid) {
+  if (piece.plan.rapid) {
     return std::nullopt;
   }
-  // G96 gives each piece a speed of its own.
-  const double spindle_rev_s = plan.spindle_rev_s != 0.0 ? plan.spindle_rev_s : move.spindle_rev_s;
-  const double feed_mm_s = plan.feed_mm_s * (plan.per_revolution ? std::abs(spindle_rev_s) : 1.0);
-  return add_time(piece.segment.length_mm / feed_mm_s, move.line);
+  return add_time(piece.segment.length_mm / piece.segment.feed_mm_s, move.line);
 }
 
 std::optional<Refusal> LeastTime::add_dwell(const interpret::Move& dwell) {

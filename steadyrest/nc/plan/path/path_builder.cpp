@@ -370,8 +370,9 @@ void PathStream::on_event(const interpret::Event& e) {
     case interpret::EventKind::spindle:
       spindle_pending_ = e.value != 0.0;
       spindle_line_ = e.line;
-      spindle_rev_s_ = e.value;
-      event(PathEventKind::spindle, e.line, e.value);
+      // The drive turns no faster, whatever S asks for.
+      spindle_rev_s_ = std::clamp(e.value, -machine_.spindle.max_rev_s, machine_.spindle.max_rev_s);
+      event(PathEventKind::spindle, e.line, spindle_rev_s_);
       break;
     case interpret::EventKind::coolant:
       event(PathEventKind::coolant, e.line, e.value);

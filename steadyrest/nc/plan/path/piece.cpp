@@ -155,12 +155,13 @@ AxisValues PieceMaker::machine_position(const Move& move, const Axes& work) cons
   return out;
 }
 
-/// Spindle speed of a move. G96 keeps the cutting speed at the mean radius |X| of the move.
+/// Spindle speed of a move, at most the machine's. G96 keeps the cutting speed at the mean radius
+/// |X| of the move.
 double PieceMaker::spindle_of(const PathSegment& s, const Move& move) const {
-  if (move.surface_speed_mm_s == 0.0) {
-    return move.spindle_rev_s;
-  }
   double most = machine_.spindle.max_rev_s;
+  if (move.surface_speed_mm_s == 0.0) {
+    return std::clamp(move.spindle_rev_s, -most, most);
+  }
   if (move.spindle_limit_rev_s > 0.0) {
     most = std::min(most, move.spindle_limit_rev_s);
   }

@@ -43,6 +43,11 @@ class Interpolator {
   /// The setpoint at the end of the next interpolator period.
   Setpoint update(const Overrides& overrides) noexcept;
 
+  /// Passes the periods that further updates with the last one's overrides would make like it: the
+  /// same event waited for, or the same speed on the same segment. Returns how many; 0 where it
+  /// ends soon. What is passed costs nothing, however long it is.
+  std::size_t pass_alike() noexcept;
+
   /// Tells the interpolator that more of a long program is in the window now.
   void extend(std::size_t end, std::size_t event_end, bool complete) noexcept;
   /// The program goes on, but the window is shorter than the look-ahead.
@@ -67,6 +72,8 @@ class Interpolator {
 
   [[nodiscard]] bool stops_after(std::size_t i) const noexcept;
 
+  [[nodiscard]] std::size_t alike_at_event() const noexcept;
+  [[nodiscard]] std::size_t alike_in_motion() const noexcept;
   void take(const Overrides& overrides) noexcept;
   [[nodiscard]] double next_speed() noexcept;
   [[nodiscard]] double lag_cap_mm_s() const noexcept;

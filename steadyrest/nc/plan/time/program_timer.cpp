@@ -9,6 +9,7 @@
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/plan/time/interpolator.hpp>
 #include <steadyrest/nc/plan/time/program_timer.hpp>
+#include <steadyrest/nc/plan/time/spindle_clock.hpp>
 
 namespace steadyrest::nc::plan {
 
@@ -34,7 +35,8 @@ class ProgramTimer::Runner final : public PathReceiver {
         machine_(machine),
         segments_(std::bit_ceil(machine.control.look_ahead_blocks + kSpare)),
         plans_(segments_.size()),
-        events_(kEvents) {
+        events_(kEvents),
+        spindle_(machine.spindle) {
     time.tools.push_back({});
   }
 
@@ -94,20 +96,21 @@ class ProgramTimer::Runner final : public PathReceiver {
   Overrides overrides;
 
  private:
-  // One interpolator period, with a spindle as simple as the drive's ramp.
+  // One interpolator period, and those after it that are like it, with a spindle as simple as the
+  // drive's ramp.
   void step() {
     const double period = machine_.control.interpolator_period_s;
     const std::size_t event = interpolator_->first_event_in_use();
-    const Setpoint s = interpolator_->update(
-        {overrides.feed_ratio, overrides.rapid_ratio, spindle_rev_s_, overrides.spindle_ratio});
+    const Overrides now{overrides.feed_ratio, overrides.rapid_ratio, spindle_.speed_rev_s(),
+                        overrides.spindle_ratio};
+    const Setpoint s = interpolator_->update(now);
     if (s.finished) {
       return;
     }
-    // The spindle follows its command at the drive's acceleration, so that waits and feeds per
-    // revolution take their time.
-    const double reach = machine_.spindle.acceleration_rev_s2 * period;
-    const double wanted_rev_s = s.spindle_rev_s * overrides.spindle_ratio;
-    spindle_rev_s_ += std::clamp(wanted_rev_s - spindle_rev_s_, -reach, reach);
+    // The spindle follows its command, so that waits and feeds per revolution take their time.
+    spindle_.command(s.spindle_rev_s * overrides.spindle_ratio);
+    const bool steady = !spindle_.ramps();
+    spindle_.advance(period);
     for (std::size_t i = event; i < event_end_; ++i) {  // the current change, and those just passed
       const PathEvent& e = events_[i & (events_.size() - 1)];
       const bool passed = i < interpolator_->first_event_in_use();
@@ -125,6 +128,9 @@ class ProgramTimer::Runner final : public PathReceiver {
     // A starved period waits for the reader, not for the machine: it is not machine time.
     if (!interpolator_->starved()) {
       account(s, period);
+      if (const std::size_t alike = steady ? interpolator_->pass_alike() : 0; alike > 0) {
+        account(s, period * static_cast<double>(alike));
+      }
     }
   }
 
@@ -176,7 +182,7 @@ class ProgramTimer::Runner final : public PathReceiver {
   std::size_t event_end_ = 0;
   std::size_t tools_seen_ = 0;
   Cyclogram cyclogram_;
-  double spindle_rev_s_ = 0.0;
+  SpindleClock spindle_;
   std::uint32_t line_ = 0;
 };
 

@@ -35,7 +35,8 @@ struct ProgramTime {
   std::vector<double> line_s;  ///< by line of the program (index 0 unused); repeated lines add up
 };
 
-/// Times a program by running it through the planner and the interpolator, period by period.
+/// Times a program by running it through the planner and the interpolator, period by period where
+/// anything changes: what goes on at one speed, and a dwell, are passed at once.
 ///
 /// Holds a moving window over the path: memory does not grow with the path; only `line_s` (8 bytes
 /// per line), `tools` and `cyclogram` grow. The spindle ramps at machine.spindle.acceleration.

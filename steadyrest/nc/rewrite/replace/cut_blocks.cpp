@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <steadyrest/nc/interpret/state/step.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/replace/by_control.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/survey_program.hpp>
@@ -24,43 +24,6 @@ namespace {
 
 using interpret::Move;
 using interpret::MoveKind;
-
-bool is_motion_code(int code) noexcept {
-  return (code >= interpret::g::kRapid && code <= interpret::g::kArcCounterClockwise) ||
-         code >= interpret::g::kThread;
-}
-
-/// A word that a line or an arc may have without saying anything else.
-bool is_plain(const read::Word& word) {
-  constexpr std::string_view kLetters = "NXYZIJKRFP";
-  if (word.letter == 'G') {
-    const int code = interpret::g::code_of(word.value);
-    return code == interpret::g::kLinear || code == interpret::g::kArcClockwise ||
-           code == interpret::g::kArcCounterClockwise;
-  }
-  const bool arc_name = word.name == "CR" || word.name == "TURN";
-  return arc_name || (word.letter != 0 && kLetters.find(word.letter) != std::string_view::npos);
-}
-
-/// What the words of a block say of motion and feed.
-struct Says {
-  bool motion = false;
-  bool feed = false;
-  bool plain = true;
-  bool calculated = false;
-};
-
-Says says(const read::Block& block) {
-  Says out;
-  for (const read::Word& word : block.words()) {
-    out.motion =
-        out.motion || (word.letter == 'G' && is_motion_code(interpret::g::code_of(word.value)));
-    out.feed = out.feed || word.letter == 'F';
-    out.plain = out.plain && is_plain(word);
-    out.calculated = out.calculated || is_calculated(word);
-  }
-  return out;
-}
 
 bool turns_others(const Move& move) {
   return !std::equal(move.start.begin() + 3, move.start.end(), move.end.begin() + 3);
@@ -163,12 +126,12 @@ class CutSurvey {
     if (main) {
       marks_.mark(number, seen_, false);
     }
-    const Says said = says(run_.block());
+    const Says said = says(run_.block(), dialect_);
     const bool cuts = std::ranges::any_of(kept_.moves, [](const Move& move) {
       return move.kind == MoveKind::linear || move.kind == MoveKind::arc ||
              move.kind == MoveKind::spline;
     });
-    inherit(said, !kept_.moves.empty(), cuts);
+    inherit(said, !kept_.moves.empty() || said.keeps, cuts || said.keeps);
     if (run_.doubt().line) {
       hold_last();
     }
@@ -185,6 +148,7 @@ class CutSurvey {
     }
     const bool was_on = before_.cutter_side != 0;
     before_ = modes_of(run_.state());
+    counted_ = run_.state().position;
     after_compensation_.block(run_.block(), kept_.moves, was_on, before_.cutter_side != 0);
     kept_.clear();
   }
@@ -229,6 +193,7 @@ class CutSurvey {
     block.centre_absolute = state.centre_absolute;
     block.plane = state.plane;
     block.rotation_deg = move.rotation_deg;
+    block.begins_beside = begins_beside(move);
     const interpret::Axes start = machine_of(move, move.start);
     const interpret::Axes end = machine_of(move, move.end);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -257,6 +222,11 @@ class CutSurvey {
     if (cut_last_ && (takes_feed(last.stays) || last.stays == Stays::after_switch)) {
       last.stays = Stays::before_control;
     }
+  }
+
+  /// The machine is elsewhere than the control counts with (MoveOutput::beside).
+  [[nodiscard]] bool begins_beside(const Move& move) const noexcept {
+    return !std::equal(move.start.begin(), move.start.begin() + 3, counted_.begin(), same);
   }
 
   Stays judge(const Says& said, std::string_view text) const {
@@ -305,7 +275,10 @@ class CutSurvey {
     if (by_switch_now_) {
       return Stays::after_switch;
     }
-    return after_compensation_.needs_line() ? Stays::line_needed : Stays::free;
+    if (after_compensation_.needs_line()) {
+      return Stays::line_needed;
+    }
+    return begins_beside(move) ? Stays::beside : Stays::free;
   }
 
   interpret::ProgramRun& run_;
@@ -313,6 +286,7 @@ class CutSurvey {
   read::Dialect dialect_;
   CutBlocks found_;
   Modes before_;
+  interpret::Axes counted_{};  ///< where the control thinks it is, before the block at hand
   BySwitch by_switch_;
   bool by_switch_now_ = false;  ///< of the block at hand
   AfterCompensation after_compensation_;
@@ -326,56 +300,38 @@ class CutSurvey {
 
 }  // namespace
 
-bool is_calculated(const read::Word& word) {
-  constexpr std::string_view kNumber = "0123456789.+- \t=()";
-  std::string_view value = word.text;
-  value.remove_prefix(std::min(value.size(), std::max<std::size_t>(word.name.size(), 1)));
-  if (word.qualifier != read::Qualifier::none) {
-    const std::size_t bracket = value.find('(');  // AC(…), IC(…)
-    value.remove_prefix(bracket == std::string_view::npos ? 0 : bracket);
-  }
-  return word.calculated || value.find_first_not_of(kNumber) != std::string_view::npos;
-}
-
-std::string_view word_beyond_a_cut(const read::Block& block) {
-  for (const read::Word& word : block.words()) {
-    if (!is_plain(word) || is_calculated(word)) {
-      return word.text;
-    }
-  }
-  return block.flow().kind == read::FlowKind::none ? std::string_view{} : "an O-word";
-}
-
-std::string active_comment(read::Dialect dialect, std::string_view line) {
-  constexpr std::array<std::string_view, 6> kWithComma = {"MSG", "DEBUG", "PRINT",
-                                                          "LOG", "ABORT", "PY"};
-  constexpr std::array<std::string_view, 5> kAlone = {"LOGOPEN", "LOGAPPEND", "LOGCLOSE",
-                                                      "PROBEOPEN", "PROBECLOSE"};
-  if (dialect != read::Dialect::linuxcnc) {
-    return {};
-  }
-  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-  for (std::size_t at = line.find_first_of("(;"); at != std::string_view::npos;
-       at = line.find_first_of("(;", at + 1)) {
-    auto next =
-        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(at) + 1, line.end(), blank);
-    std::string name;
-    for (; next != line.end() && std::isalpha(static_cast<unsigned char>(*next)) != 0; ++next) {
-      name += static_cast<char>(std::toupper(static_cast<unsigned char>(*next)));
-    }
-    next = std::find_if_not(next, line.end(), blank);
-    const bool comma = next != line.end() && *next == ',';
-    if (std::ranges::find(kAlone, name) != kAlone.end() ||
-        (comma && std::ranges::find(kWithComma, name) != kWithComma.end())) {
-      return name;
-    }
-  }
-  return {};
-}
-
 const CutBlock* CutBlocks::find(std::uint32_t line) const noexcept {
   const auto found = std::ranges::lower_bound(blocks, line, {}, &CutBlock::line);
   return found != blocks.end() && found->line == line ? &*found : nullptr;
+}
+
+std::size_t CutBlocks::keep_near(std::uint32_t line, std::size_t count) {
+  std::size_t kept = 0;
+  const auto after = std::ranges::upper_bound(blocks, line, {}, &CutBlock::line);
+  for (auto at = after; at != blocks.begin() && kept < count;) {
+    --at;
+    if (takes_feed(at->stays)) {
+      at->stays = Stays::unproved;
+      ++kept;
+    }
+  }
+  for (auto at = after; at != blocks.end() && kept < count; ++at) {
+    if (takes_feed(at->stays)) {
+      at->stays = Stays::unproved;
+      ++kept;
+    }
+  }
+  return kept;
+}
+
+std::vector<std::uint32_t> CutBlocks::lines_that_stay(Stays why) const {
+  std::vector<std::uint32_t> lines;
+  for (const CutBlock& block : blocks) {
+    if (block.stays == why) {
+      lines.push_back(block.line);
+    }
+  }
+  return lines;
 }
 
 kernel::outcome::Result<CutBlocks> cut_blocks(const std::string& path,

@@ -12,11 +12,10 @@
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
-#include <steadyrest/nc/read/text/block.hpp>
 
 namespace steadyrest::nc::rewrite {
 
-/// Why a block that cuts must stay as it is written. The feed of the last two may change.
+/// Why a block that cuts must stay as it is written. The feed of some may change: takes_feed().
 enum class Stays : std::uint8_t {
   free,            ///< it may be replaced
   repeated,        ///< it is in a subprogram, a condition or a loop, or is executed twice
@@ -35,28 +34,23 @@ enum class Stays : std::uint8_t {
   too_long,        ///< the comment that keeps the line would not fit into a block
   motion_needed,   ///< the next block takes its motion word from it
   line_needed,     ///< the first move after G40: it must be straight
+  beside,          ///< the control does not count with where it begins (MoveOutput::beside)
+  unproved,        ///< the proof has refused what would have replaced it
 };
 /// The reason in words: "it is executed more than once".
 [[nodiscard]] std::string_view sentence(Stays stays) noexcept;
 /// Its feed may change, whether its path may or not.
 [[nodiscard]] constexpr bool takes_feed(Stays stays) noexcept {
-  return stays == Stays::free || stays == Stays::motion_needed || stays == Stays::line_needed;
+  return stays == Stays::free || stays == Stays::motion_needed || stays == Stays::line_needed ||
+         stays == Stays::beside;
 }
-/// The value is not a number as it is written: X#1, X[1+2], X=R1.
-[[nodiscard]] bool is_calculated(const read::Word& word);
-/// The first word of a block beyond a line or an arc in plain numbers with its feed; empty when
-/// there is none.
-[[nodiscard]] std::string_view word_beyond_a_cut(const read::Block& block);
-/// The name of a comment that LinuxCNC acts on, such as `MSG` or `PROBEOPEN`; empty where there is
-/// none, and in other dialects. A block that has one does more than cut.
-[[nodiscard]] std::string active_comment(read::Dialect dialect, std::string_view line);
-
 /// A block that cuts, and what must be known to write other blocks in its place.
 struct CutBlock {
   std::uint32_t line = 0;
   Stays stays = Stays::free;
   bool inherited = false;       ///< the next block without a motion word takes this one's
   bool feed_inherited = false;  ///< the next block that cuts without F takes this one's
+  bool begins_beside = false;   ///< it cannot be divided: the control counts with another start
   int motion = 0;               ///< G code times ten that it leaves in force
   interpret::FeedMode feed_mode = interpret::FeedMode::per_minute;
   double feed = 0.0;     ///< F in program units
@@ -79,6 +73,10 @@ struct CutBlocks {
   std::vector<interpret::Assumed> assumed;
   /// None when the line does not cut.
   [[nodiscard]] const CutBlock* find(std::uint32_t line) const noexcept;
+  /// So many of the blocks that could be replaced stay from now on (Stays::unproved): those at
+  /// `line` and before it, then those behind it. Returns how many there were.
+  std::size_t keep_near(std::uint32_t line, std::size_t count);
+  [[nodiscard]] std::vector<std::uint32_t> lines_that_stay(Stays why) const;
 };
 
 /// Runs the program once. Lines that program compensate has inserted are no cuts. Refuses what the

@@ -76,7 +76,7 @@ FeedUse use_of(const PlannedPath& path, std::size_t i, const CutBlocks& blocks) 
       i > 0 && geometry::norm(geometry::subtract(segment.start_mm, path.segments[i - 1].end_mm)) <=
                    kBeyond_mm;
   const bool spiral = !line && std::abs(segment.radius_end_mm - segment.radius_mm) > kSpiral_mm;
-  return spiral || !starts_there ? FeedUse::whole : FeedUse::anywhere;
+  return spiral || !starts_there || block->begins_beside ? FeedUse::whole : FeedUse::anywhere;
 }
 
 /// A block with its feeds, in the order of execution.

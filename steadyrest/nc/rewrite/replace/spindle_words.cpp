@@ -8,6 +8,7 @@
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/spindle_words.hpp>
 #include <steadyrest/nc/rewrite/replace/survey_program.hpp>

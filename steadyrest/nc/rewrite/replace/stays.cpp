@@ -39,6 +39,11 @@ std::string_view sentence(Stays stays) noexcept {
       return "the next block takes its motion word from it";
     case Stays::line_needed:
       return "it is the first move after G40, which must be straight";
+    case Stays::beside:
+      return "a rotation has changed under G52 or G92, and the control does not count with where "
+             "the machine is";
+    case Stays::unproved:
+      return "no proof was found for what would replace it";
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/replace/by_control.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/tube/changed_lines.hpp>
@@ -386,7 +387,8 @@ Result<TubeProof> verify_tube(
   }
   TubeProver prover(original, changed, permitted, *lines, config.dialect);
   auto proof = prover.run(config, progress);
-  if (proof && prover.switchable()) {
+  // The same text does the same with every switch, even where the control would refuse it.
+  if (proof && proof->replaced_lines > 0 && prover.switchable()) {
     TubeProver other(original, changed, permitted, *lines, config.dialect);
     if (auto also = other.run(switched(config), progress); !also) {
       return std::unexpected(of_other_position(std::move(also.error()), config));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
+#include <steadyrest/nc/interpret/parameters/known_state.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/rewrite/tube/permitted.hpp>
 

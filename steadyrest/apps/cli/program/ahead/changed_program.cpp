@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -13,7 +12,6 @@
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
-#include <steadyrest/nc/rewrite/replace/block_text.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -185,11 +183,6 @@ std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks, Rewri
                         of.size(), of.size() == 1 ? "block" : "blocks", some_lines(of));
   }
   return text;
-}
-
-double tolerance_mm(const SourceProgram& program) {
-  constexpr double kRoundings = 3.0;
-  return kRoundings * std::pow(10.0, -nc::rewrite::decimals_of(program.config.dialect, 1.0));
 }
 
 }  // namespace steadyrest::apps::cli

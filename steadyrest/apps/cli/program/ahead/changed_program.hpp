@@ -53,7 +53,4 @@ enum class Rewrites : std::uint8_t { path, feeds };
 [[nodiscard]] std::string put_kept(Answer& answer, const nc::rewrite::CutBlocks& blocks,
                                    Rewrites rewrites);
 
-/// Positions of the changed program within this of the original's are the same, mm.
-[[nodiscard]] double tolerance_mm(const SourceProgram& program);
-
 }  // namespace steadyrest::apps::cli

@@ -11,8 +11,9 @@
 #include <steadyrest/contour/offline/feeds/rapid_lag.hpp>
 #include <steadyrest/contour/offline/predict/model_run.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
+#include <steadyrest/nc/rewrite/replace/at_worst.hpp>
 #include <steadyrest/nc/rewrite/replace/feed_blocks.hpp>
-#include <steadyrest/nc/rewrite/replace/same_cut.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -122,7 +123,10 @@ class Writer {
     }
     const auto path = nc::plan::plan_text(changed->text, program_.config, program_.machine, file_);
     if (!path) {
-      return std::unexpected(path.error());
+      auto refusal = path.error();
+      const auto line = static_cast<std::size_t>(refusal.line);
+      refusal.line = line < changed->origin.size() ? changed->origin[line] : 0;
+      return std::unexpected(std::move(refusal));
     }
     auto predicted = predict(program_, *path, limit_mm_, changed->origin, [](double) {});
     if (!predicted) {
@@ -277,22 +281,9 @@ class Search {
   contour::offline::PathMap map_;
 };
 
-}  // namespace
-
-FeedReserve feed_reserve(const kernel::machine::Machine& machine, double max_error_mm) noexcept {
-  FeedReserve reserve{.margin_mm = machine.contour.margin * max_error_mm};
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
-    const kernel::machine::Axis& axis = machine.axes[i];
-    reserve.backlash_mm = std::max(reserve.backlash_mm, 0.5 * axis.backlash_au);
-    reserve.encoder_mm = std::max(reserve.encoder_mm, axis.encoder.line_error_au);
-  }
-  reserve.limit_mm = max_error_mm - reserve.margin_mm - reserve.backlash_mm - reserve.encoder_mm;
-  return reserve;
-}
-
-Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& file,
-                               double limit_mm, const std::vector<nc::rewrite::Told>& told,
-                               Progress& progress) {
+/// The text with the blocks that may be changed now.
+Result<FeedsAhead> searched(const SourceProgram& program, const std::string& file, double limit_mm,
+                            const std::vector<nc::rewrite::Told>& told, Progress& progress) {
   FeedsAhead out;
   auto before = predict(program, program.path, limit_mm, {}, [&](double share) {
     progress.update(kPredicted * std::min(1.0, share), "predicting the error");
@@ -334,12 +325,31 @@ Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& 
     }
   }
   out.over = writer.over(out.after);
-  if (const auto proof = nc::rewrite::prove_same_cut(
-          file, out.changed, program.config, nc::rewrite::Changes::feeds, tolerance_mm(program));
-      !proof) {
-    return std::unexpected(proof.error());
-  }
   return out;
+}
+
+}  // namespace
+
+FeedReserve feed_reserve(const kernel::machine::Machine& machine, double max_error_mm) noexcept {
+  FeedReserve reserve{.margin_mm = machine.contour.margin * max_error_mm};
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.axes.size()); ++i) {
+    const kernel::machine::Axis& axis = machine.axes[i];
+    reserve.backlash_mm = std::max(reserve.backlash_mm, 0.5 * axis.backlash_au);
+    reserve.encoder_mm = std::max(reserve.encoder_mm, axis.encoder.line_error_au);
+  }
+  reserve.limit_mm = max_error_mm - reserve.margin_mm - reserve.backlash_mm - reserve.encoder_mm;
+  return reserve;
+}
+
+Result<FeedsAhead> feeds_ahead(SourceProgram& program, const std::string& file, double limit_mm,
+                               const std::vector<nc::rewrite::Told>& told, Progress& progress) {
+  return nc::rewrite::at_worst_they_stay(program.blocks, [&]() -> Result<FeedsAhead> {
+    auto out = searched(program, file, limit_mm, told, progress);
+    const auto proof = out ? nc::rewrite::prove_made(file, out->changed, program.config,
+                                                     program.machine, progress.reporter())
+                           : std::unexpected(out.error());
+    return proof ? std::move(out) : std::unexpected(proof.error());
+  });
 }
 
 }  // namespace steadyrest::apps::cli

@@ -35,7 +35,9 @@ struct FeedsAhead : contour::offline::PredictedChange {
   std::vector<OverLimit> over;    ///< in order of lines
 };
 
-[[nodiscard]] Result<FeedsAhead> feeds_ahead(const SourceProgram& program, const std::string& file,
+/// The text is proved. Blocks for which no proof was found stay (Stays::unproved) in `program`,
+/// too.
+[[nodiscard]] Result<FeedsAhead> feeds_ahead(SourceProgram& program, const std::string& file,
                                              double limit_mm,
                                              const std::vector<nc::rewrite::Told>& told,
                                              Progress& progress);

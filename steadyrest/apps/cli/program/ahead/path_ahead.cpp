@@ -36,6 +36,7 @@ void put_figures(Answer& answer, const Predistorted& done, const PathOptions& op
   json["too_far"] = done.too_far;
   json["past_travel"] = done.past_travel;
   json["not_better"] = done.worse;
+  json["not_proved"] = done.unproved;
   json["slower"] = done.slower ? Json({{"seconds", done.slower->seconds},
                                        {"predicted_error_max_mm", done.slower->max_mm},
                                        {"predicted_error_rms_mm", done.slower->rms_mm}})
@@ -86,6 +87,10 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
   if (!done.worse.empty()) {
     text +=
         fmt::format("unchanged, because it would not get better: {} blocks\n", done.worse.size());
+  }
+  if (!done.unproved.empty()) {
+    text += fmt::format("unchanged, because {}: {} blocks\n",
+                        nc::rewrite::sentence(nc::rewrite::Stays::unproved), done.unproved.size());
   }
   return text;
 }

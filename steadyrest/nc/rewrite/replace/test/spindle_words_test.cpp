@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
-#include <steadyrest/nc/rewrite/replace/same_cut.hpp>
 #include <steadyrest/nc/rewrite/replace/spindle_words.hpp>
 #include <steadyrest/nc/rewrite/test/workshop.hpp>
+#include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
 namespace steadyrest::nc::rewrite {
 namespace {
@@ -34,7 +34,7 @@ NewLines lines_of(const Workshop& shop, const std::string& program, std::vector<
   interpret::Config config = shop.config;
   config.dialect = dialect;
   const auto changed = replace(shop.original(), dialect, lines, {{"changes", "speeds"}});
-  const auto proof = prove_same_cut(shop.original(), *changed, config, Changes::speeds, 1e-6);
+  const auto proof = prove_made(shop.original(), *changed, config, shop.machine);
   EXPECT_TRUE(proof.has_value()) << (proof ? "" : proof.error().what) << "\n" << changed->text;
   return lines;
 }

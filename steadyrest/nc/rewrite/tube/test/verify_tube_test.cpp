@@ -206,5 +206,33 @@ TEST(VerifyTube, ProvesBothPositionsOfBlockDelete) {
   EXPECT_THAT(shop.verdict(program, by_zero), Not(HasSubstr("block delete")));
 }
 
+// Without its `/` line the program ends in an arc without a centre: no change can be proved then.
+TEST(VerifyTube, ProvesAnUnchangedProgramThatTheOtherPositionOfBlockDeleteBreaks) {
+  const TubeShop shop;
+  const std::string program =
+      "G21 G90 G94 G17\nG0 X0 Y0\nG1 X5 F500\nG2 X10 I2.5 J0\n/G1 X12\nX20\nM2\n";
+  test::write_file(shop.original(), program);
+  EXPECT_TRUE(verify_tube(shop.original(), shop.original(), shop.config, {}));
+  EXPECT_THAT(shop.verdict(program, {{3, {"G1 X5 Y0.1 F500.0", "G1 Y0"}}}),
+              HasSubstr("with block delete (lines with / skipped): "));
+}
+
+// G10 changes the rotation under G52: the cut begins where the machine is (X10 Y5), not where the
+// control counts from. Feeds alone keep the path; another path behind it is seen.
+TEST(VerifyTube, KnowsWhereACutBeginsWhenTheControlCountsWithAnotherPoint) {
+  const std::string program =
+      "G21 G90 G17 G54\nS1000 M3\nG0 X10 Y5 Z1\nG52 Y3\nG10 L2 P0 X2 R71\n"
+      "G1 Y20 F100\nG1 X30\nG0 Z5\nM2\n";
+  TubeShop feeds("feeds", 0.005);
+  feeds.config.start_known = true;
+  EXPECT_EQ(feeds.verdict(program, {{6, {"G1 Y20 F90"}}}), "proved");
+  EXPECT_EQ(feeds.verdict(program, {{6, {"G1 Y20 F90"}}, {7, {"G1 X30 F50"}}}), "proved");
+  TubeShop path("predistort", 0.2);
+  path.config.start_known = true;
+  // From the machine's place by its own line: a point of it, then the end.
+  EXPECT_EQ(path.verdict(program, {{6, {"G1 X4.4956 Y20 F100"}}}), "proved");
+  EXPECT_NE(path.verdict(program, {{6, {"G1 X4.4956 Y15 F100", "G1 X4.4956 Y20 F100"}}}), "proved");
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::rewrite
