@@ -92,15 +92,26 @@ Result<Replaced> replace(const std::string& program, read::Dialect dialect, cons
     return std::unexpected(source.error());
   }
   PlaceOfHead place(way);
+  BlocksSum sum;
   while (source->next()) {
     place.look(source->line(), source->number());
+    if (const auto found = lines.find(source->number()); found != lines.end()) {
+      sum.add(was_text(dialect, source->line(), found->second.size()));
+      for (const std::string& text : found->second) {
+        sum.add(new_text(dialect, text));
+      }
+    }
+  }
+  std::vector<Told> mark = told;
+  if (!mark.empty()) {
+    mark.push_back({.name = std::string{kBlocksSum}, .value = sum.text()});
   }
   auto again = SourceLines::open(program);
   if (!again) {
     return std::unexpected(again.error());
   }
   Copy copy(dialect, lines, place.line(),
-            lines.empty() ? "" : mark_text(way, told, "\n", kReplacedMark));
+            lines.empty() ? "" : mark_text(way, mark, "\n", kReplacedMark));
   while (again->next()) {
     copy.line(*again);
   }

@@ -40,15 +40,21 @@ std::string decoded(std::string_view text) {
   return out;
 }
 
-/// FNV-1a over the words as they are written.
+// FNV-1a.
+constexpr std::uint32_t kBasis = 2166136261U;
+
+std::uint32_t with(std::uint32_t sum, char c) noexcept {
+  constexpr std::uint32_t kPrime = 16777619U;
+  return (sum ^ static_cast<unsigned char>(c)) * kPrime;
+}
+
+/// Over the words as they are written.
 /// Not against forgery: it shows that the line was edited or truncated.
 std::string sum_of(const std::vector<Told>& told) {
-  constexpr std::uint32_t kBasis = 2166136261U;
-  constexpr std::uint32_t kPrime = 16777619U;
   std::uint32_t sum = kBasis;
   for (const Told& one : told) {
     for (const char c : told_as_text(one) + " ") {
-      sum = (sum ^ static_cast<unsigned char>(c)) * kPrime;
+      sum = with(sum, c);
     }
   }
   return fmt::format("{:08x}", sum);
@@ -106,6 +112,34 @@ std::string mark_text(const Way& way, std::vector<Told> told, std::string_view e
   }
   put();
   return text;
+}
+
+void BlocksSum::add(std::string_view line) noexcept {
+  for (const char c : line) {
+    if (static_cast<unsigned char>(c) > ' ') {
+      sum_ = with(sum_, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
+    }
+  }
+}
+
+std::string BlocksSum::text() const {
+  return fmt::format("{:08x}", sum_);
+}
+
+kernel::outcome::Result<bool> blocks_are_whole(const std::string& changed,
+                                               const std::vector<Told>& told) {
+  const auto written = std::ranges::find(told, kBlocksSum, &Told::name);
+  auto lines = SourceLines::open(changed);
+  if (!lines) {
+    return std::unexpected(lines.error());
+  }
+  BlocksSum sum;
+  while (lines->next()) {
+    if (is_new(lines->line()) || read_was(lines->line())) {
+      sum.add(lines->line());
+    }
+  }
+  return written == told.end() || written->value == sum.text();
 }
 
 bool is_mark(std::string_view line, std::string_view begin) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,22 @@ inline constexpr std::size_t kLongestTold = 200;
 /// The record of a program with blocks replaced; empty for one without.
 [[nodiscard]] kernel::outcome::Result<std::vector<Told>> read_replaced_mark(
     const std::string& changed);
+/// A sum over the blocks that replace others and those that they replace, told in the mark as
+/// kBlocksSum: it shows an edit by hand. Blanks, line ends and capital letters do not count, since
+/// controls change them.
+class BlocksSum {
+ public:
+  void add(std::string_view line) noexcept;
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint32_t sum_ = 2166136261U;  ///< FNV-1a
+};
+inline constexpr std::string_view kBlocksSum = "blocks";
+/// Whether the blocks of a program are as they were written, by its mark; true where that has no
+/// sum over them, as in programs of earlier versions.
+[[nodiscard]] kernel::outcome::Result<bool> blocks_are_whole(const std::string& changed,
+                                                             const std::vector<Told>& told);
 /// The line is part of such a mark.
 [[nodiscard]] bool is_mark(std::string_view line, std::string_view begin) noexcept;
 

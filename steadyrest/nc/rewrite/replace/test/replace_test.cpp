@@ -33,7 +33,7 @@ TEST(Replace, KeepsTheOriginalBesideWhatReplacesIt) {
   const Workshop shop;
   const std::string text =
       changed(shop, "%\nG90\nG1 X1 F10 (cut)\nM2\n", {{3, {"G1 X0.5 F10.0", "G1 X1.0 F9.0"}}});
-  EXPECT_TRUE(text.starts_with("%\n(STEADYREST head made --changes feeds --sum ")) << text;
+  EXPECT_TRUE(text.starts_with("%\n(STEADYREST head made --changes feeds --blocks ")) << text;
   EXPECT_EQ(text.substr(text.find("G90")),
             "G90\n"
             ";STEADYREST was 2 G1 X1 F10 (cut)\n"
