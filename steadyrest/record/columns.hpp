@@ -122,6 +122,8 @@ void frame_columns(kernel::signal::Frame& frame, Visit& visit) {
   visit(ColumnName{"vibration_rate_hz"}, frame.vibration_rate_hz);
   visit(ColumnName{"path_index"}, frame.path_index);
   visit(ColumnName{"path_position_mm"}, frame.path_position_mm);
+  visit(ColumnName{"original_unknown"}, frame.original_unknown);
+  visit(ColumnName{"heat_in_text"}, frame.heat_in_text);
 }
 
 template <class Visit>
@@ -149,6 +151,7 @@ void sample_columns(Sample& sample, Visit&& visit) {
   visit(ColumnName{"vibrations"}, sample.vibrations);
   frame_columns(sample.frame, visit);
   command_columns(sample.command, visit);
+  visit(ColumnName{"original"}, sample.original);
 }
 
 template <class Visit>
@@ -172,6 +175,9 @@ void segment_columns(kernel::signal::PathSegment& segment, Visit&& visit) {
   visit(ColumnName{"feed_mm_s"}, segment.feed_mm_s);
   visit(ColumnName{"speed_limit_mm_s"}, segment.speed_limit_mm_s);
   visit(ColumnName{"exit_speed_limit_mm_s"}, segment.exit_speed_limit_mm_s);
+  visit(ColumnName{"original_start_mm"}, segment.original_start_mm);
+  visit(ColumnName{"original_end_mm"}, segment.original_end_mm);
+  visit(ColumnName{"by_text"}, segment.by_text);
 }
 
 }  // namespace steadyrest::record

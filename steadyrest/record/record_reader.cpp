@@ -35,11 +35,18 @@ kernel::port::Capability capability_of(std::int64_t bits) {
           .latched_word = (bits & 16) != 0};
 }
 
-std::size_t segment_fields() {
+/// Of a path in this format.
+std::size_t segment_fields(std::int64_t format) {
   PathSegment any;
   std::size_t count = 0;
   segment_columns(any, [&count](const ColumnName& /*name*/, auto& /*value*/) { ++count; });
-  return count;
+  return count - (format < kOriginalFormat ? kOriginalFields : 0);
+}
+
+/// The columns of a sample that this format does not have keep their defaults.
+bool is_later(std::string_view name, std::int64_t format) {
+  return format < kOriginalFormat &&
+         (name == "original" || name == "original_unknown" || name == "heat_in_text");
 }
 
 bool put(const std::vector<std::uint64_t>& values, std::size_t count,
@@ -49,7 +56,7 @@ bool put(const std::vector<std::uint64_t>& values, std::size_t count,
     PathSegment segment;
     std::size_t at = i;
     segment_columns(segment, [&](const ColumnName& /*name*/, auto& value) {
-      good = from_bits(values[at], value) && good;
+      good = (at >= values.size() || from_bits(values[at], value)) && good;
       at += count;
     });
     segments.push_back(segment);
@@ -116,7 +123,8 @@ Result<RecordReader> RecordReader::open(const std::string& file) {
 
 Result<void> RecordReader::read_run() {
   const auto format = database_.number("PRAGMA user_version");
-  const bool listens = format && *format >= kListenerFormat;
+  format_ = format ? *format : kFormat;
+  const bool listens = format_ >= kListenerFormat;
   const std::string select =
       std::string(
           "SELECT start_utc, version, machine, machine_text, program, program_text, "
@@ -178,7 +186,7 @@ Result<void> RecordReader::read_paths() {
   if (!query) {
     return std::unexpected(std::move(query.error()));
   }
-  const std::size_t fields = segment_fields();
+  const std::size_t fields = segment_fields(format_);
   std::map<std::uint32_t, std::int64_t> whole;
   for (;;) {
     const auto row = query->step();
@@ -232,6 +240,11 @@ Result<void> RecordReader::read_columns() {
       return damaged("column " + name + " of chunk " + std::to_string(chunk_number_));
     }
     chunk_[static_cast<std::size_t>(at)] = std::move(*values);
+  }
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (is_later(names_[i], format_)) {
+      chunk_[i].assign(samples_, 0);
+    }
   }
   const auto missing = std::ranges::find_if(chunk_, [](const auto& c) { return c.empty(); });
   if (missing != chunk_.end() || !vibrates) {
@@ -292,6 +305,8 @@ Result<bool> RecordReader::next(Sample& sample) {
   sample.frame.vibration = std::span(sample.vibration).first(sample.vibrations);
   const auto path = paths_.find(sample.path);
   sample.frame.path = path == paths_.end() ? kernel::signal::PathView{} : path->second;
+  const auto original = paths_.find(sample.original);
+  sample.frame.original = original == paths_.end() ? kernel::signal::PathView{} : original->second;
   return true;
 }
 

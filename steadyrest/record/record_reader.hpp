@@ -55,6 +55,7 @@ class RecordReader {
   [[nodiscard]] std::unexpected<kernel::outcome::Refusal> damaged(const std::string& what) const;
 
   std::string file_;
+  std::int64_t format_ = 0;
   Database database_;
   Statement chunks_;
   Statement columns_;

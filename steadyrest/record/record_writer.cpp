@@ -57,9 +57,18 @@ struct RecordWriter::Cycle {
   Sample next;
   std::uint64_t number = 0;
   double time_s = 0.0;
-  PathView path;  ///< compared, never read after its frame
-  PathPiece piece;
-  std::uint64_t sent = 0;  ///< segments of the path
+  /// A path on its way into the file.
+  struct Sending {
+    PathView path;  ///< compared, never read after its frame
+    PathPiece piece;
+    std::uint64_t sent = 0;  ///< its segments
+  };
+  Sending path;
+  Sending original;
+  std::uint32_t paths = 0;
+
+  /// Sends on as many segments as `left` has, and takes them off it.
+  void send(PathView view, Sending& into, std::size_t& left) noexcept;
 
   void drop() noexcept { dropped.fetch_add(1, std::memory_order_relaxed); }
   void put(const RawEvent& raw) noexcept {
@@ -264,27 +273,29 @@ RecordWriter::RecordWriter() : cycle_(std::make_unique<Cycle>()) {}
 
 RecordWriter::~RecordWriter() = default;
 
-void RecordWriter::send_path(PathView path) noexcept {
-  Cycle& cycle = *cycle_;
-  if (path.data() != cycle.path.data() || path.size() != cycle.path.size()) {
-    cycle.path = path;
-    cycle.sent = 0;
-    cycle.piece.path += path.empty() ? 0 : 1;
-    cycle.piece.segments = path.size();
+void RecordWriter::Cycle::send(PathView view, Sending& into, std::size_t& left) noexcept {
+  if (view.data() != into.path.data() || view.size() != into.path.size()) {
+    into.path = view;
+    into.sent = 0;
+    paths += view.empty() ? 0 : 1;
+    into.piece.path = view.empty() ? 0 : paths;
+    into.piece.segments = view.size();
   }
-  for (std::size_t i = 0; i < kSegmentsPerCycle && cycle.sent < path.size(); ++i) {
-    cycle.piece.index = cycle.sent;
-    cycle.piece.segment = path[cycle.sent];
-    if (!cycle.pieces.try_push(cycle.piece)) {
+  for (; left > 0 && into.sent < view.size(); --left) {
+    into.piece.index = into.sent;
+    into.piece.segment = view[into.sent];
+    if (!pieces.try_push(into.piece)) {
       return;  // the next cycle goes on from here
     }
-    ++cycle.sent;
+    ++into.sent;
   }
 }
 
 void RecordWriter::add(const Frame& frame, const Command& command) noexcept {
   Cycle& cycle = *cycle_;
-  send_path(frame.path);
+  std::size_t left = kSegmentsPerCycle;
+  cycle.send(frame.path, cycle.path, left);
+  cycle.send(frame.original, cycle.original, left);
   Sample& next = cycle.next;
   next.number = cycle.number++;
   cycle.time_s = frame.time_s;
@@ -294,9 +305,11 @@ void RecordWriter::add(const Frame& frame, const Command& command) noexcept {
   }
   next.frame = frame;
   next.frame.path = {};
+  next.frame.original = {};
   next.frame.vibration = {};
   next.command = command;
-  next.path = frame.path.empty() ? 0 : cycle.piece.path;
+  next.path = cycle.path.piece.path;
+  next.original = cycle.original.piece.path;
   next.vibrations = static_cast<std::uint32_t>(frame.vibration.size());
   std::ranges::copy(frame.vibration, next.vibration.begin());
   if (!cycle.samples.try_push(next)) {

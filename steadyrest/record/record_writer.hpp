@@ -79,7 +79,6 @@ class RecordWriter {
   class Thread;
 
   RecordWriter();
-  void send_path(kernel::signal::PathView path) noexcept;
 
   std::unique_ptr<Cycle> cycle_;
   std::unique_ptr<Thread> thread_;

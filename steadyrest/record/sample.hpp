@@ -14,11 +14,12 @@ namespace steadyrest::record {
 /// Vibration readings that one frame may bring: 50 kHz at a cycle of 5 ms.
 inline constexpr std::size_t kMaxVibration = 256;
 
-/// One cycle: what came in, what was decided. A plain value; `frame.path` and `frame.vibration` own
-/// nothing.
+/// One cycle: what came in, what was decided. A plain value; `frame.path`, `frame.original`
+/// and `frame.vibration` own nothing.
 struct Sample {
-  std::uint64_t number = 0;  ///< counts the cycles of the run, lost ones too, from 0
-  std::uint32_t path = 0;    ///< number of the frame's path in the record; 0: none
+  std::uint64_t number = 0;    ///< counts the cycles of the run, lost ones too, from 0
+  std::uint32_t path = 0;      ///< number of the frame's path in the record; 0: none
+  std::uint32_t original = 0;  ///< likewise of the path that its text corrects
   std::uint32_t vibrations = 0;
   kernel::signal::Frame frame;
   kernel::signal::Command command;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace steadyrest::record {
@@ -8,11 +9,15 @@ namespace steadyrest::record {
 /// `STRY` in the file's head, so that `file` and we know a record from any other database.
 inline constexpr std::int64_t kApplication = 0x53545259;
 /// Raised by every change to the tables or columns.
-inline constexpr std::int64_t kFormat = 4;
+inline constexpr std::int64_t kFormat = 5;
 /// The oldest that is still read: it has no wishes.
 inline constexpr std::int64_t kOldestFormat = 2;
 /// The first with `run.listener`.
 inline constexpr std::int64_t kListenerFormat = 4;
+/// The first that knows of programs whose text corrects the path: those columns are the last of a
+/// segment.
+inline constexpr std::int64_t kOriginalFormat = 5;
+inline constexpr std::size_t kOriginalFields = 3;
 
 /// Of the bits of `run.capability`: the delay of the path offset in µs lies above the others, its
 /// acceleration in mm/s² above that.
@@ -25,7 +30,7 @@ inline constexpr const char* kWriting = "PRAGMA journal_mode = WAL; PRAGMA synch
 /// README.md explains the tables.
 inline constexpr const char* kSchema = R"(
 PRAGMA application_id = 1398035033;
-PRAGMA user_version = 4;
+PRAGMA user_version = 5;
 CREATE TABLE run (
   start_utc TEXT NOT NULL, version TEXT NOT NULL, machine TEXT NOT NULL,
   machine_text TEXT NOT NULL, program TEXT NOT NULL, program_text TEXT NOT NULL,

@@ -129,6 +129,11 @@ kernel::signal::Frame SimulatedMachine::frame() const noexcept {
     frame.vibration_rate_hz = cutting_->sensor_rate_hz();
   }
   frame.path = path_->segments;
+  if (path_->original) {
+    frame.original = path_->original->segments;
+  }
+  frame.original_unknown = !path_->original_unknown.empty();
+  frame.heat_in_text = path_->heat_in_text;
   return frame;
 }
 

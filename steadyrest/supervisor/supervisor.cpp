@@ -232,7 +232,7 @@ void Supervisor::estimate(signal::Frame& frame, bool fit, Reason unfit) noexcept
   motion_.update(frame, fit);
   if (std::isfinite(frame.time_s)) {
     last_frame_ = frame;
-    last_frame_.path = {};  // their owner may not outlive the cycle
+    last_frame_.path = last_frame_.original = {};  // their owner may not outlive the cycle
     last_frame_.vibration = {};
   }
   const signal::InForce come_down = in_force();

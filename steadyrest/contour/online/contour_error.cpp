@@ -7,6 +7,7 @@
 #include <steadyrest/contour/online/search/window_search.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
+#include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
@@ -192,8 +193,9 @@ double ContourError::advance(const Input& input) noexcept {
 /// Where the foot may be, given the servo lag, and where to look first.
 ContourError::Window ContourError::window(const Input& input, double tracking_error_mm,
                                           double elapsed_s) const noexcept {
-  const double back = std::max(2.5 * state_.lag_mm, 1.2 * tracking_error_mm) + config_.reserve_mm;
-  const double ahead = 0.25 * tracking_error_mm + config_.reserve_mm;
+  const double reserve = config_.reserve_mm + input.slack_mm;
+  const double back = std::max(2.5 * state_.lag_mm, 1.2 * tracking_error_mm) + reserve;
+  const double ahead = 0.25 * tracking_error_mm + reserve;
   const double commanded = state_.from_path ? input.path_position_mm : state_.travelled_mm;
   Window out;
   out.low_mm = commanded - back;
@@ -254,6 +256,34 @@ ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept {
   input.path_index = frame.path_index;
   input.path_position_mm = frame.path_position_mm;
   input.path_speed_mm_s = frame.path_speed_mm_s;
+  return input;
+}
+
+ContourError::Input moved_to(ContourError::Input input, PathView path,
+                             double position_mm) noexcept {
+  input.path = path;
+  input.path_position_mm = position_mm;
+  input.path_index = geometry::segment_at(path, position_mm);
+  const PathSegment& segment = path[input.path_index];
+  input.command_mm = geometry::point_at(
+      segment, geometry::parameter_at(segment, position_mm - segment.position_mm));
+  return input;
+}
+
+// The places in between are interpolated, so the window is wider by what the command is off.
+ContourError::Input original_input(const kernel::signal::Frame& frame) noexcept {
+  const ContourError::Input own = contour_input(frame);
+  if (frame.original.empty() || frame.path_index >= frame.path.size()) {
+    return own;
+  }
+  const PathSegment& segment = frame.path[frame.path_index];
+  const double share =
+      segment.length_mm > 0.0
+          ? std::clamp((frame.path_position_mm - segment.position_mm) / segment.length_mm, 0.0, 1.0)
+          : 1.0;
+  ContourError::Input input = moved_to(
+      own, frame.original, std::lerp(segment.original_start_mm, segment.original_end_mm, share));
+  input.slack_mm = geometry::distance(input.command_mm, own.command_mm);
   return input;
 }
 

@@ -58,6 +58,7 @@ class ContourError {
     std::size_t path_index = 0;
     double path_position_mm = 0.0;
     double path_speed_mm_s = 0.0;
+    double slack_mm = 0.0;  ///< more of the window at both ends
   };
 
   struct Output {
@@ -123,6 +124,14 @@ class ContourError {
 
 /// What `ContourError` needs of a frame.
 [[nodiscard]] ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept;
+
+/// The same with the commanded place moved to `position_mm` of another path, which is not empty.
+[[nodiscard]] ContourError::Input moved_to(ContourError::Input input, kernel::signal::PathView path,
+                                           double position_mm) noexcept;
+
+/// The same for the path that the part should have (Frame::original), where the program's text
+/// corrects its path; else for the frame's own.
+[[nodiscard]] ContourError::Input original_input(const kernel::signal::Frame& frame) noexcept;
 
 /// For a machine: the gain of the softest of the three axes that make the contour.
 [[nodiscard]] ContourError::Config contour_config(

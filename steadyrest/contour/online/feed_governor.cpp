@@ -38,6 +38,7 @@ bool is_fit(const Frame& frame) noexcept {
 
 void FeedGovernor::reset() noexcept {
   contour_.reset();
+  original_.reset();
   servo_.pause();
   curve_.reset();
   ahead_.reset();
@@ -51,6 +52,7 @@ FeedGovernor::State FeedGovernor::state() const {
   State state;
   static_cast<Course&>(state) = state_;
   state.contour = contour_.state();
+  state.original = original_.state();
   state.servo = servo_.state();
   state.curve = curve_.state();
   state.ahead = ahead_.state();
@@ -66,6 +68,7 @@ FeedGovernor::State FeedGovernor::state() const {
 void FeedGovernor::restore(const State& state) noexcept {
   state_ = static_cast<const Course&>(state);
   contour_.restore(state.contour);
+  original_.restore(state.original);
   servo_.restore(state.servo);
   curve_.restore(state.curve);
   ahead_.restore(state.ahead);
@@ -162,7 +165,8 @@ void FeedGovernor::observe(const Frame& frame, const ContourError::Output& error
   state_.observed = true;
   const auto residual = run_model(frame, dt);
   if (!residual || !error.valid || frame.motion != Motion::feed ||
-      geometry::norm_squared(error.tangent) == 0.0) {
+      geometry::norm_squared(error.tangent) == 0.0 ||
+      (error.from_path && frame.path[error.foot_index].by_text)) {
     return;
   }
   // Of the cross-path parts the errors' lengths are compared: an axis that rests a count beside its
@@ -223,6 +227,16 @@ FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexce
   return output;
 }
 
+/// The error that is shown: against the path that the part should have. No figure is better than
+/// one against a path that the text has shifted on purpose.
+void FeedGovernor::measure(const Frame& frame, const ContourError::Output& own,
+                           Output& output) noexcept {
+  const ContourError::Output error =
+      frame.original.empty() ? own : original_.update(original_input(frame));
+  output.error_valid = error.valid && !frame.original_unknown;
+  output.error_mm = output.error_valid ? error.error_mm : 0.0;
+}
+
 /// For how long the speed has not followed the override.
 void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
   const double wished = frame.feed.effective_ratio * frame.programmed_feed_mm_s;
@@ -268,8 +282,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   output.decided = false;
   output.forecasts = output.forecast_steps = 0;
   const ContourError::Output error = contour_.update(frame);
-  output.error_valid = error.valid;
-  output.error_mm = error.error_mm;
+  measure(frame, error, output);
   output.nominal_error_mm = nominal_error_mm(frame);
   if (kernel::signal::is_locked(frame.motion)) {
     servo_.pause();
@@ -279,7 +292,8 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   refresh_model(dt > 0.0 && dt < 0.1 ? dt : cycle_s_);
   observe(frame, error, dt);
   output.path_known = state_.last.path_known = look(frame, error);
-  cancel(frame, dt, output);
+  const bool by_text = frame.original_unknown || is_by_text(frame);
+  cancel(frame, dt, by_text, output);
   watch_effect(frame, dt);
 
   if (kernel::signal::is_locked(frame.motion)) {
@@ -287,6 +301,10 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   } else if (frame.motion != Motion::feed &&
              (frame.motion == Motion::idle || !cutting_within_reach(frame))) {
     output = withdraw(Reason::not_cutting, output);
+  } else if (by_text) {
+    output = withdraw(
+        frame.original_unknown ? Reason::contour_original_unknown : Reason::contour_in_text,
+        output);
   } else if (!state_.engaged || frame.time_s >= state_.next_decision_s - 1e-9) {
     state_.engaged = true;
     decide(frame, output);

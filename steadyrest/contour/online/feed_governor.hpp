@@ -75,12 +75,18 @@ struct Candidate {
 /// envelope let pass: every plan starts there, and the words of the last cycles are those still
 /// under way.
 ///
+/// A text that corrects the path (Frame::original): the error shown is that against the original.
+/// Where a segment is `by_text`, feed and offsets are the text's own, from so long before that the
+/// override is back at 1 and settled, until the tool has left it; between, the governor works as
+/// ever. With an original that is not known it shows no error and asks for nothing.
+///
 /// Withdraws (ratio 1): input not finite or stale, threading and tapping, no cutting within reach
-/// ahead. Bounded: a search stops once its forecasts have used `work_share` of a control cycle, at
-/// kForecastStepCostS for each of their steps. The search for the admissible step then takes the
-/// largest one known and the next decision continues from there; the objective's search resumes
-/// with the next decision. One look, and the fall with one look along it, are always made:
-/// most_forecast_steps() has the bound. See bench/contour_decision_bench.
+/// ahead, a path that the text corrects. Bounded: a search stops once its forecasts have used
+/// `work_share` of a control cycle, at kForecastStepCostS for each of their steps. The search for
+/// the admissible step then takes the largest one known and the next decision continues from there;
+/// the objective's search resumes with the next decision. One look, and the fall with one look
+/// along it, are always made: most_forecast_steps() has the bound. See
+/// bench/contour_decision_bench.
 ///
 /// Source: Jin, Zhang, Ding (strategies, exhaustive search). The admissibility rule is this
 /// project's.
@@ -119,7 +125,8 @@ class FeedGovernor {
     kernel::signal::FeedRequest request;
     kernel::signal::OffsetRequest path_offset;  ///< of the precompensator
     bool error_valid = false;
-    double error_mm = 0.0;            ///< contour error now, signed as in ContourError
+    double error_mm = 0.0;            ///< contour error now, signed as in ContourError; against
+                                      ///< the original where the text corrects the path
     double nominal_error_mm = 0.0;    ///< Ed
     double predicted_error_mm = 0.0;  ///< largest with the chosen step, signed (+ inside)
     double predicted_at_mm = 0.0;     ///< path length where
@@ -161,6 +168,7 @@ class FeedGovernor {
   /// Everything that update() changes, including the parts' own state.
   struct State : Course {
     ContourError::State contour;
+    ContourError::State original;
     ServoModel::State servo;
     CommandedCurve::State curve;
     LookAhead::State ahead;
@@ -226,7 +234,10 @@ class FeedGovernor {
   void watch_effect(const kernel::signal::Frame& frame, double dt) noexcept;
   void remember(const kernel::signal::InForce& in_force) noexcept;
   bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
-  void cancel(const kernel::signal::Frame& frame, double dt, Output& output) noexcept;
+  [[nodiscard]] bool is_by_text(const kernel::signal::Frame& frame) const noexcept;
+  void measure(const kernel::signal::Frame& frame, const ContourError::Output& own,
+               Output& output) noexcept;
+  void cancel(const kernel::signal::Frame& frame, double dt, bool by_text, Output& output) noexcept;
   void extrapolate(const kernel::signal::Frame& frame) noexcept;
   [[nodiscard]] bool cutting_within_reach(const kernel::signal::Frame& frame) const noexcept;
   void fill_pending(const kernel::signal::Frame& frame, Forecast& into) const noexcept;
@@ -249,6 +260,7 @@ class FeedGovernor {
   std::vector<std::size_t> table_step_;  ///< their steps in the table
   std::vector<double> table_ratio_;
   ContourError contour_;
+  ContourError original_;  ///< the same against the path that the text corrects
   ServoModel servo_;
   CommandedCurve curve_;
   LookAhead ahead_;
@@ -265,6 +277,7 @@ class FeedGovernor {
   double decision_s_ = 0.01;
   std::size_t search_steps_ = 0;            ///< of the forecasts of one search, by `work_share`
   double reach_s_ = 0.1;                    ///< how far ahead in time the path must be known
+  double back_s_ = 1.0;                     ///< until the override is back at 1 and settled
   std::array<double, kHistory> history_{};  ///< what the control was told, by cycle
   std::size_t history_at_ = 0;
   Course state_;

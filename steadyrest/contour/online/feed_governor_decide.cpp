@@ -62,7 +62,8 @@ double FeedGovernor::stretch_end_mm(const LookAhead& path, const Outset& outset)
   for (std::size_t i = outset.command_cell; i + 1 < path.end(); ++i) {
     const Cell& cell = path.cell(i);
     const double expected = rate * (cell.position_mm - begin);
-    if (!cell.cutting || std::abs(turned - expected) > kStretchTurn * (1.0 + expected)) {
+    if (!cell.cutting || cell.by_text ||
+        std::abs(turned - expected) > kStretchTurn * (1.0 + expected)) {
       return cell.position_mm;
     }
     if (cell.position_mm > end) {

@@ -70,8 +70,9 @@ bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) n
   const double s = frame.path_position_mm;
   const double foot = error.valid ? error.foot_position_mm : s;
   const double tool = precompensator_.started() ? precompensator_.position_mm() : s;
+  const double reach_s = frame.original.empty() ? reach_s_ : std::max(reach_s_, back_s_);
   ahead_.update(frame.path, frame.path_index, std::min({foot, s, tool}) - 0.5, s,
-                s + speed * reach_s_);
+                s + speed * reach_s);
   if (ahead_.empty()) {
     return false;
   }
@@ -80,16 +81,40 @@ bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) n
   return true;
 }
 
+/// The text corrects the path between the tool and where the command can be before the override is
+/// back at 1: a fall would spoil what was written for the programmed feed.
+bool FeedGovernor::is_by_text(const Frame& frame) const noexcept {
+  if (frame.original.empty() || ahead_.empty()) {
+    return !frame.original.empty();  // the place is lost, and what the text does here is not known
+  }
+  double time_s = 0.0;
+  for (std::size_t i = state_.foot_cell; i < ahead_.end() && time_s < back_s_; ++i) {
+    const Cell& cell = ahead_.cell(i);
+    if (cell.by_text) {
+      return true;
+    }
+    // The least time to the next cell, whatever the override.
+    if (const double left_mm = cell.position_mm + cell.length_mm - frame.path_position_mm;
+        left_mm > 0.0) {
+      const double most = cell.cutting ? std::max(1.0, candidate_.back()) : 1.0;
+      const double fastest_mm_s = std::max(1e-3, std::min(cell.cap_mm_s, most * cell.feed_mm_s));
+      time_s += std::min(left_mm, cell.length_mm) / fastest_mm_s;
+    }
+  }
+  return time_s < back_s_ && !ahead_.complete();
+}
+
 /// The offsets that take the contour error away, where the machine takes any.
-void FeedGovernor::cancel(const Frame& frame, double dt, Output& output) noexcept {
+void FeedGovernor::cancel(const Frame& frame, double dt, bool by_text, Output& output) noexcept {
   const bool locked = kernel::signal::is_locked(frame.motion);
   const bool is_regular = dt > 0.0 && dt < 0.1;
-  output.path_offset = precompensator_.update({.frame = frame,
-                                               .path = ahead_,
-                                               .step_s = is_regular ? dt : 0.0,
-                                               .active = state_.offsets_act,
-                                               .permitted = output.path_known && !locked,
-                                               .follows = state_.offsets_follow});
+  output.path_offset =
+      precompensator_.update({.frame = frame,
+                              .path = ahead_,
+                              .step_s = is_regular ? dt : 0.0,
+                              .active = state_.offsets_act,
+                              .permitted = output.path_known && !locked && !by_text,
+                              .follows = state_.offsets_follow});
 }
 
 bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {

@@ -32,6 +32,9 @@ constexpr double kSettleLag = 3.0;  // of the longest τ: e⁻³ of the velocity
 /// in forecast.cpp); neither is known yet here, so v/a is taken for 12 m/min at 2 m/s².
 constexpr double kBrakingS = 0.1;
 
+/// In which the envelope takes a path offset out: kernel/override/offset_envelope.
+constexpr double kOffsetOut_s = 0.2;
+
 /// How far the tool point's command may jump at a corner: the axes are given a change of speed of
 /// k times it at once.
 constexpr double kToolTurn_mm = 0.07;
@@ -222,6 +225,7 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
                            const ServoModel& servo, Precompensator precompensator)
     : config_(config),
       contour_(contour),
+      original_(contour),
       servo_(servo),
       ahead_(config.axes, config.control.max_path_acceleration_mm_s2,
              kToolTurn_mm * softest(config.axes)),
@@ -275,6 +279,9 @@ FeedGovernor::FeedGovernor(const Config& config, const ContourError& contour,
   // the way from 1 to 0, the control has braked, and the axes have settled.
   reach_s_ = timing.dead_s + timing.scan_s + decision_s_ + kBrakingS + 1.0 / timing.fall_1_s +
              timing.settle_s;
+  back_s_ = timing.dead_s + timing.scan_s + decision_s_ + timing.settle_s +
+            std::max({precompensator_.enabled() ? kOffsetOut_s : 0.0, (1.0 - low) / timing.rise_1_s,
+                      (high - 1.0) / timing.fall_1_s});
   refresh_model(0.0);
   history_.fill(1.0);
 }

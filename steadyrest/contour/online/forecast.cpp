@@ -97,7 +97,8 @@ Forecast::Squares Forecast::squares(const LookAhead& path, const Outset& outset,
     }
     const Point table = walk.follow(from_mm);
     out.steps = n;
-    if (path.cell(walk.tool->cell).cutting && n % kEvery == 0) {
+    const Cell& under = path.cell(walk.tool->cell);
+    if (under.cutting && !under.by_text && n % kEvery == 0) {
       const double square = nearest_square(path, walk.tool->cell, table);
       out.mean_mm2 += square;
       out.largest_mm2 = std::max(out.largest_mm2, square);
@@ -125,8 +126,9 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
     const Near near = walk.foot.update(walk.follow(from_mm), walk.at);
     const Cell& under = path.cell(walk.foot.cell());
     walk.result.steps = n;
-    // In air the error does not matter; within the dead time nothing can change it.
-    if (!under.cutting || t <= std::max(timing_.dead_s, plan.judged_from_s)) {
+    // In air the error does not matter, what the text corrects is not seen here, and within the
+    // dead time nothing can change it.
+    if (!under.cutting || under.by_text || t <= std::max(timing_.dead_s, plan.judged_from_s)) {
       continue;
     }
     walk.result.judged = true;

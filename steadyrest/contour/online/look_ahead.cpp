@@ -148,6 +148,7 @@ void LookAhead::describe(Cell& cell, const PathSegment& segment) const noexcept 
   cell.cap_mm_s = segment.speed_limit_mm_s;
   cell.cutting = segment.motion == Motion::feed;
   cell.rapid = segment.motion == Motion::rapid;
+  cell.by_text = segment.by_text;
 }
 
 /// How fast the tool point may go round the joint before the next cell.
@@ -244,7 +245,8 @@ void LookAhead::take_lines(PathView path, Cell& cell, int& segments) noexcept {
     const PathSegment& next = path[next_segment_];
     const Point turned = geometry::unit(geometry::subtract(next.end_mm, next.start_mm));
     if (next.geometry != Geometry::line || next.motion != segment.motion ||
-        next.feed_mm_s != segment.feed_mm_s || length + next.length_mm > kChordMm ||
+        next.feed_mm_s != segment.feed_mm_s || next.by_text != segment.by_text ||
+        length + next.length_mm > kChordMm ||
         geometry::dot(direction, turned) < 1.0 - 0.5 * kChordTurn * kChordTurn) {
       break;
     }

@@ -30,6 +30,7 @@ struct Cell {
   bool corner = false;              ///< the direction breaks at its start
   bool cutting = false;             ///< Motion::feed: the feed override acts, the contour counts
   bool rapid = false;               ///< the rapid override acts
+  bool by_text = false;             ///< the text corrects the path: its error is not judged here
 };
 
 /// The path around the commanded point as cells, made once and kept in a ring while the command

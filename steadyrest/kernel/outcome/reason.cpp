@@ -46,6 +46,11 @@ constexpr std::array kEntries = {
           "The override has no effect on the feed here."},
     Entry{Reason::contour_path_unknown, "contour_path_unknown",
           "The path ahead is unknown; only the measured error counts."},
+    Entry{Reason::contour_in_text, "contour_in_text",
+          "The program's text corrects the path here: feed and offsets stay as programmed."},
+    Entry{Reason::contour_original_unknown, "contour_original_unknown",
+          "The program's text corrects the path, but its original is unknown: no contour "
+          "correction."},
     Entry{Reason::contour_cancelled, "contour_cancelled",
           "Axis offsets keep the tool on the path at full feed."},
     Entry{Reason::contour_cancel_begins, "contour_cancel_begins",
@@ -92,6 +97,8 @@ constexpr std::array kEntries = {
     Entry{Reason::thermal_sensor_stuck, "thermal_sensor_stuck",
           "A temperature reading is stuck while others change: the offset is held, then fades once "
           "the tool is out of the cut."},
+    Entry{Reason::thermal_in_text, "thermal_in_text",
+          "The program's text corrects the thermal drift: the layer adds no thermal offset."},
     Entry{Reason::thermal_reading_taken, "thermal_reading_taken",
           "A probe reading re-zeroed the thermal model."},
     Entry{Reason::thermal_reading_outlier, "thermal_reading_outlier",

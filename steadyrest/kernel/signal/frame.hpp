@@ -94,6 +94,11 @@ struct Frame {
   PathView path;                  ///< empty when the layer does not know the program's path
   std::size_t path_index = 0;     ///< segment that holds the commanded point
   double path_position_mm = 0.0;  ///< commanded path length since the program's start
+  /// The path that the part should have, where the program's text corrects it and so commands
+  /// another; empty: they are the same.
+  PathView original;
+  bool original_unknown = false;  ///< the text corrects the path, from one that is not known
+  bool heat_in_text = false;      ///< the text corrects the axes' drift by heat
 };
 
 }  // namespace steadyrest::kernel::signal

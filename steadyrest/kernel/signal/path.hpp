@@ -81,6 +81,11 @@ struct PathSegment {
       std::numeric_limits<double>::infinity();  ///< what the control never exceeds here
   double exit_speed_limit_mm_s =
       0.0;  ///< what the control never exceeds at the end point; 0 = it stops there
+  /// Where the program's text corrects its path (Frame::original): the places of the original, by
+  /// path length, that belong to start and end; linear between.
+  double original_start_mm = 0.0;
+  double original_end_mm = 0.0;
+  bool by_text = false;  ///< the text commands another place here than the part should have
 };
 
 /// The path of a program, in order, contiguous: segment i+1 starts where i ends.

@@ -43,8 +43,10 @@ Result<Frame> FollowedPort::read() noexcept {
   const auto found = locator_.update(*frame);
   place_.store(found.place);
   frame->path = {};
+  frame->original = {};
   if (found.place == Place::on_path) {
     frame->path = now_->path();
+    frame->original = now_->original();
     frame->path_index = found.index;
     frame->path_position_mm = found.position_mm;
     if (estimated_) {
@@ -56,7 +58,21 @@ Result<Frame> FollowedPort::read() noexcept {
       frame->motion = planned;
     }
   }
+  show_text(*frame);
   return frame;
+}
+
+void FollowedPort::show_text(Frame& frame) const noexcept {
+  const bool runs = frame.program != kernel::signal::ProgramState::stopped;
+  frame.heat_in_text = runs && heat_in_text_.load();
+  frame.original_unknown =
+      runs && (original_unknown_.load() || (path_in_text_.load() && frame.original.empty()));
+}
+
+void FollowedPort::tell(const InText& in_text) noexcept {
+  path_in_text_.store(in_text.path);
+  original_unknown_.store(in_text.path_unknown);
+  heat_in_text_.store(in_text.heat);
 }
 
 void FollowedPort::take() noexcept {

@@ -37,6 +37,15 @@ class FollowedPort final : public kernel::port::Port {
 
   /// The path from the next frame on; null: none. One thread, which is not the cycle's.
   void offer(std::shared_ptr<const nc::follow::Route> route);
+  /// What the loaded program's text corrects by itself. Where the place on the path is lost, what
+  /// it corrects there is not known.
+  struct InText {
+    bool path = false;
+    bool path_unknown = false;  ///< its original is not known
+    bool heat = false;
+  };
+  /// The same thread.
+  void tell(const InText& in_text) noexcept;
   /// Any thread.
   [[nodiscard]] nc::follow::Place place() const noexcept { return place_.load(); }
 
@@ -44,6 +53,7 @@ class FollowedPort final : public kernel::port::Port {
   using Route = nc::follow::Route;
 
   void take() noexcept;
+  void show_text(kernel::signal::Frame& frame) const noexcept;
 
   kernel::port::Port& machine_;
   nc::follow::PathLocator locator_;
@@ -53,6 +63,9 @@ class FollowedPort final : public kernel::port::Port {
   std::atomic<const Route*> offered_{nullptr};
   std::atomic<const Route*> used_{nullptr};  ///< the cycle may look at it
   std::vector<std::shared_ptr<const Route>> kept_;
+  std::atomic<bool> path_in_text_{false};
+  std::atomic<bool> original_unknown_{false};
+  std::atomic<bool> heat_in_text_{false};
 };
 
 }  // namespace steadyrest::live

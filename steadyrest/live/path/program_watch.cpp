@@ -8,6 +8,7 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/live/path/program_watch.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
+#include <steadyrest/nc/rewrite/original/original_path.hpp>
 
 namespace steadyrest::live {
 namespace {
@@ -22,11 +23,11 @@ constexpr double kShortPlan_s = 0.02;
 }  // namespace
 
 ProgramWatch::ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source,
-                           Refused refused)
+                           Warn warn)
     : port_(port),
       machine_(std::move(machine)),
       source_(std::move(source)),
-      refused_(std::move(refused)),
+      warn_(std::move(warn)),
       thread_([this] { watch(); }) {}
 
 ProgramWatch::~ProgramWatch() {
@@ -46,6 +47,11 @@ void ProgramWatch::say(Status status) {
 
 void ProgramWatch::withdraw(const std::string& file, std::string words) {
   port_.offer(nullptr);
+  if (file != marked_) {  // without a plan the marks alone say what its text corrects
+    marked_ = file;
+    const auto marks = nc::rewrite::read_text_marks(file);
+    port_.tell({.path = marks.path, .path_unknown = false, .heat = marks.heat});
+  }
   say({.file = file, .segments = 0, .words = std::move(words)});
 }
 
@@ -153,15 +159,20 @@ void ProgramWatch::plan(const LoadedProgram& loaded) {
   withdrawn_.clear();
   subprograms_.clear();
   stamp_ = stamps_of(loaded.file);
+  marked_ = loaded.file;
   const auto begin = std::chrono::steady_clock::now();
   auto path = nc::plan::plan_file_from_start(loaded.file, loaded.start, machine_);
   plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!path) {
     withdraw(loaded.file, kernel::outcome::text(path.error()));
-    refused_(path.error());
+    warn_("the layer runs without the program's path: " + kernel::outcome::text(path.error()));
     return;
   }
-  subprograms_ = std::move(path->subprograms);
+  subprograms_ = path->subprograms;
+  const auto marks = nc::rewrite::read_text_marks(loaded.file, subprograms_);
+  nc::rewrite::hold_against_original(marks, loaded.file, loaded.start, machine_, *path);
+  port_.tell(
+      {.path = marks.path, .path_unknown = !path->original_unknown.empty(), .heat = marks.heat});
   const Stamp main = stamp_->front();
   stamp_ = stamps_of(loaded.file);
   stamp_->front() = main;  // as it was before it was read
@@ -171,9 +182,16 @@ void ProgramWatch::plan(const LoadedProgram& loaded) {
     from_start.push_back(plan.from_start);
   }
   relative_ = !from_start.empty() && from_start.back();
-  auto route =
-      std::make_shared<const nc::follow::Route>(std::move(path->segments), std::move(from_start));
-  say({.file = loaded.file, .segments = route->path().size(), .words = {}});
+  const std::vector<std::string> words = nc::rewrite::words_of(*path);
+  auto route = std::make_shared<const nc::follow::Route>(
+      std::move(path->segments), std::move(from_start),
+      path->original ? path->original->segments : std::vector<kernel::signal::PathSegment>());
+  std::string note;
+  for (const std::string& one : words) {
+    warn_(loaded.file + ": " + one);
+    note += (note.empty() ? "" : "; ") + one;
+  }
+  say({.file = loaded.file, .segments = route->path().size(), .words = std::move(note)});
   port_.offer(std::move(route));
 }
 

@@ -41,14 +41,15 @@ class ProgramWatch {
   struct Status {
     std::string file;          ///< empty: none loaded
     std::size_t segments = 0;  ///< of the path; 0: there is none
-    std::string words;         ///< why there is none; empty otherwise
+    /// Why there is none; else what the layer leaves to the program's text; empty: nothing.
+    std::string words;
   };
 
-  /// Why a program cannot be planned; called in the watch's thread.
-  using Refused = std::function<void(const kernel::outcome::Refusal& why)>;
+  /// Why a program cannot be planned, and what the layer leaves to its text; called in the watch's
+  /// thread.
+  using Warn = std::function<void(const std::string& words)>;
 
-  ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source,
-               Refused refused);
+  ProgramWatch(FollowedPort& port, kernel::machine::Machine machine, Source source, Warn warn);
   ProgramWatch(const ProgramWatch&) = delete;
   ProgramWatch& operator=(const ProgramWatch&) = delete;
   ~ProgramWatch();
@@ -76,11 +77,12 @@ class ProgramWatch {
   FollowedPort& port_;
   kernel::machine::Machine machine_;
   Source source_;
-  Refused refused_;
+  Warn warn_;
   // Of the thread.
   LoadedProgram planned_;
   std::optional<Stamps> stamp_;           ///< of the texts that were planned, or refused
   std::vector<std::string> subprograms_;  ///< of the program that was planned
+  std::string marked_;                    ///< the file whose marks the port was told
   double plan_s_ = 0.0;                   ///< that took so long
   bool relative_ = false;                 ///< its end follows from where it starts
   std::string withdrawn_;                 ///< why it has no path while it runs; empty: it has one

@@ -73,6 +73,29 @@ TEST(FollowedPort, ShowsThePathThatTheMachineHides) {
   EXPECT_EQ(followed.place(), Place::no_program);
 }
 
+TEST(FollowedPort, ShowsTheOriginalBesideThePathAndThatItIsNotKnownElsewhere) {
+  test::Desk desk;
+  Hidden hidden(*desk.port);
+  FollowedPort followed(hidden);
+  (void)hidden.read();
+  const std::vector segments(hidden.truth.path.begin(), hidden.truth.path.end());
+  followed.tell({.path = true, .heat = true});
+  followed.offer(std::make_shared<const Route>(segments, std::vector<bool>(), segments));
+  int found = 0;
+  for (int i = 0; i < 500; ++i) {
+    const auto frame = followed.read();
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->original.size(), frame->path.size());
+    EXPECT_EQ(frame->original_unknown, frame->path.empty());
+    EXPECT_TRUE(frame->heat_in_text);
+    found += frame->original.empty() ? 0 : 1;
+  }
+  EXPECT_GT(found, 100);
+  hidden.program = ProgramState::stopped;
+  EXPECT_FALSE(followed.read()->original_unknown) << "no program runs";
+  EXPECT_FALSE(followed.read()->heat_in_text);
+}
+
 // The control tells its PLC of the G code once in a scan, and a thread may be over by then.
 TEST(FollowedPort, AThreadOfTheProgramIsOneThoughTheControlShowsAFeed) {
   test::Desk desk;

@@ -63,7 +63,7 @@ class FakeControl {
 struct Watched {
   Watched()
       : watch(port, desk.machine, control.source(),
-              [this](const kernel::outcome::Refusal& why) { refusals.push_back(why.what); }) {}
+              [this](const std::string& words) { warnings.push_back(words); }) {}
 
   LoadedProgram loaded(bool stopped = true) const {
     LoadedProgram program;
@@ -75,7 +75,7 @@ struct Watched {
   }
   void write(const std::string& text) const { std::ofstream(folder.at("part.mpf")) << text; }
 
-  std::vector<std::string> refusals;  ///< read after FakeControl::tell()
+  std::vector<std::string> warnings;  ///< read after FakeControl::tell()
   OwnFolder folder;
   test::Desk desk;
   FollowedPort port{*desk.port};
@@ -97,6 +97,49 @@ TEST(ProgramWatch, PlansWhatTheControlHasLoaded) {
   EXPECT_NE(watched.port.place(), Place::no_route);
 }
 
+// The same circle, commanded larger by what the axes lag.
+const std::string kCorrected =
+    ";STEADYREST head made --changes predistort --tube-mm 0.5 --sum 6fa7c094\n"
+    "G17 G90 G94 G71\nG0 X10 Y0\n;STEADYREST was 3 G3 X10 Y0 I-10 J0 F4000\n"
+    "G1 X10.1 F4000 ;STEADYREST new\nG3 X10.1 Y0 I-10.1 J0 ;STEADYREST new\n"
+    "G1 X10 ;STEADYREST new\nM30\n";
+
+TEST(ProgramWatch, KnowsTheOriginalOfATextThatCorrectsThePath) {
+  Watched watched;
+  watched.write(kCorrected);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().words, "");
+  EXPECT_GT(watched.watch.status().segments, 0U);
+  EXPECT_TRUE(watched.warnings.empty());
+}
+
+TEST(ProgramWatch, SaysWhyTheOriginalIsNotKnown) {
+  Watched watched;
+  std::string damaged = kCorrected;
+  damaged.replace(damaged.find("was 3"), 5, "was 4");
+  watched.write(damaged);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_GT(watched.watch.status().segments, 0U);
+  EXPECT_THAT(watched.watch.status().words, HasSubstr("the layer stays out of the contour"));
+  ASSERT_EQ(watched.warnings.size(), 1U);
+  EXPECT_THAT(watched.warnings[0], HasSubstr("fewer new lines than it says"));
+  EXPECT_TRUE(watched.port.read()->original_unknown);
+}
+
+// Nothing is planned, and yet no guess may follow the text's shift as an error.
+TEST(ProgramWatch, KnowsWithoutAPlanThatTheTextCorrectsThePath) {
+  Watched watched;
+  watched.write(kCorrected + "G999\n");
+  auto program = watched.loaded();
+  program.text_is_file = false;
+  watched.control.tell(std::optional(program));
+  EXPECT_EQ(watched.watch.status().segments, 0U);
+  EXPECT_TRUE(watched.port.read()->original_unknown);
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_FALSE(watched.port.read()->original_unknown);
+}
+
 TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
   Watched watched;
   watched.control.tell(std::optional(watched.loaded()));
@@ -104,7 +147,7 @@ TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
   watched.write("G0 X10\nG999\nM30\n");
   watched.control.tell(std::optional(watched.loaded()));
   EXPECT_THAT(watched.watch.status().words, HasSubstr("part.mpf:2"));
-  EXPECT_EQ(watched.refusals.size(), 2U) << "each is told once";
+  EXPECT_EQ(watched.warnings.size(), 2U) << "each is told once";
   EXPECT_EQ(watched.watch.status().segments, 0U);
   // Mended, it is read again.
   watched.write(kPart);

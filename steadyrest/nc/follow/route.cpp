@@ -7,8 +7,12 @@
 
 namespace steadyrest::nc::follow {
 
-Route::Route(std::vector<kernel::signal::PathSegment> path, std::vector<bool> from_start)
-    : path_(std::move(path)), from_start_(std::move(from_start)), by_line_(path_.size()) {
+Route::Route(std::vector<kernel::signal::PathSegment> path, std::vector<bool> from_start,
+             std::vector<kernel::signal::PathSegment> original)
+    : path_(std::move(path)),
+      original_(std::move(original)),
+      from_start_(std::move(from_start)),
+      by_line_(path_.size()) {
   std::iota(by_line_.begin(), by_line_.end(), 0U);
   std::ranges::stable_sort(by_line_, {}, [this](std::uint32_t i) { return path_[i].line; });
 }

@@ -16,9 +16,12 @@ class Route {
  public:
   /// `from_start`: the segments whose place follows from where the axes stood at the program's
   /// start; empty: none.
-  explicit Route(std::vector<kernel::signal::PathSegment> path, std::vector<bool> from_start = {});
+  /// `original`: the path that the part should have, where the program's text corrects it.
+  explicit Route(std::vector<kernel::signal::PathSegment> path, std::vector<bool> from_start = {},
+                 std::vector<kernel::signal::PathSegment> original = {});
 
   [[nodiscard]] kernel::signal::PathView path() const noexcept { return path_; }
+  [[nodiscard]] kernel::signal::PathView original() const noexcept { return original_; }
   [[nodiscard]] bool from_start(std::size_t index) const noexcept {
     return index < from_start_.size() && from_start_[index];
   }
@@ -33,6 +36,7 @@ class Route {
 
  private:
   std::vector<kernel::signal::PathSegment> path_;
+  std::vector<kernel::signal::PathSegment> original_;
   std::vector<bool> from_start_;
   std::vector<std::uint32_t> by_line_;  ///< segments, sorted by line
 };

@@ -67,6 +67,7 @@ class ProgramRun::Run {
     if (!report_.refused.empty() && !source_failed_ && files_.in_main()) {
       survey();
     }
+    report_.subprograms = files_.subprograms();
     report_.unknown = std::move(provenance_.known().assumed);
     return std::move(report_);
   }
@@ -372,9 +373,6 @@ const std::vector<Assumed>& ProgramRun::unknown() const noexcept {
 }
 const Asked& ProgramRun::asked() const noexcept {
   return run_->asked();
-}
-std::vector<std::string> ProgramRun::subprogram_files() const {
-  return run_->files_.subprograms();
 }
 
 // What the control would keep after the program; rewrite compares it.

@@ -36,6 +36,7 @@ struct Report {
   std::vector<Assumption> assumed;
   /// What the program has read of values that the control decides, and what was taken for them.
   std::vector<Assumed> unknown;
+  std::vector<std::string> subprograms;  ///< files that it calls
 
   static constexpr std::size_t kMostRefused = 50;
 };
@@ -84,8 +85,6 @@ class ProgramRun {
   [[nodiscard]] const std::vector<Assumed>& unknown() const noexcept;
   [[nodiscard]] const State& state() const noexcept;  ///< as it is now
   [[nodiscard]] Kept kept() const;                    ///< likewise
-  /// The subprogram files opened so far.
-  [[nodiscard]] std::vector<std::string> subprogram_files() const;
 
  private:
   class Run;

@@ -85,24 +85,36 @@ TEST(RefusedRecord, ADatabaseOfAnotherProgram) {
 TEST(RefusedRecord, AnotherFormatNamesBoth) {
   const test::Folder folder;
   const std::string file = record(folder);
-  for (const std::string format : {"1", "5"}) {
+  for (const std::string format : {"1", "6"}) {
     change(file, "PRAGMA user_version = " + format);
     EXPECT_THAT(refusal(file),
-                testing::HasSubstr("has format " + format + "; this program reads formats 2 to 4"));
+                testing::HasSubstr("has format " + format + "; this program reads formats 2 to 5"));
   }
 }
 
-// Neither had a listener.
+// A real one of the oldest format has its path, and no original.
 TEST(RefusedRecord, TheFormatsBeforeAreNot) {
   const test::Folder folder;
   const std::string file = record(folder);
+  // None had an original, nor the three columns of it that a segment has.
+  change(file,
+         "DELETE FROM path_part; DELETE FROM path; DELETE FROM chunk_column WHERE name IN "
+         "('original', 'original_unknown', 'heat_in_text')");
+  change(file, "PRAGMA user_version = 4");
+  EXPECT_EQ(refusal(file), "");
   change(file, "ALTER TABLE run DROP COLUMN listener");
   for (const std::string format : {"2", "3"}) {
     change(file, "PRAGMA user_version = " + format);
     EXPECT_EQ(refusal(file), "");
     EXPECT_EQ(RecordReader::open(file).value().run().listener, "");
   }
-  EXPECT_EQ(refusal(STEADYREST_SOURCE_DIR "/examples/records/circle-start.sqlite"), "");
+  const std::string oldest = STEADYREST_SOURCE_DIR "/examples/records/circle-start.sqlite";
+  EXPECT_EQ(refusal(oldest), "");
+  auto reader = RecordReader::open(oldest).value();
+  Sample sample;
+  ASSERT_TRUE(reader.next(sample).value());
+  EXPECT_EQ(sample.frame.path.size(), 5U);
+  EXPECT_TRUE(sample.frame.original.empty());
 }
 
 TEST(RefusedRecord, DamageNamesThePlace) {

@@ -11,8 +11,8 @@ using kernel::signal::PathSegment;
 // and so to columns.hpp.
 TEST(Columns, NameEveryField) {
   [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15,
-                                f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26] =
-      kernel::signal::Frame{};
+                                f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28,
+                                f29] = kernel::signal::Frame{};
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12] =
       kernel::signal::AxisSample{};
   [[maybe_unused]] const auto& [o1, o2, o3, o4] = kernel::signal::OverrideState{};
@@ -20,13 +20,13 @@ TEST(Columns, NameEveryField) {
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6, c7, c8, c9, c10, c11, c12, c13, c14] =
       kernel::signal::Command{};
   [[maybe_unused]] const auto& [s1, s2, s3, s4, s5, s6, s7, s8, s9, s10, s11, s12, s13, s14, s15,
-                                s16, s17, s18, s19] = PathSegment{};
+                                s16, s17, s18, s19, s20, s21, s22] = PathSegment{};
   [[maybe_unused]] const auto& [k1, k2, k3, k4, k5, k6, k7] = kernel::port::Capability{};
   std::size_t columns = 0;
   Sample sample;
   sample_columns(sample, [&columns](const ColumnName&, auto&) { ++columns; });
-  // Of the sample itself 3; of the frame 18 single ones; of the command 12 single ones.
-  EXPECT_EQ(columns, 3 + 18 + 8 * 12 + 3 * 4 + 16 + 4 + 12 + 2 * 8U);
+  // Of the sample itself 4; of the frame 20 single ones; of the command 12 single ones.
+  EXPECT_EQ(columns, 4 + 20 + 8 * 12 + 3 * 4 + 16 + 4 + 12 + 2 * 8U);
 }
 
 TEST(RoundTrip, EveryFieldComesBackBitForBit) {
@@ -83,6 +83,33 @@ TEST(RoundTrip, EachFrameHasItsPath) {
         kernel::signal::PathView(), kernel::signal::PathView(second)}) {
     ASSERT_TRUE(reader.next(read).value());
     EXPECT_EQ(test::bits_of(read.frame.path), test::bits_of(path));
+  }
+}
+
+// The text corrects both parts' paths, which have one original.
+TEST(RoundTrip, EachFrameHasItsOriginal) {
+  const test::Folder folder;
+  test::Random random(3);
+  std::vector<PathSegment> path;
+  std::vector<PathSegment> original;
+  for (int i = 0; i < 100; ++i) {
+    path.push_back(test::any_segment(random));
+    original.push_back(test::any_segment(random));
+  }
+  const std::vector<PathSegment> other = {test::any_segment(random)};
+  {
+    const auto writer = test::quiet_writer(folder.file("a.sqlite"));
+    for (int i = 0; i < 8; ++i) {
+      test::add(*writer, {}, i < 7 ? path : other, original);
+    }
+  }
+  auto reader = RecordReader::open(folder.file("a.sqlite")).value();
+  EXPECT_TRUE(reader.paths_complete());
+  Sample read;
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_TRUE(reader.next(read).value());
+    EXPECT_EQ(test::bits_of(read.frame.path), test::bits_of(i < 7 ? path : other)) << i;
+    EXPECT_EQ(test::bits_of(read.frame.original), test::bits_of(original)) << i;
   }
 }
 

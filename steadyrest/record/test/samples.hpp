@@ -62,6 +62,7 @@ inline Sample any_sample(Random& random) {
   Sample sample;
   sample_columns(sample, [&](const ColumnName&, auto& value) { randomize(random, value); });
   sample.path = 0;
+  sample.original = 0;
   sample.vibrations = static_cast<std::uint32_t>(random() % (kMaxVibration + 1));
   for (double& reading : sample.vibration) {
     randomize(random, reading);
@@ -77,10 +78,12 @@ inline kernel::signal::PathSegment any_segment(Random& random) {
 
 /// The sample as the control cycle would hand it over.
 inline void add(RecordWriter& writer, const Sample& sample,
-                const kernel::signal::PathView& path = {}) {
+                const kernel::signal::PathView& path = {},
+                const kernel::signal::PathView& original = {}) {
   kernel::signal::Frame frame = sample.frame;
   frame.vibration = std::span(sample.vibration).first(sample.vibrations);
   frame.path = path;
+  frame.original = original;
   writer.add(frame, sample.command);
 }
 
@@ -88,6 +91,7 @@ inline void add(RecordWriter& writer, const Sample& sample,
 inline std::vector<std::uint64_t> bits_of(Sample sample) {
   sample.number = 0;
   sample.path = 0;
+  sample.original = 0;
   std::vector<std::uint64_t> bits;
   sample_columns(sample, [&](const ColumnName&, auto& value) { bits.push_back(to_bits(value)); });
   for (std::size_t i = 0; i < sample.vibrations; ++i) {

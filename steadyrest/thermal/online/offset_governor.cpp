@@ -69,6 +69,7 @@ int weight(Reason reason) noexcept {
     case Reason::thermal_sensor_lost:
       return 5;
     case Reason::thermal_beyond_speed:
+    case Reason::thermal_in_text:
       return 4;
     case Reason::thermal_clamped:
       return 3;
@@ -208,7 +209,10 @@ Reason OffsetGovernor::fault(const Axis& axis, const Frame& frame) const noexcep
   }
   const bool beyond = axis.max_speed_rev_s > 0.0 &&
                       std::abs(frame.spindle_actual_rev_s) > kBeyondSpeed * axis.max_speed_rev_s;
-  return beyond ? Reason::thermal_beyond_speed : Reason::none;
+  if (beyond) {
+    return Reason::thermal_beyond_speed;
+  }
+  return frame.heat_in_text ? Reason::thermal_in_text : Reason::none;
 }
 
 /// A fade keeps to the slower slope: a sensor that fails for a second must not remove all of the

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/trial/cut/true_error.hpp>
 
 // The judge: the product's own foot search, fed with what no control can see.
@@ -12,23 +11,10 @@ namespace {
 using contour::online::ContourError;
 using kernel::outcome::Result;
 using kernel::signal::Frame;
-using kernel::signal::PathView;
 using kernel::signal::Point;
 
 Point xyz_of(const kernel::signal::AxisValues& values) {
   return {values[0], values[1], values[2]};
-}
-
-/// The commanded place, moved onto the original.
-ContourError::Input on_original(ContourError::Input input, const Original& original) noexcept {
-  const PathView path = original.path->segments;
-  input.path = path;
-  input.path_position_mm = original.pairing.original_mm(input.path_position_mm);
-  input.path_index = math::geometry::segment_at(path, input.path_position_mm);
-  const kernel::signal::PathSegment& segment = path[input.path_index];
-  input.command_mm = math::geometry::point_at(
-      segment, math::geometry::parameter_at(segment, input.path_position_mm - segment.position_mm));
-  return input;
 }
 
 }  // namespace
@@ -58,7 +44,8 @@ TrueError::Output TrueError::update(const Frame& frame, const sim::Truth& truth)
   input.actual_mm = xyz_of(truth.tool_mm);
   Output out{.own = own_.update(input), .original = {}};
   if (original_) {
-    out.original = other_.update(on_original(input, *original_));
+    out.original = other_.update(contour::online::moved_to(
+        input, original_->path->segments, original_->pairing.original_mm(input.path_position_mm)));
   }
   return out;
 }

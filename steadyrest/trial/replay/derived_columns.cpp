@@ -20,8 +20,12 @@ std::vector<record::Derived> derived_columns(const record::RunInfo& run) {
   }
   auto error = std::make_shared<ContourError>(*made);
   return {{"contour_error_mm", [error](const record::Sample& sample) {
-             const ContourError::Output seen = error->update(sample.frame);
-             return seen.valid ? seen.error_mm : std::numeric_limits<double>::quiet_NaN();
+             // Against what the part should have, as the layer shows it.
+             const ContourError::Output seen =
+                 error->update(contour::online::original_input(sample.frame));
+             return seen.valid && !sample.frame.original_unknown
+                        ? seen.error_mm
+                        : std::numeric_limits<double>::quiet_NaN();
            }}};
 }
 

@@ -128,7 +128,7 @@ const PROBE: Term = ['Probe readings', 'What each reading found, how much of it 
 
 const AGAINST: Term = [
   'Against',
-  "The program was changed on purpose, so its own path is not what the part should have. Errors are the tool's distance from the path of the original, as the control plans it, while both programs cut. The layer sees the changed program alone: where it holds that program's path, it undoes the change.",
+  "The program was changed on purpose, so its own path is not what the part should have. Errors are the tool's distance from the path of the original, as the control plans it, while both programs cut. Where the changed program's marks hold the original, the layer leaves feed and offsets alone. A change without marks it cannot know: where it holds that program's path, it undoes the change.",
 ];
 
 function explanation(report: Report): readonly Term[] {

@@ -38,7 +38,8 @@ void add_against_options(Verb& verb, AgainstOptions& options) {
       "--against", options.file,
       "The original of a changed FILE. Errors are the tool's distance from the original's path as "
       "the control plans it, while both programs cut (G1 to G3); rapids and rotary axes do not "
-      "count. The layer sees FILE alone");
+      "count. Of the original the layer knows what FILE's marks hold. Default: the original in "
+      "those marks, if any");
   verb.add_option(
           "--tube-mm", options.tube_mm,
           "Refuse programs farther apart than this where they cut, 0.01 … 5; default: 1, or "
@@ -49,17 +50,21 @@ void add_against_options(Verb& verb, AgainstOptions& options) {
 std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original(
     const AgainstOptions& options, const ProgramOptions& changed, const PathPointer& path,
     const kernel::machine::Machine& machine) {
-  if (options.file.empty()) {
+  PathPointer other = path->original;  // that its marks hold
+  if (!options.file.empty()) {
+    ProgramOptions program = changed;
+    program.file = options.file;
+    auto planned = plan(program, machine);
+    if (!planned) {
+      return std::unexpected(std::move(planned.error()));
+    }
+    other = planned->path;
+  }
+  if (!other) {
     return nullptr;
   }
-  ProgramOptions program = changed;
-  program.file = options.file;
-  auto planned = plan(program, machine);
-  if (!planned) {
-    return std::unexpected(std::move(planned.error()));
-  }
   const double tube_mm = tube_of(options, changed.file);
-  auto original = trial::cut::Original::make(*path, planned->path, tube_mm);
+  auto original = trial::cut::Original::make(*path, other, tube_mm);
   if (!original) {
     Refusal refusal = std::move(original.error());
     refusal.file = refusal.line > 0 ? changed.file : "--tube-mm";
@@ -73,7 +78,9 @@ std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original
 
 std::string put_against(Answer& answer, const AgainstOptions& options,
                         const trial::cut::Original& original) {
-  answer.json["against"] = {{"program", options.file},
+  const bool by_marks = options.file.empty();
+  answer.json["against"] = {{"program", by_marks ? Json(nullptr) : Json(options.file)},
+                            {"by_marks", by_marks},
                             {"tube_mm", original.tube_mm},
                             {"farthest_mm", original.farthest_mm},
                             {"line", original.changed_line},
@@ -81,7 +88,8 @@ std::string put_against(Answer& answer, const AgainstOptions& options,
   return fmt::format(
       "errors are against the path of {}, from which this program is up to {:.1f} µm away (line "
       "{}, there line {})\n",
-      options.file, kernel::units::um_from_mm(original.farthest_mm), original.changed_line,
+      by_marks ? std::string(kByMarks) : options.file,
+      kernel::units::um_from_mm(original.farthest_mm), original.changed_line,
       original.original_line);
 }
 

@@ -6,6 +6,7 @@
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/nc/plan/check/idle_override.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/rewrite/original/original_path.hpp>
 
 namespace steadyrest::apps::cli::cut {
 
@@ -52,12 +53,19 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
     answer.exit_code = kRefused;
     return std::unexpected(std::move(answer));
   }
+  path->subprograms = report->subprograms;
+  nc::rewrite::hold_against_original(nc::rewrite::read_text_marks(options.file, path->subprograms),
+                                     options.file, *config, machine, *path);
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
               check.count(), *report};
   // If the feed override hardly acts because the axes never reach the programmed feed, the layer
   // has little to work with; that warning comes first.
   if (auto idle = nc::plan::idle_override(*out.path, machine.feed_override)) {
     out.warnings.insert(out.warnings.begin(), std::move(*idle));
+    ++out.warning_count;
+  }
+  for (std::string& words : nc::rewrite::words_of(*out.path)) {
+    out.warnings.insert(out.warnings.begin(), {.line = 1, .text = std::move(words)});
     ++out.warning_count;
   }
   return out;

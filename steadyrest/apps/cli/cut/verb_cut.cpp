@@ -121,8 +121,8 @@ void add_ways(Cuts& cuts, const Setup& setup) {
 }
 
 /// A report compares the ways by itself where there is more than one to choose from.
-bool wants_ways(const Options& options, const Setup& setup) {
-  const bool worth = !options.against.file.empty() || permits_offsets(setup);
+bool wants_ways(const Options& options, const Setup& setup, bool changed) {
+  const bool worth = changed || permits_offsets(setup);
   return options.ways.ways || options.ways.curve || (!options.report.empty() && worth);
 }
 
@@ -149,7 +149,7 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
                      const std::shared_ptr<const trial::cut::Original>& against,
                      const Options& options, Progress& progress) {
   std::vector<Further> further;
-  if (wants_ways(options, setup)) {
+  if (wants_ways(options, setup, against != nullptr)) {
     further = further_runs(setup, against ? against->path : path, against != nullptr, options.ways);
   }
   CutRuns runs(setup, progress, (against ? 3 : 2) + further.size());
@@ -183,7 +183,7 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
       cuts.ways.ways.push_back({one.way, cut->figures()});
     }
   }
-  if (wants_ways(options, setup)) {
+  if (wants_ways(options, setup, against != nullptr)) {
     add_ways(cuts, setup);
   }
   return cuts;
@@ -213,7 +213,9 @@ void put_cuts(Answer& answer, const Cuts& cuts, const Machine& machine) {
 void put_page(Answer& answer, const Options& options, const Machine& machine, const Cuts& cuts) {
   trial::cut::ReportData data =
       trial::cut::compare(options.program.file, machine, cuts.without, cuts.with);
-  data.against = std::filesystem::path(options.against.file).filename().string();
+  data.against = options.against.file.empty() && cuts.original
+                     ? std::string(cut::kByMarks)
+                     : std::filesystem::path(options.against.file).filename().string();
   data.ways = cuts.ways.ways;
   data.curve = cuts.ways.curve;
   page::Json page = page::to_page(data);

@@ -108,7 +108,7 @@ Result<std::shared_ptr<ProgramWatch>> watch_of(const Machine& machine,
     return std::unexpected(std::move(start.error()));
   }
   return std::make_shared<ProgramWatch>(
-      followed, machine, told({.file = program.file, .start = std::move(*start)}), say_unplanned);
+      followed, machine, told({.file = program.file, .start = std::move(*start)}), warn);
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ std::expected<LivePort, Refusals> open_linuxcnc(const kernel::machine::Machine& 
     return refused(why);
   }
   auto followed = std::make_unique<FollowedPort>(*(*beside)->port);
-  auto watch = std::make_shared<ProgramWatch>(*followed, machine, std::move(source), say_unplanned);
+  auto watch = std::make_shared<ProgramWatch>(*followed, machine, std::move(source), warn);
   LivePort out;
   out.period_s = machine.control.servo_period_s;
   out.paces = true;

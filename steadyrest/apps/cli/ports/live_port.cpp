@@ -10,6 +10,7 @@
 #include <steadyrest/apps/cli/ports/live_port.hpp>
 #include <steadyrest/apps/cli/ports/opcua_live.hpp>
 #include <steadyrest/apps/cli/ports/repeating_port.hpp>
+#include <steadyrest/nc/rewrite/original/original_path.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
 #include <steadyrest/sim/simulated_machine.hpp>
 #include <steadyrest/trial/cut/chatter_choice.hpp>
@@ -54,6 +55,12 @@ std::expected<LivePort, Refusals> simulated(const kernel::machine::Machine& mach
     return sim::SimulatedMachine::make(config);
   };
   LivePort out;
+  for (const std::string& words : nc::rewrite::words_of(*planned->path)) {
+    out.findings.push_back({.severity = passport::Severity::warning,
+                            .check = "text",
+                            .what = program.file + ": " + words,
+                            .to_do = "run the original for the layer's own correction"});
+  }
   out.period_s = layer_cycle_s(machine);
   out.sensor = *cutting ? trial::listener::simulated_sensor() : trial::listener::Sensor();
   out.cutting_speeds_rev_s = trial::cut::cutting_speeds(*planned->path);

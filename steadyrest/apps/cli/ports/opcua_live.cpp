@@ -287,8 +287,7 @@ std::expected<LivePort, Refusals> open_opcua(const Machine& machine,
     }
     start->on_control = true;
     watch = std::make_shared<ProgramWatch>(
-        *followed, machine, shown({.file = options.file, .start = std::move(*start)}, *port),
-        say_unplanned);
+        *followed, machine, shown({.file = options.file, .start = std::move(*start)}, *port), warn);
   }
   out.shows = [port, bridge, &path = *followed, watch] {
     const auto alive = port->in_force();

@@ -37,11 +37,8 @@ Json program_json(const ProgramWatch& watch, const FollowedPort& port) {
           {"words", words.empty() ? Json(nullptr) : Json(words)}};
 }
 
-void say_unplanned(const kernel::outcome::Refusal& why) noexcept {
-  std::fputs(("steadyrest: warning: the layer runs without the program's path: " +
-              kernel::outcome::text(why) + "\n")
-                 .c_str(),
-             stderr);
+void warn(const std::string& words) noexcept {
+  std::fputs(("steadyrest: warning: " + words + "\n").c_str(), stderr);
 }
 
 std::expected<void, Refusals> check_program_file(const std::string& file) {

@@ -14,7 +14,7 @@ namespace steadyrest::apps::cli::live {
                                 const steadyrest::live::FollowedPort& port);
 
 /// On stderr, at once: a run may take days.
-void say_unplanned(const kernel::outcome::Refusal& why) noexcept;
+void warn(const std::string& words) noexcept;
 
 /// Before a machine is connected: a program that is no file of this computer is refused. Empty:
 /// none.

@@ -25,7 +25,9 @@ Result<PlannedPath> plan_moves(const Machine& machine, const std::string& file,
     return std::unexpected(interpret::first_refusal(*report, file));
   }
   auto path = builder.take();
-  if (!path && path.error().file.empty()) {
+  if (path) {
+    path->subprograms = report->subprograms;
+  } else if (path.error().file.empty()) {
     path.error().file = file;
   }
   return path;
@@ -37,47 +39,22 @@ Result<PlannedPath> plan_file(const std::string& file, const interpret::Config& 
                     [&](Sink& sink) { return interpret::run_file(file, config, sink); });
 }
 
-namespace {
-
-/// Runs the program into the sink; the files that it calls.
-Result<std::vector<std::string>> subprograms_of(const std::string& file,
-                                                const interpret::Config& config, Sink& sink) {
-  auto source = read::LineSource::open(file);
-  if (!source) {
-    return std::unexpected(std::move(source.error()));
-  }
-  auto run = interpret::ProgramRun::make(*source, config, sink);
-  if (!run) {
-    return std::unexpected(std::move(run.error()));
-  }
-  while (run->step()) {
-  }
-  return run->subprogram_files();
-}
-
-}  // namespace
-
 Result<PlannedPath> plan_file_from_start(const std::string& file, const interpret::Config& config,
                                          const Machine& machine) {
   MovedAxes moved;
   MoveMarks elsewhere;
-  auto called = subprograms_of(file, config, moved);
-  if (!called) {
-    return std::unexpected(std::move(called.error()));
+  if (const auto made = interpret::run_file(file, config, moved); !made) {
+    return std::unexpected(made.error());
   }
   // What it refuses it does not reach: that counts as made otherwise.
   const auto report = interpret::run_file(file, started_elsewhere(config, moved), elsewhere);
   if (!report) {
     return std::unexpected(report.error());
   }
-  auto path = plan_moves(machine, file, [&](Sink& sink) {
+  return plan_moves(machine, file, [&](Sink& sink) {
     StartMarks marks(elsewhere, sink);
     return interpret::run_file(file, config, marks);
   });
-  if (path) {
-    path->subprograms = std::move(*called);
-  }
-  return path;
 }
 
 Result<PlannedPath> plan_text(std::string_view text, const interpret::Config& config,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,11 @@ struct PlannedPath {
   std::vector<kernel::signal::PathSegment> segments;
   std::vector<SegmentPlan> plans;
   std::vector<PathEvent> events;
-  std::vector<std::string> subprograms;  ///< files that it calls; of plan_file_from_start() alone
+  std::vector<std::string> subprograms;  ///< files that it calls
+  /// The path before the text was corrected, by rewrite::hold_against_original(); null: the same.
+  std::shared_ptr<const PlannedPath> original;
+  std::string original_unknown;  ///< why it is not known; empty: it is
+  bool heat_in_text = false;     ///< the text corrects the drift by heat
 };
 
 /// What an interpolator reads: a whole program, or a window that moves along it. Element i is at

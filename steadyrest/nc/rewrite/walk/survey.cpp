@@ -72,11 +72,11 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
     changes.changed = false;
   }
   found.end_line = run->line();
-  found.subprogram_files = run->subprogram_files();
-  const interpret::Report report = run->take();
+  interpret::Report report = run->take();
   if (!report.refused.empty()) {
     return std::unexpected(interpret::first_refusal(report, path));
   }
+  found.subprogram_files = std::move(report.subprograms);
   return std::pair{std::move(found), deletable};
 }
 

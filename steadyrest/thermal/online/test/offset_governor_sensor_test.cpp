@@ -36,6 +36,25 @@ TEST(OffsetGovernor, ALostSensorHoldsItsAxisInTheCutAndFadesOutOfIt) {
   EXPECT_NEAR(on.seconds(60.0).offset_mm[kX], -0.006, 1e-12);
 }
 
+// A plan in the program's text takes the drift away already.
+TEST(OffsetGovernor, CorrectionsInTheTextKeepItsOffsetOut) {
+  Governed on;
+  on.frame.temperature_c[0] = 23.0;
+  on.frame.heat_in_text = true;
+  EXPECT_EQ(on.seconds(300.0).request.reason, Reason::thermal_in_text);
+  EXPECT_EQ(on.offset_mm()[kX], 0.0);
+  on.frame.heat_in_text = false;
+  on.seconds(120.0);
+  EXPECT_NEAR(on.offset_mm()[kX], -0.006, 1e-9) << "the next program";
+  on.frame.heat_in_text = true;
+  on.seconds(300.0);
+  EXPECT_NEAR(on.offset_mm()[kX], -0.006, 1e-9) << "held in the cut";
+  on.tool_in_cut = false;
+  on.frame.motion = Motion::rapid;
+  on.seconds(120.0);
+  EXPECT_EQ(on.offset_mm()[kX], 0.0);
+}
+
 // At the retract slope a second of NaN would remove the whole offset, and the next cut would miss
 // it.
 TEST(OffsetGovernor, ASensorThatFailsForASecondOutOfTheCutDoesNotTakeTheOffsetAway) {

@@ -105,7 +105,9 @@ TEST(PutBack, TheMarkShowsThatAnOptionWasEdited) {
   const std::string text = changed(shop, "G90\nG1 X1 F10\nM2\n", {{2, {"G1 X1.0 F9.0"}}});
   const auto told = read_replaced_mark(shop.changed());
   ASSERT_TRUE(told.has_value());
-  EXPECT_EQ(*told, kTold);
+  ASSERT_EQ(told->size(), 2U);
+  EXPECT_EQ(told->front(), kTold.front());
+  EXPECT_EQ(told->back().name, kBlocksSum);
   write_file(shop.changed(), test::replaced(text, "--changes feeds", "--changes speed"));
   EXPECT_FALSE(read_replaced_mark(shop.changed()).has_value());
   EXPECT_FALSE(strip(shop.changed(), shop.original()).has_value());
