@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 export const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
-const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
+export const ROOT = fileURLToPath(new URL('../../..', import.meta.url));
 
 /** Modulates in every cut; Z has a thermal model that forecasts nothing by itself, so that handing back waits for no cut to end. */
 export const ROOMS = `
@@ -28,6 +28,49 @@ levels_um = [0, 0]
 /** What the program prints. */
 export const steadyrest = (of: readonly string[], input = ''): string => execFileSync(PROGRAM, of, { encoding: 'utf8', input });
 
+/** Address and key of the page of a run that has just begun; the key is empty where people have accounts. */
+function pageOf(run: ChildProcess): Promise<[string, string]> {
+  return new Promise((resolve, reject) => {
+    let said = '';
+    run.stderr?.on('data', (part: Buffer) => {
+      said += part.toString();
+      const found = /Page: (http:\/\/[^/\s]+)\/(?: \(its address with the key: (.+)\))?\n/.exec(said);
+      if (found) {
+        const whole = found[2] === undefined ? '' : readFileSync(found[2], 'utf8');
+        resolve([found[1] ?? '', /#key=(\S+)/.exec(whole)?.[1] ?? '']);
+      }
+    });
+    run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
+  });
+}
+
+/** `make demo` without its build. */
+export class Demo {
+  address = '';
+  key = '';
+  private said = '';
+  private run: ChildProcess | undefined;
+
+  async start(): Promise<void> {
+    // A group of its own, which Ctrl-C ends as a terminal does.
+    const run = spawn('sh', ['scripts/demo.sh'], { cwd: ROOT, detached: true, env: { ...process.env, LAYER: PROGRAM, LISTEN: '0' } });
+    this.run = run;
+    run.stdout.on('data', (part: Buffer) => (this.said += part.toString()));
+    [this.address, this.key] = await pageOf(run);
+  }
+
+  /** What it has said. */
+  async end(): Promise<string> {
+    const { run } = this;
+    if (run?.pid && run.exitCode === null) {
+      const ended = new Promise((done) => run.once('close', done));
+      process.kill(-run.pid, 'SIGINT');
+      await ended;
+    }
+    return this.said;
+  }
+}
+
 export class Running {
   readonly folder = mkdtempSync(join(tmpdir(), 'steadyrest-page-'));
   readonly machine = join(this.folder, 'machine.toml');
@@ -42,18 +85,7 @@ export class Running {
     appendFileSync(this.machine, more);
     const run = spawn(PROGRAM, ['run', '--machine', this.machine, ...work, '--repeat', '--socket', join(this.folder, 's'), '--listen', '0'], { cwd: ROOT });
     this.run = run;
-    [this.address, this.key] = await new Promise((resolve, reject) => {
-      let said = '';
-      run.stderr.on('data', (part: Buffer) => {
-        said += part.toString();
-        const found = /Page: (http:\/\/[^/\s]+)\/(?: \(its address with the key: (.+)\))?\n/.exec(said);
-        if (found) {
-          const whole = found[2] === undefined ? '' : readFileSync(found[2], 'utf8');
-          resolve([found[1] ?? '', /#key=(\S+)/.exec(whole)?.[1] ?? '']);
-        }
-      });
-      run.on('exit', () => reject(new Error(`the program ended: ${said}`)));
-    });
+    [this.address, this.key] = await pageOf(run);
   }
 
   /** As Ctrl-C does; waits until it has ended. */

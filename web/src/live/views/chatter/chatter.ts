@@ -23,6 +23,7 @@ function vibrationPart({ live }: Context): Part {
     setText(state, chatterWords(live));
     state.classList.toggle('over', chatter?.chatter === true);
     levels.hidden = chatter?.level == null;
+    picture.canvas.element.hidden = live.hello?.listening === false;
     for (const [which, value] of [[before, chatter?.before], [now, chatter?.level]] as const) {
       which.set(value ?? null, value == null ? '–' : levelText(value));
       which.mark(chatter?.threshold ?? null);

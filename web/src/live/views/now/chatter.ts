@@ -50,6 +50,7 @@ export function chatterPart({ live }: Context): Part {
         setText(state, chatterWords(live));
         state.classList.toggle('over', chatter?.chatter === true);
         level.root.hidden = chatter?.level == null;
+        picture.canvas.element.hidden = live.hello?.listening === false;
       }
     },
     redraw: (theme) => picture.draw(theme),
