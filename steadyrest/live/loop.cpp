@@ -217,8 +217,7 @@ void Loop::publish() noexcept {
   now_.overruns = figures_.overruns;
   now_.mode_wanted = wanted_.load();
   now_.error_known = now_.error_known && !now_.port_fault;
-  if (now_.error_known && kernel::signal::in_cut(now_.motion) &&
-      std::abs(now_.contour_error_mm) > config_.contour_limit_mm) {
+  if (now_.error_known && std::abs(now_.contour_error_mm) > config_.contour_limit_mm) {
     figures_.over_limit_s += config_.period_s;
   }
   status_.store(now_);

@@ -19,6 +19,9 @@ constexpr double kPercent = 100.0;
 constexpr double kUs_s = 1e6;
 /// In the order of Detector::Kind.
 constexpr std::array<const char*, 4> kKinds = {"none", "forced", "hopf", "flip"};
+/// In the order of signal::Motion.
+constexpr std::array<const char*, 9> kMotions = {
+    "idle", "rapid", "feed", "thread", "tap", "probe", "dwell", "tool_change", "spindle_wait"};
 constexpr std::array<const char*, 4> kOf = {"feed", "spindle", "offset", "path_offset"};
 
 Json offsets(const AxisValues& mm) {
@@ -64,6 +67,7 @@ Json status_json(const LiveStatus& status) {
   out["cycles"] = status.cycles;
   out["overruns"] = status.overruns;
   out["time_s"] = status.time_s;
+  out["motion"] = kMotions[static_cast<std::size_t>(status.motion)];
   out["cutting"] = kernel::signal::in_cut(status.motion);
   out["program_line"] = status.program_line;
   out["contour_error_um"] =

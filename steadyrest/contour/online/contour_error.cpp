@@ -178,6 +178,7 @@ double ContourError::advance(const Input& input) noexcept {
   if (!state_.started || has_path != state_.from_path) {
     state_.lag_mm = input.path_speed_mm_s / config_.servo_gain_1_s;
     state_.foot_position_mm = -1.0;
+    state_.cut_from_mm = -std::numeric_limits<double>::infinity();
   }
   // ℓ' = v − k·ℓ, exactly over the step for constant v.
   const double decay = std::exp(-config_.servo_gain_1_s * elapsed_s);
@@ -187,6 +188,10 @@ double ContourError::advance(const Input& input) noexcept {
   state_.time_s = input.time_s;
   state_.from_path = has_path;
   remember(input);
+  // The tool lags: when the cut begins it is still on the rapid. A program that begins again sets
+  // the length back.
+  const double commanded = has_path ? input.path_position_mm : state_.travelled_mm;
+  state_.cut_from_mm = input.in_cut ? std::min(state_.cut_from_mm, commanded) : commanded;
   return elapsed_s;
 }
 
@@ -238,6 +243,7 @@ ContourError::Output ContourError::update(const Input& input) noexcept {
   state_.foot_position_mm = foot.position_mm;
   state_.foot_index = foot.index;
   measure(input.actual_mm, foot, here, config_.plane_normal, output);
+  output.in_cut = input.in_cut && foot.position_mm >= state_.cut_from_mm;
   return output;
 }
 
@@ -256,6 +262,7 @@ ContourError::Input contour_input(const kernel::signal::Frame& frame) noexcept {
   input.path_index = frame.path_index;
   input.path_position_mm = frame.path_position_mm;
   input.path_speed_mm_s = frame.path_speed_mm_s;
+  input.in_cut = kernel::signal::in_cut(frame.motion);
   return input;
 }
 

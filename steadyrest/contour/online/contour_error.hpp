@@ -59,10 +59,12 @@ class ContourError {
     double path_position_mm = 0.0;
     double path_speed_mm_s = 0.0;
     double slack_mm = 0.0;  ///< more of the window at both ends
+    bool in_cut = true;     ///< the control is in the cut: not in a rapid, not idle
   };
 
   struct Output {
     bool valid = false;      ///< false: unfit input or nothing to measure against yet
+    bool in_cut = false;     ///< the error is the part's: command and foot are both in the cut
     bool from_path = false;  ///< false: measured against the recent commanded points
     bool complete = true;
     double error_mm = 0.0;           ///< ε with the sign of the arc rule
@@ -81,6 +83,7 @@ class ContourError {
     double lag_mm = 0.0;  ///< ℓ
     double foot_position_mm = 0.0;
     std::size_t foot_index = 0;
+    double cut_from_mm = 0.0;   ///< commanded length where the cut began; a foot before it is not
     double travelled_mm = 0.0;  ///< of the commanded point, in place of a path
     std::size_t count = 0;      ///< commanded points in the ring
     std::size_t next = 0;

@@ -233,7 +233,7 @@ void FeedGovernor::measure(const Frame& frame, const ContourError::Output& own,
                            Output& output) noexcept {
   const ContourError::Output error =
       frame.original.empty() ? own : original_.update(original_input(frame));
-  output.error_valid = error.valid && !frame.original_unknown;
+  output.error_valid = error.valid && error.in_cut && !frame.original_unknown;
   output.error_mm = output.error_valid ? error.error_mm : 0.0;
 }
 

@@ -124,7 +124,7 @@ class FeedGovernor {
   struct Output {
     kernel::signal::FeedRequest request;
     kernel::signal::OffsetRequest path_offset;  ///< of the precompensator
-    bool error_valid = false;
+    bool error_valid = false;                   ///< there is one, and it is the part's: no rapid's
     double error_mm = 0.0;            ///< contour error now, signed as in ContourError; against
                                       ///< the original where the text corrects the path
     double nominal_error_mm = 0.0;    ///< Ed

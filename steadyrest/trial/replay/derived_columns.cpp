@@ -23,7 +23,7 @@ std::vector<record::Derived> derived_columns(const record::RunInfo& run) {
              // Against what the part should have, as the layer shows it.
              const ContourError::Output seen =
                  error->update(contour::online::original_input(sample.frame));
-             return seen.valid && !sample.frame.original_unknown
+             return seen.valid && seen.in_cut && !sample.frame.original_unknown
                         ? seen.error_mm
                         : std::numeric_limits<double>::quiet_NaN();
            }}};

@@ -62,7 +62,8 @@ std::string text_of(const Json& status) {
       .row({"contour error", error.is_number()
                                  ? fmt::format("{:.1f} µm (limit {:.1f} µm)", error.get<double>(),
                                                status.value("contour_limit_um", 0.0))
-                                 : "not known"})
+                             : status.value("cutting", true) ? "not known"
+                                                             : "none: not in a cut"})
       .row({"feed: layer, panel, in force", percent(status, "feed_percent") + ", " +
                                                 percent(status, "feed_panel_percent") + ", " +
                                                 percent(status, "feed_effective_percent")})

@@ -65,6 +65,35 @@ TEST(ContourError, OutsideOfACornerIsMeasuredToTheCorner) {
   EXPECT_NEAR(output.foot_position_mm, 10.0, 1e-12);
 }
 
+// A rapid along X, a cut along Y. The tool lags by a millimetre: when the cut begins it is still on
+// the rapid, whose error is no fault of the part.
+TEST(ContourError, IsThePartsOnlyWhereCommandAndToolAreInTheCut) {
+  const auto path = PathMaker({0, 0, 0}, 50.0).line_to({10, 0, 0}).line_to({10, 10, 0}).path();
+  for (const PathView shown : {PathView(path), PathView()}) {
+    ContourError error = estimator();
+    double time_s = 0.0;
+    for (double s = 0.0; s < 20.0; s += 0.1, time_s += 0.002) {
+      const auto at = [](double way) {
+        return kernel::signal::Point{std::min(way, 10.0), std::max(0.0, way - 10.0), 0.0};
+      };
+      const bool cuts = s > 10.01;
+      const auto output = error.update({.time_s = time_s,
+                                        .command_mm = at(s),
+                                        .actual_mm = at(std::max(0.0, s - 1.0)),
+                                        .path = shown,
+                                        .path_index = cuts ? 1U : 0U,
+                                        .path_position_mm = s,
+                                        .path_speed_mm_s = 50.0,
+                                        .in_cut = cuts});
+      if (output.valid) {
+        EXPECT_EQ(output.in_cut, s - 1.0 > 10.05) << s;
+      }
+    }
+    // The same program again: its first cut is not compared with the end of the last.
+    EXPECT_TRUE(error.update({time_s, {5, 0, 0}, {5, 0, 0}, path, 0, 5.0, 50.0}).in_cut);
+  }
+}
+
 TEST(ContourError, StaysOnItsOwnTurnOfANarrowSpiral) {
   // Pitch 0.2 mm: the neighbouring turn is nearer than the lag of 1 mm, and nearer than the error.
   const auto path =

@@ -28,6 +28,7 @@ export interface Status {
   cycles: number;
   overruns: number;
   time_s: number;
+  motion?: string;
   cutting: boolean;
   program_line: number;
   contour_error_um: Maybe;

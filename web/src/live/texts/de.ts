@@ -87,6 +87,7 @@ export const de: Texts = {
   no_path: 'Die Bahn voraus ist unbekannt.',
   program_line: 'Satz',
   cutting: 'Im Schnitt',
+  rapid: 'Eilgang',
   not_cutting: 'Nicht im Schnitt',
   chatter_none: 'Rattern wird nicht überwacht: Steadyrest mit --process DATEI --depth-mm MM starten. Mit [chatter] in der Maschinendatei kann es die Spindeldrehzahl modulieren.',
   chatter_deaf: 'Rattern wird nicht überwacht: Steadyrest mit --process DATEI --depth-mm MM starten.',

@@ -92,6 +92,7 @@ export const en = {
   no_path: 'The path ahead is unknown.',
   program_line: 'Line',
   cutting: 'Cutting',
+  rapid: 'Rapid',
   not_cutting: 'Not cutting',
   chatter_none: 'Nothing listens for chatter: start the layer with --process FILE --depth-mm MM. [chatter] in the machine file lets it modulate the spindle speed.',
   chatter_deaf: 'Nothing listens for chatter: start the layer with --process FILE --depth-mm MM.',

@@ -87,6 +87,7 @@ export const zh: Texts = {
   no_path: '前方轨迹未知。',
   program_line: '程序行',
   cutting: '切削中',
+  rapid: '快速移动',
   not_cutting: '未切削',
   chatter_none: '没有监听颤振：请用 --process 文件 --depth-mm 毫米 启动。机床文件中有 [chatter] 时，可调制主轴转速。',
   chatter_deaf: '没有监听颤振：请用 --process 文件 --depth-mm 毫米 启动。',

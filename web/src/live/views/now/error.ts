@@ -8,6 +8,7 @@ import type { Live } from '../../state/live';
 import { small, units } from '../../state/units';
 import { t } from '../../texts/texts';
 import { type Part, readout } from '../part';
+import { motionWords } from './path';
 
 const SECONDS = 10;
 /** The figure is the largest of so long: one that flickers cannot be read. */
@@ -57,7 +58,7 @@ export function errorPart(context: Context): Part {
     setText(peak.value, small(largest(live, SECONDS)));
     const over = error > most;
     now.root.classList.toggle('over', over);
-    setText(verdict, Number.isNaN(error) ? t('no_data') : over ? t('over_limit') : t('of_limit', { percent: fixed((100 * error) / most, 0) }));
+    setText(verdict, Number.isNaN(error) ? (live.status?.cutting === false ? motionWords(live.status) : t('no_data')) : over ? t('over_limit') : t('of_limit', { percent: fixed((100 * error) / most, 0) }));
     verdict.classList.toggle('over', over);
   };
   return {

@@ -2,6 +2,7 @@
 import { fixed } from '../../../frame/numbers';
 import { type Theme, theme as themeNow } from '../../../frame/theme';
 import { ink, scaleLine } from '../../../plot/key';
+import type { Status } from '../../api/types';
 import { PathPicture } from '../../paint/path';
 import type { Context } from '../../shell/context';
 import { h, panel, setText } from '../../shell/h';
@@ -11,10 +12,13 @@ import type { Part } from '../part';
 
 const AXES_SHOWN = 6;
 
+/** What the machine does. */
+export const motionWords = ({ motion, cutting }: Status): string => t(cutting ? 'cutting' : motion === 'rapid' ? 'rapid' : 'not_cutting');
+
 export function pathPart({ live }: Context): Part {
   const picture: PathPicture = new PathPicture(live, t('tool_path'), () => picture.draw(themeNow()));
   const legend = h('div', { class: 'scale-line' });
-  const key = h('p', { class: 'path-key' }, h('span', { class: 'done' }, t('path_done')), h('span', { class: 'coming' }, t('path_ahead')), h('span', { class: 'tool' }, t('tool')));
+  const key = h('p', { class: 'path-key' }, h('span', { class: 'done' }, t('path_done')), h('span', { class: 'rapid' }, t('rapid')), h('span', { class: 'coming' }, t('path_ahead')), h('span', { class: 'tool' }, t('tool')));
   const positions = h('div', { class: 'positions', id: 'positions' });
   const place = h('p', { class: 'place', id: 'place' });
   let legendOf = '';
@@ -43,7 +47,7 @@ export function pathPart({ live }: Context): Part {
       setText(value, rotary.has(axis.name) ? `${fixed(axis.position_mm, 3)}°` : length(axis.position_mm));
     });
     const { status } = live;
-    const words = status ? [t(status.cutting ? 'cutting' : 'not_cutting'), `${t('program_line')} ${status.program_line}`] : [];
+    const words = status ? [motionWords(status), `${t('program_line')} ${status.program_line}`] : [];
     if (live.frame && !live.frame.ahead) {
       words.push(t('no_path'));
     }
