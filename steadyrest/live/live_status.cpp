@@ -21,7 +21,7 @@ void look_at_rooms(const supervisor::Supervisor::Estimates& estimates, LiveStatu
   const auto& contour = estimates.contour;
   into.error_known = contour && contour->error_valid;
   into.contour_error_mm = into.error_known ? contour->error_mm : 0.0;
-  into.feed_asked_ratio = contour ? contour->request.ratio : 1.0;
+  into.feed_asked_ratio = contour ? contour->advised_ratio : 1.0;
   into.predicted_error_mm = contour ? contour->predicted_error_mm : 0.0;
   into.predicted_at_mm = contour ? contour->predicted_at_mm : 0.0;
   into.limit_used_mm = contour ? contour->limit_mm : 0.0;

@@ -51,7 +51,7 @@ struct LiveStatus {
   bool error_known = false;
   double contour_error_mm = 0.0;  ///< by the layer's own estimate
   double contour_limit_mm = 0.0;  ///< of the machine file
-  double feed_asked_ratio = 1.0;  ///< by the contour room
+  double feed_asked_ratio = 1.0;  ///< by the contour room (FeedGovernor's advised_ratio)
   double feed_ratio = 1.0;        ///< what the layer lets through; the panel's in observe
   double feed_panel_ratio = 1.0;
   double feed_effective_ratio = 1.0;  ///< as the control reports it

@@ -98,8 +98,12 @@ void Supervisor::explain_silence(Reason unfit, signal::Command& command) const n
 // is unfit: each slews back on its own.
 void Supervisor::clamp(const signal::Frame& frame, double step_s, const Decisions& decisions,
                        signal::Command& command) noexcept {
+  // Advice goes on in the time that the layer's course would take.
+  const bool advises = state_.mode_in_force == kernel::machine::Mode::advise;
+  const double pace = advises && estimates_.contour ? estimates_.contour->pace : 1.0;
   const bool feed_back =
-      put(feed_, channel_input(step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed),
+      put(feed_,
+          channel_input(pace * step_s, decisions.feed, decisions.unfit, decisions.hold, frame.feed),
           decisions.feed,
           {command.feed_ratio, command.feed_code, command.feed_masks_panel, command.feed_reason});
   const bool spindle_back =

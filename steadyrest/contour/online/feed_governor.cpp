@@ -191,6 +191,7 @@ void FeedGovernor::remember(const kernel::signal::InForce& in_force) noexcept {
 /// The ratios already under way: at each time the largest of those that may act then.
 void FeedGovernor::fill_pending(const Frame& frame, Forecast& into) const noexcept {
   const Forecast::Timing& timing = into.timing();
+  const Shadow& shadow = state_.shadow;
   auto& pending = into.pending();
   std::size_t n = 0;
   for (; n < Forecast::kMaxSteps; ++n) {
@@ -206,9 +207,11 @@ void FeedGovernor::fill_pending(const Frame& frame, Forecast& into) const noexce
     const auto first = std::min(last, static_cast<std::size_t>(newest / cycle_s_));
     double most = 0.0;
     for (std::size_t back = first; back <= last; ++back) {
-      most = std::max(most, history_[(history_at_ + kHistory - 1 - back) % kHistory]);
+      most = std::max(most, shadow.on ? shadow.told(back)
+                                      : history_[(history_at_ + kHistory - 1 - back) % kHistory]);
     }
-    pending[n] = n == 0 ? std::max(most, frame.feed.effective_ratio) : most;
+    pending[n] =
+        n == 0 ? std::max(most, shadow.on ? acting_ratio() : frame.feed.effective_ratio) : most;
   }
   into.set_pending_count(n);
 }
@@ -295,6 +298,8 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   const bool by_text = frame.original_unknown || is_by_text(frame);
   cancel(frame, dt, by_text, output);
   watch_effect(frame, dt);
+  follow_shadow(frame, in_force, dt);
+  output.pace = state_.shadow.on && dt > 0.0 ? state_.shadow.step_s / dt : 1.0;
 
   if (kernel::signal::is_locked(frame.motion)) {
     output = withdraw(Reason::withdrawn_thread, output);
@@ -305,12 +310,13 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
     output = withdraw(
         frame.original_unknown ? Reason::contour_original_unknown : Reason::contour_in_text,
         output);
-  } else if (!state_.engaged || frame.time_s >= state_.next_decision_s - 1e-9) {
+  } else if (!state_.engaged || course_s() >= state_.next_decision_s - 1e-9) {
     state_.engaged = true;
     decide(frame, output);
     state_.next_decision_s =
-        std::max(state_.next_decision_s, frame.time_s - decision_s_) + decision_s_;
+        std::max(state_.next_decision_s, course_s() - decision_s_) + decision_s_;
   }
+  output.advised_ratio = state_.shadow.on ? state_.shadow.ratio : output.request.ratio;
   return state_.last = output;
 }
 

@@ -125,21 +125,41 @@ class FeedGovernor {
     kernel::signal::FeedRequest request;
     kernel::signal::OffsetRequest path_offset;  ///< of the precompensator
     bool error_valid = false;                   ///< there is one, and it is the part's: no rapid's
-    double error_mm = 0.0;            ///< contour error now, signed as in ContourError; against
-                                      ///< the original where the text corrects the path
-    double nominal_error_mm = 0.0;    ///< Ed
-    double predicted_error_mm = 0.0;  ///< largest with the chosen step, signed (+ inside)
-    double predicted_at_mm = 0.0;     ///< path length where
-    double limit_mm = 0.0;            ///< used by the decision: ε_max·(1 − margin) − reserve
-    std::size_t step = 0;             ///< index in the override table
+    double error_mm = 0.0;                      ///< contour error now, signed as in ContourError;
+                                                ///< against the original where the text corrects
+    double nominal_error_mm = 0.0;              ///< Ed
+    double predicted_error_mm = 0.0;            ///< largest with the chosen step, signed (+ inside)
+    double predicted_at_mm = 0.0;               ///< path length where
+    double limit_mm = 0.0;       ///< used by the decision: ε_max·(1 − margin) − reserve
+    std::size_t step = 0;        ///< index in the override table
+    double advised_ratio = 1.0;  ///< the request; where nothing is written, what would be in
+                                 ///< force by now if it were
+    double pace = 1.0;           ///< time of the decisions per time of the frames: Shadow
     bool path_known = false;
     bool decided = false;              ///< a decision was made in this cycle
     std::uint32_t forecasts = 0;       ///< used by the decision
     std::uint32_t forecast_steps = 0;  ///< of all of them
   };
 
+  /// The course that the machine would take if the layer acted. Where nothing is written the
+  /// decisions start from it, for an error that nobody holds down says nothing of them.
+  struct Shadow {
+    /// What the control would have been told, so many cycles of its own time ago.
+    [[nodiscard]] double told(std::size_t back) const noexcept;
+
+    bool on = false;
+    double lead_s = 0.0;    ///< its time less the machine's: it takes longer for the same path
+    double step_s = 0.0;    ///< of its time in the last cycle
+    double ratio = 1.0;     ///< that the envelope would have let through
+    double untold_s = 0.0;  ///< since its last word
+    std::array<double, kHistory> word{};
+    std::size_t at = 0;
+    Outset outset;  ///< where it is, at the machine's place on the path
+  };
+
   /// The course of the decisions.
   struct Course {
+    Shadow shadow;
     bool started = false;
     double time_s = 0.0;
     double next_decision_s = 0.0;
@@ -233,6 +253,19 @@ class FeedGovernor {
   void refresh_model(double dt) noexcept;
   void watch_effect(const kernel::signal::Frame& frame, double dt) noexcept;
   void remember(const kernel::signal::InForce& in_force) noexcept;
+  [[nodiscard]] double acting_ratio() const noexcept;
+  void begin_shadow(const kernel::signal::Frame& frame) noexcept;
+  double carry_shadow(const kernel::signal::Frame& frame, double dt) noexcept;
+  void tell_shadow(const kernel::signal::Frame& frame, double step_s) noexcept;
+  void follow_shadow(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force,
+                     double dt) noexcept;
+  [[nodiscard]] double shadow_share(const kernel::signal::Frame& frame) const noexcept;
+  /// The time of the decisions.
+  [[nodiscard]] double course_s() const noexcept { return state_.time_s + state_.shadow.lead_s; }
+  /// Until the next decision.
+  [[nodiscard]] double next_in_s() const noexcept {
+    return std::max(decision_s_, state_.shadow.step_s);
+  }
   bool look(const kernel::signal::Frame& frame, const ContourError::Output& error) noexcept;
   [[nodiscard]] bool is_by_text(const kernel::signal::Frame& frame) const noexcept;
   void measure(const kernel::signal::Frame& frame, const ContourError::Output& own,
@@ -243,6 +276,7 @@ class FeedGovernor {
   void fill_pending(const kernel::signal::Frame& frame, Forecast& into) const noexcept;
   [[nodiscard]] RatioPlan held_plan(double ratio, double known_s) const noexcept;
   [[nodiscard]] Outset outset(const kernel::signal::Frame& frame) const noexcept;
+  [[nodiscard]] Outset machine(const kernel::signal::Frame& frame) const noexcept;
   void choose_offsets(Outset& outset, Output& output) noexcept;
   [[nodiscard]] double stretch_end_mm(const LookAhead& path, const Outset& outset) const noexcept;
   struct Search;

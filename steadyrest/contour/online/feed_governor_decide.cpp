@@ -85,7 +85,7 @@ struct FeedGovernor::Search {
         in_force(governor.forecast_.floor_ratio(governor.state_.in_force_ratio)) {
     plan.start = of.state_.in_force_ratio;
     plan.floor = of.candidate_.front();
-    plan.hold_s = of.decision_s_;
+    plan.hold_s = of.next_in_s();
   }
 
   Forecast::Result forecast(const RatioPlan& tried, double most_mm,
@@ -100,8 +100,8 @@ struct FeedGovernor::Search {
   /// Tells whether the step may be taken and, where it is a rise, held.
   bool admissible(std::size_t c, const Forecast::Trace* trace) noexcept {
     plan.target = of.candidate_[c];
-    plan.hold_s = trace == nullptr ? of.decision_s_
-                                   : std::max(of.decision_s_, kTraceHold / of.softest_gain_1_s_);
+    plan.hold_s = trace == nullptr ? of.next_in_s()
+                                   : std::max(of.next_in_s(), kTraceHold / of.softest_gain_1_s_);
     const Forecast::Result result = forecast(plan, limit_mm, trace);
     if (!result.kept) {
       return false;
@@ -109,7 +109,7 @@ struct FeedGovernor::Search {
     const bool rises = of.candidate_[c] > in_force + kSameRatio;
     // Along a trace the limit is broken anyway; a rise there need not last.
     if (rises && trace == nullptr) {
-      const bool pauses = of.state_.time_s - of.state_.fallen_s < of.config_.pause_s;
+      const bool pauses = of.course_s() - of.state_.fallen_s < of.config_.pause_s;
       const double room_mm = (pauses ? kRiseRoomInPause : kRiseRoom) * limit_mm;
       RatioPlan lasting = plan;
       lasting.hold_s = of.config_.pause_s;
@@ -228,9 +228,9 @@ std::size_t FeedGovernor::wanted_candidate(const Outset& outset, Output& output)
   if (config_.contour.strategy == ContourStrategy::feed_priority) {
     return candidate;
   }
-  if (state_.objective.done() && state_.time_s >= state_.next_objective_s) {
+  if (state_.objective.done() && course_s() >= state_.next_objective_s) {
     state_.objective.begin(candidate_.size(), config_.exhaustive_steps);
-    state_.next_objective_s = state_.time_s + config_.objective_s;
+    state_.next_objective_s = course_s() + config_.objective_s;
   }
   look_for_objective(outset, output);
   while (candidate > 0 && candidate_[candidate] > state_.wanted_ratio + kSameRatio) {
@@ -279,8 +279,9 @@ Reason FeedGovernor::reason(const Choice& choice, bool no_effect, bool falls,
 /// are.
 void FeedGovernor::choose_offsets(Outset& outset, Output& output) noexcept {
   Outset tried = outset;
-  tried.tool = precompensator_.tool();
-  if (precompensator_.acceleration_mm_s2() <= 0.0 || !state_.offsets_act || !tried.tool) {
+  tried.tool = state_.shadow.on ? outset.tool : precompensator_.tool();
+  const bool act = state_.offsets_act || state_.shadow.on;
+  if (precompensator_.acceleration_mm_s2() <= 0.0 || !act || !tried.tool) {
     return;
   }
   const double ratio = std::min(state_.in_force_ratio, outset.panel_ratio);
@@ -335,7 +336,7 @@ void FeedGovernor::decide(const Frame& frame, Output& output) noexcept {
   const double in_force = forecast_.floor_ratio(state_.in_force_ratio);
   const bool falls = ratio < std::min(in_force, before) - kSameRatio;
   if (falls) {
-    state_.fallen_s = state_.time_s;
+    state_.fallen_s = course_s();
   }
   output.request.ratio = ratio;
   output.request.reason = reason(choice, no_effect, falls, wish);

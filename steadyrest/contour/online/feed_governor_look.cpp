@@ -14,6 +14,14 @@ namespace geometry = math::geometry;
 using kernel::signal::Frame;
 using kernel::signal::Point;
 
+/// What a lag is at a share of the speed: along the path it grows with the speed, across it with
+/// the square, as on a circle.
+Point slowed(const Point& lag, const Point& along, double share) noexcept {
+  const Point part = geometry::scale(along, geometry::dot(lag, along));
+  const Point across = geometry::subtract(lag, part);
+  return geometry::add_scaled(geometry::scale(part, share), across, share * share);
+}
+
 }  // namespace
 
 /// Without a path: the circle that the command has run on lately goes on, at the programmed feed.
@@ -71,7 +79,10 @@ bool FeedGovernor::look(const Frame& frame, const ContourError::Output& error) n
   const double foot = error.valid ? error.foot_position_mm : s;
   const double tool = precompensator_.started() ? precompensator_.position_mm() : s;
   const double reach_s = frame.original.empty() ? reach_s_ : std::max(reach_s_, back_s_);
-  ahead_.update(frame.path, frame.path_index, std::min({foot, s, tool}) - 0.5, s,
+  const Outset& shadow = state_.shadow.outset;
+  const double shadows =
+      state_.shadow.on ? std::min(shadow.foot_mm, shadow.tool ? shadow.tool->position_mm : s) : s;
+  ahead_.update(frame.path, frame.path_index, std::min({foot, s, tool, shadows}) - 0.5, s,
                 s + speed * reach_s);
   if (ahead_.empty()) {
     return false;
@@ -140,14 +151,31 @@ bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
 }
 
 Outset FeedGovernor::outset(const Frame& frame) const noexcept {
-  Outset outset;
-  outset.speed_mm_s = std::max(0.0, frame.path_speed_mm_s);
+  const bool shadows = state_.shadow.on;
+  Outset outset = shadows && state_.last.path_known ? state_.shadow.outset : machine(frame);
   outset.rapid_ratio = frame.rapid.effective_ratio;
   // The operator's panel caps the forecast as it will cap the word, unless the machine file lets
   // the layer exceed it.
   outset.panel_ratio = config_.feed_override.layer_may_exceed_panel
                            ? std::numeric_limits<double>::infinity()
                            : frame.feed.panel_ratio;
+  if (shadows && !state_.last.path_known) {
+    const double share = shadow_share(frame);
+    outset.speed_mm_s *= share;
+    const Cell& here = guess_.cell(outset.command_cell);
+    const Point along =
+        geometry::unit(geometry::add_scaled(here.tangent, here.curvature_1_mm, -here.position_mm));
+    outset.servo.error_mm = slowed(outset.servo.error_mm, along, share);
+    outset.servo.velocity_mm_s = slowed(outset.servo.velocity_mm_s, along, share);
+    outset.foot_cell = guess_.find(-geometry::norm(outset.servo.error_mm), outset.command_cell);
+  }
+  return outset;
+}
+
+/// Where the machine is, as the frame shows it.
+Outset FeedGovernor::machine(const Frame& frame) const noexcept {
+  Outset outset;
+  outset.speed_mm_s = std::max(0.0, frame.path_speed_mm_s);
   for (std::size_t i = 0; i < 3; ++i) {
     outset.servo.error_mm[i] = frame.axis[i].command_mm - frame.axis[i].actual_mm;
     outset.servo.velocity_mm_s[i] = state_.velocity_mm_s[i];

@@ -144,4 +144,31 @@ Forecast::Result Forecast::run(const LookAhead& path, const Outset& outset, cons
   return walk.result;
 }
 
+std::size_t Forecast::carry(const LookAhead& path, double to_mm, double ratio, std::size_t most,
+                            Outset& machine) const noexcept {
+  const Outset from = machine;
+  Walk walk(*this, path, from);
+  std::size_t steps = 0;
+  while (steps < most && walk.s < to_mm) {
+    const double from_mm = walk.s;
+    if (!walk.advance(std::min(ratio, from.panel_ratio))) {
+      break;
+    }
+    const Near near = walk.foot.update(walk.follow(from_mm), walk.at);
+    machine.foot_mm = path.cell(walk.foot.cell()).position_mm + near.delta;
+    ++steps;
+  }
+  machine.position_mm = walk.s;
+  machine.speed_mm_s = walk.v;
+  machine.servo = walk.servo;
+  machine.command_cell = walk.at;
+  machine.foot_cell = walk.foot.cell();
+  machine.tool = walk.tool;
+  machine.offset = walk.offset;
+  for (std::size_t i = 0; i < 3; ++i) {
+    machine.play_mm[i] = walk.table[i] - (walk.command[i] - walk.servo.error_mm[i]);
+  }
+  return steps;
+}
+
 }  // namespace steadyrest::contour::online

@@ -38,6 +38,7 @@ struct Outset {
   std::array<double, 3> play_mm{};  ///< table − motor, within half of the backlash
   std::size_t command_cell = 0;
   std::size_t foot_cell = 0;
+  double foot_mm = 0.0;  ///< path length of the foot; of carry() alone
   /// Where the tool point is, while offsets cancel the contour error; empty: they do not.
   std::optional<ToolPoint::State> tool;
   /// Where the port moves the offsets slowly: where they are, and whether they follow the tool
@@ -127,6 +128,11 @@ class Forecast {
   };
   [[nodiscard]] Squares squares(const LookAhead& path, const Outset& outset, double ratio,
                                 double time_s) const noexcept;
+
+  /// Takes the machine along the path to `to_mm` with a ratio in force: how many steps that took,
+  /// `most` at most.
+  [[nodiscard]] std::size_t carry(const LookAhead& path, double to_mm, double ratio,
+                                  std::size_t most, Outset& machine) const noexcept;
 
   [[nodiscard]] double floor_ratio(double ratio) const noexcept;
   [[nodiscard]] const AxisStep& axis_step(std::size_t i) const noexcept { return step_[i]; }
