@@ -97,25 +97,34 @@ Json axes_json(const LiveStatus& status, const kernel::machine::Machine& machine
     if (!machine.axes[i].present) {
       continue;
     }
-    const bool rotary = machine.axes[i].rotary;
+    const kernel::machine::Axis& limits = machine.axes[i];
+    const bool rotary = limits.rotary;
     const double unit = rotary ? kernel::units::deg_from_rad(1.0) : 1.0;
     const char* const position = rotary ? "position_deg" : "position_mm";
     // Without a bound there is no estimate: this control shows no encoder.
     const auto estimated = [](double value, double bound, double step) {
       return std::isfinite(bound) ? rounded(value, step) : Json();
     };
+    // One that is wider than the axis can move says nothing.
+    const auto bound = [](double value, double most, double step, double per_au) {
+      return value < most ? rounded(per_au * value, step) : Json();
+    };
+    const double most_au_s2 =
+        std::isfinite(limits.drive_acceleration_au_s2)
+            ? std::max(limits.drive_acceleration_au_s2, limits.max_acceleration_au_s2)
+            : limits.max_acceleration_au_s2;
     out.push_back(
-        {{"name", machine.axes[i].name},
+        {{"name", limits.name},
          {"rotary", rotary},
          {position, rounded(unit * axis.position_au, 1e-5)},
          {rotary ? "velocity_deg_min" : "velocity_mm_min",
           estimated(kMinute_s * unit * axis.velocity_au_s, axis.velocity_bound_au_s, 1e-3)},
          {rotary ? "velocity_bound_deg_min" : "velocity_bound_mm_min",
-          rounded(kMinute_s * unit * axis.velocity_bound_au_s, 1e-3)},
+          bound(axis.velocity_bound_au_s, limits.max_speed_au_s, 1e-3, kMinute_s * unit)},
          {rotary ? "acceleration_deg_s2" : "acceleration_mm_s2",
           estimated(unit * axis.acceleration_au_s2, axis.acceleration_bound_au_s2, 1e-2)},
          {rotary ? "acceleration_bound_deg_s2" : "acceleration_bound_mm_s2",
-          rounded(unit * axis.acceleration_bound_au_s2, 1e-2)},
+          bound(axis.acceleration_bound_au_s2, most_au_s2, 1e-2, unit)},
          {rotary ? "following_mdeg" : "following_um",
           rounded(1e3 * unit * axis.following_au, 1e-3)}});
   }

@@ -86,6 +86,8 @@ export interface ChatterEvent {
   speed_rpm: number;
   advised_speed_rpm: Maybe;
   advised_override_percent: Maybe;
+  /** By the chatter frequency alone, unchecked; empty with a process. */
+  lobe_speeds_rpm?: number[];
   /** The planner's; null if it was not asked. */
   decision: 'keep' | 'constant' | 'law' | 'nothing' | null;
 }

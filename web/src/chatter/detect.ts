@@ -135,6 +135,9 @@ function speedPlot(page: DetectPage, theme: Theme): Plot {
 const DECISIONS = { keep: 'keep this speed', constant: 'none', law: 'modulate the speed: see chatter plan', nothing: 'nothing helps at this depth' };
 
 function advice(e: ChatterEvent): string {
+  if (e.lobe_speeds_rpm?.length) {
+    return `unchecked: ${e.lobe_speeds_rpm.map((n) => fixed(n, 0)).join(', ')}\u00a0rpm`;
+  }
   return e.advised_speed_rpm === null ? DECISIONS[e.decision ?? 'constant'] : `${rpm(e.advised_speed_rpm)} (${plain(e.advised_override_percent)}\u00a0%)`;
 }
 
@@ -154,7 +157,7 @@ function verdict(page: DetectPage): string {
     return `No chatter in ${plain(seconds)} s.`;
   }
   const more = events.length > 1 ? `The cut chatters ${events.length} times, first` : 'The cut chatters';
-  const better = first.advised_speed_rpm === null && first.decision === null ? 'No override step is better.' : `Better speed, by the ${page.answer.advice_by}: ${advice(first)}.`;
+  const better = first.advised_speed_rpm === null && first.decision === null && !first.lobe_speeds_rpm?.length ? 'No override step is better.' : `${first.lobe_speeds_rpm?.length ? 'Lobes' : 'Better speed'}, by the ${page.answer.advice_by}: ${advice(first)}.`;
   return `${more} from ${fixed(first.start_s, 3)} to ${fixed(first.end_s, 3)} s at ${hertz(first.frequency_hz)} (${typeName(first.type)}). ${better}`;
 }
 
@@ -173,7 +176,7 @@ export function detectView(page: DetectPage): View {
       ['Spectrogram', 'Signal power over time and frequency, in dB relative to the strongest cell. Forced vibration lies on multiples of the tooth-passing frequency; chatter lies between them.'],
       ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself. With runout, forced vibration lies on the spindle orders.'],
       TYPES,
-      ['Better speed', 'By the rule of thumb: the override step at which a whole number of chatter waves fits between two teeth; it knows neither depth nor border. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, the answer of <code>chatter plan</code>.'],
+      ['Better speed', 'By the chatter frequency: the lobes’ speeds, at which a whole number of chatter waves fits between two teeth; it knows neither depth nor border, so no step is advised. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, the answer of <code>chatter plan</code>.'],
     ],
     draw: (theme) => {
       plot('spectrogram', spectrogramPlot(page, orders, theme), theme);

@@ -61,19 +61,20 @@ describe('a signal', () => {
     start_s: 1.25, end_s: 2, frequency_hz: 411, type: 'hopf', speed_rpm: 4000, advised_speed_rpm: 4400, advised_override_percent: 110, decision: null, ...more,
   });
   const page = (events: ChatterEvent[]) =>
-    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'rule of thumb', events, seconds: 3, sample_rate_hz: 20_000 } } as unknown as DetectPage);
+    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'planner', events, seconds: 3, sample_rate_hz: 20_000 } } as unknown as DetectPage);
   it('without chatter says so and has no table', () => {
     expect(page([]).verdict).toBe('No chatter in 3 s.');
     expect(page([]).body).not.toContain('Where it chatters');
     expect(page([]).facts).toContain('1 tooth');
   });
   it('says when, at what frequency, and what to do', () => {
-    expect(page([event()]).verdict).toBe(`The cut chatters from 1.250 to 2.000 s at 411.0${NB}Hz (Hopf). Better speed, by the rule of thumb: 4400${NB}rpm (110${NB}%).`);
+    expect(page([event()]).verdict).toBe(`The cut chatters from 1.250 to 2.000 s at 411.0${NB}Hz (Hopf). Better speed, by the planner: 4400${NB}rpm (110${NB}%).`);
     expect(page([event(), event()]).verdict).toMatch(/^The cut chatters 2 times, first from/);
   });
   it('does not promise a speed where none is better', () => {
     const none = { advised_speed_rpm: null, advised_override_percent: null };
     expect(page([event(none)]).verdict).toContain('No override step is better.');
+    expect(page([event({ ...none, lobe_speeds_rpm: [4110, 3082.5] })]).verdict).toContain(`unchecked: 4110, 3083${NB}rpm.`);
     expect(page([event({ ...none, decision: 'law' })]).verdict).toContain('modulate the speed');
     expect(page([event({ ...none, decision: 'nothing' })]).verdict).toContain('nothing helps at this depth');
   });

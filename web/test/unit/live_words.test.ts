@@ -45,7 +45,7 @@ describe('the texts', () => {
     expect(['rpm', 'U/min', '1/min', 'min⁻¹', 'об/мин', 'r/min'].filter((u) => of.replaceAll('{rpm}', '').split(/[^\p{L}\d/⁻¹]+/u).includes(u))).toEqual([unit]);
   });
   it('name no option that the program does not have', () => {
-    const help = ['--record', '--past-runs', '--process'];
+    const help = ['--record', '--past-runs', '--process', '--depth-mm'];
     for (const texts of Object.values(ALL)) {
       expect(texts.records_none_hint.match(/--[\w-]+/g)).toEqual(['--record', '--past-runs']);
       for (const text of Object.values(texts)) {
@@ -85,7 +85,7 @@ describe('chatter', () => {
     expect(said({ modulating: true })).toBe('The cut is quiet · Spindle speed modulated');
   });
   it('is not called quiet where nobody listens', () => {
-    expect(said({}, false)).toBe('Nothing listens for chatter: start the layer with --process.');
+    expect(said({}, false)).toBe('Nothing listens for chatter: start the layer with --process FILE --depth-mm MM.');
   });
   it('is neither there nor not out of the cut', () => {
     const frame = layer.frame(1);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include <steadyrest/apps/cli/chatter/chatter_events.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -79,6 +81,18 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   }
   for (ChatterEvent& event : out) {
     event.channels = {signal.channel};
+  }
+  return out;
+}
+
+std::vector<double> lobes_rpm(const online::SpeedTable::Config& reach, double programmed_rev_s,
+                              double frequency_hz) {
+  const double least = std::max(reach.min_rev_s, reach.min_ratio * programmed_rev_s);
+  const double most = std::min(reach.max_rev_s, reach.max_ratio * programmed_rev_s);
+  const double first = frequency_hz / static_cast<double>(reach.teeth);
+  std::vector<double> out;
+  for (double k = std::max(1.0, std::ceil(first / most)); first / k >= least && least > 0.0; ++k) {
+    out.push_back(kernel::units::rpm_from_rev_s(first / k));
   }
   return out;
 }

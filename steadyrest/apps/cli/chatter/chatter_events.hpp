@@ -7,6 +7,7 @@
 #include <steadyrest/apps/cli/shared/progress.hpp>
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
+#include <steadyrest/chatter/online/speed_table.hpp>
 
 namespace steadyrest::apps::cli {
 
@@ -24,5 +25,10 @@ struct ChatterEvent {
 [[nodiscard]] std::vector<ChatterEvent> chatter_events(
     const chatter::offline::RecordedSignal& signal, chatter::online::Detector& detector,
     Progress& progress);
+
+/// Speeds at which k whole waves of the chatter fit between two teeth, falling; within the
+/// override's and the spindle's reach.
+[[nodiscard]] std::vector<double> lobes_rpm(const chatter::online::SpeedTable::Config& reach,
+                                            double programmed_rev_s, double frequency_hz);
 
 }  // namespace steadyrest::apps::cli

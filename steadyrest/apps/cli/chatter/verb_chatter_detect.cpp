@@ -27,8 +27,9 @@
 
 namespace steadyrest::apps::cli {
 // From a recording to advice. The detector lists the stretches of chatter, then each stretch gets a
-// better speed from the best source at hand: the planner (process and depth known), the deepest
-// override step (process known), or the rule n = 60·fc/(N·k) (nothing but the frequency known).
+// better speed from the best source at hand: the planner (process and depth known) or the deepest
+// override step (process known). The frequency alone names the lobes' speeds n = 60·fc/(N·k), but
+// whether the cut is stable there it does not say, so none of them is advised.
 namespace chatter_detect {
 namespace {
 
@@ -55,6 +56,7 @@ struct Options {
 /// A stretch of chatter with the advice for it.
 struct Event : ChatterEvent {
   online::SpeedTable::Advice advice;
+  std::vector<double> lobes_rpm;      ///< by the frequency alone, where no process is known
   std::optional<offline::Plan> plan;  ///< where process and depth are known
 };
 
@@ -152,12 +154,14 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
     event.plan = std::move(*plan);
     return std::nullopt;
   }
+  if (!process) {
+    event.lobes_rpm = lobes_rpm(config, programmed, event.frequency_hz);
+    return std::nullopt;
+  }
   // The depth of cut is unknown, so the table holds each step's limiting depth and the deepest step
   // wins (depth_mm = 0 below requests that).
-  if (process) {
-    if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
-      return added.error();
-    }
+  if (auto added = offline::add_depths(*process, {programmed}, kMostDepthMm, config); !added) {
+    return added.error();
   }
   const auto table = online::SpeedTable::make(std::move(config));
   if (!table) {
@@ -173,7 +177,9 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
 /// Where the advice comes from, best first: a plan for this very cut, the border alone, the
 /// frequency alone.
 const char* adviser(const Options& options) {
-  return options.process.empty() ? "rule of thumb" : options.depth_mm ? "planner" : "deepest step";
+  return options.process.empty() ? "chatter frequency"
+         : options.depth_mm      ? "planner"
+                                 : "deepest step";
 }
 
 /// The request is neutral when nothing is better; a speed of 0 says so.
@@ -191,6 +197,9 @@ std::string better_words(const Event& event) {
   if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
     return "none: by the process file the cut is stable";
   }
+  if (!event.lobes_rpm.empty()) {
+    return fmt::format("unchecked: {:.0f} rpm", fmt::join(event.lobes_rpm, ", "));
+  }
   return "none";
 }
 
@@ -201,7 +210,8 @@ Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Ev
   answer.json["advice_by"] = adviser(options);
   answer.json["events"] = Json::array();
   Table table({"from", "to", "frequency", "type", "at",
-               fmt::format("better speed, by the {}", adviser(options))});
+               options.process.empty() ? "lobes, by the chatter frequency"
+                                       : fmt::format("better speed, by the {}", adviser(options))});
   for (const Event& event : events) {
     const auto& advice = event.advice;
     const bool better = advice.speed_rev_s > 0.0;
@@ -219,6 +229,7 @@ Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Ev
          {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
          {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
          {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
+         {"lobe_speeds_rpm", event.lobes_rpm},
          {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}});
     table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
                fmt::format("{:.1f} Hz", event.frequency_hz), type,
@@ -240,8 +251,16 @@ Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Ev
                                       ? fmt::format(", on none of {} channels", channels.size())
                                       : std::string())
                     : table.text();
-  for (const std::string& note : notes) {
-    answer.text += note + "\n";
+  if (options.process.empty() && !events.empty()) {
+    answer.json["notes"].push_back(
+        "the speeds rest on the chatter frequency alone: 60·f/(teeth·k). They lie near the lobes, "
+        "but "
+        "whether the cut is stable there depends on the tool and the depth; --process FILE "
+        "--depth-mm "
+        "MM checks that and names a step");
+  }
+  for (const Json& note : answer.json["notes"]) {
+    answer.text += note.get<std::string>() + "\n";
   }
   return answer;
 }
@@ -294,7 +313,7 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   }
   std::vector<Event> events;
   for (ChatterEvent& event : heard->events) {
-    events.push_back({std::move(event), {}, {}});
+    events.push_back({std::move(event), {}, {}, {}});
   }
   // Plans are made on demand: a quiet recording needs none.
   std::optional<AskedPlans> plans;
@@ -350,10 +369,11 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
   CLI::Option* const teeth =
       verb.add_option("--teeth", options->teeth, "Number of teeth, 1 in turning");
   add_log_options(verb, options->format, "t_s,value,speed_rpm");
-  verb.reads("--process", options->process,
-             "Process file (TOML). With --depth-mm the better speed comes from `chatter plan`; "
-             "without it, it is the deepest override step. With no process file it follows the "
-             "rule of thumb: whole waves between two teeth")
+  verb.reads(
+          "--process", options->process,
+          "Process file (TOML). With --depth-mm the better speed comes from `chatter plan`; "
+          "without it, it is the deepest override step. With no process file no step is advised: "
+          "the chatter frequency alone names the lobes' speeds")
       ->excludes(teeth);
   verb.also_reads([options] { return chatter::offline::response_files(options->process); });
   verb.add_option("--channel", options->channel,

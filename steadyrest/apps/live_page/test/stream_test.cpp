@@ -38,5 +38,24 @@ TEST(Stream, HasNoStepsWhereNobodyLooked) {
   EXPECT_EQ(frame_of(desk)["steps"], nullptr);
 }
 
+// One edge a cycle bounds the velocity of a moving axis; of one at rest, and of any acceleration,
+// it leaves more than the machine can do.
+TEST(Stream, ShowsNoBoundWiderThanTheAxisCanMove) {
+  PageDesk desk;
+  desk.loop().run();
+  const Json axes = frame_of(desk)["axes"];
+  ASSERT_THAT(axes, SizeIs(3));
+  bool has_one = false;
+  for (const Json& axis : axes) {
+    const Json& velocity = axis["velocity_bound_mm_min"];
+    const Json& acceleration = axis["acceleration_bound_mm_s2"];
+    EXPECT_TRUE(velocity.is_null() || velocity < 24'000.0) << axis;
+    EXPECT_TRUE(acceleration.is_null() || acceleration < 6000.0) << axis;
+    has_one = has_one || velocity.is_number();
+  }
+  EXPECT_TRUE(has_one) << axes;
+  EXPECT_TRUE(axes[0]["acceleration_bound_mm_s2"].is_null()) << axes;
+}
+
 }  // namespace
 }  // namespace steadyrest::apps::live_page

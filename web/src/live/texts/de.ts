@@ -219,7 +219,7 @@ export const de: Texts = {
   in_time: 'in {time}',
   from_to: 'Von → auf',
   axes: 'Achsen',
-  axes_hint: 'Schätzwerte aus dem Gebersignal mit garantierten Schranken.',
+  axes_hint: 'Schätzwerte aus dem Gebersignal mit garantierten Schranken. –, wo die Schranke weiter wäre, als die Achse sich bewegen kann: Die Steuerung zeigt höchstens eine Flanke je Takt oder keine.',
   position: 'Position',
   velocity: 'Geschwindigkeit',
   acceleration: 'Beschleunigung',

@@ -228,7 +228,7 @@ export const en = {
   from_to: 'From → to',
   // Motion
   axes: 'Axes',
-  axes_hint: 'Estimates from the encoder signal with guaranteed bounds.',
+  axes_hint: 'Estimates from the encoder signal with guaranteed bounds. – where the bound would be wider than the axis can move: the control shows one edge a cycle at most, or none.',
   position: 'Position',
   velocity: 'Velocity',
   acceleration: 'Acceleration',

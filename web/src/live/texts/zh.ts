@@ -219,7 +219,7 @@ export const zh: Texts = {
   in_time: '{time}后',
   from_to: '从 → 到',
   axes: '轴',
-  axes_hint: '由编码器信号得到的估计值及其保证界限。',
+  axes_hint: '由编码器信号得到的估计值及其保证界限。– 表示界限会超出轴的运动能力：控制系统每周期最多给出一个沿，或没有。',
   position: '位置',
   velocity: '速度',
   acceleration: '加速度',

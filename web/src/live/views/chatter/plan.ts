@@ -30,7 +30,13 @@ export function planWords(plan: Plan): string {
   }
 }
 
-function shown(plan: Plan): HTMLElement {
+/** `heard`: the step that the layer has chosen by ear, in percent. It knows the cut better than the plan, and one panel must not name two speeds. */
+function shown(plan: Plan, heard: number | null): HTMLElement {
+  const differs = heard !== null && Math.abs(heard - (100 * plan.speed_rpm) / plan.programmed_rpm) > 1e-6;
+  if (differs) {
+    const words = t('plan_constant', { percent: plain(heard, 4), rpm: fixed((heard / 100) * plan.programmed_rpm, 0) });
+    return h('div', {}, h('p', { class: 'state-line', id: 'plan-words' }, words), h('p', { class: 'hint' }, t('plan_for', { rpm: fixed(plan.programmed_rpm, 0), depth: depthText(plan.depth_mm) })));
+  }
   const { limit_depth_mm: limit, likely_depth_mm: likely } = plan;
   return h(
     'div',
@@ -63,7 +69,8 @@ export function planPart({ api, live }: Context): Part {
       .get<PlanAnswer>('chatter/plan')
       .then((answer) => {
         const { plan } = answer;
-        put(JSON.stringify([plan, plan ? 1 : answer]), () => (plan ? shown(plan) : h('p', { class: 'none' }, waiting(answer))));
+        const heard = live.frame?.chatter?.better_spindle_percent ?? null;
+        put(JSON.stringify([plan, plan ? heard : answer]), () => (plan ? shown(plan, heard) : h('p', { class: 'none' }, waiting(answer))));
       })
       .catch((error: unknown) => put(String(error), () => problem(error)));
   };
