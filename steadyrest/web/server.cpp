@@ -58,7 +58,7 @@ class BeastServer final : public Server {
     beast::error_code fault;
     const auto address = asio::ip::make_address(config.address, fault);
     if (fault) {
-      return refuse(fmt::format("{} is no address", config.address),
+      return refuse(fmt::format("{} is not an address", config.address),
                     "give --listen ADDRESS:PORT, the address as numbers");
     }
     const tcp::endpoint endpoint(address, config.port);

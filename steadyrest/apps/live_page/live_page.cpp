@@ -206,7 +206,7 @@ Result<void> check_proxy(const LivePage::Config& config) {
   }
   for (const std::string& proxy : config.proxies) {
     if (!web::address_of(proxy)) {
-      return refuse(fmt::format("--trusted-proxy {} is no address", proxy),
+      return refuse(fmt::format("--trusted-proxy {} is not an address", proxy),
                     "give the address by which the proxy connects, as a number");
     }
   }

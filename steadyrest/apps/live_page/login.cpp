@@ -160,7 +160,8 @@ web::Response Login::begin(const web::Request& request, double now_s) {
   Shown shown{.name = text(*asked, "name"),
               .password = text(*asked, "password"),
               .key = text(*asked, "key")};
-  shown.name.resize(std::min(shown.name.size(), web::Accounts::kLongestName + 1));  // is no account
+  shown.name.resize(
+      std::min(shown.name.size(), web::Accounts::kLongestName + 1));  // not an account
   if (auto refused = too_many(request, shown.name, now_s)) {
     return *refused;
   }

@@ -250,6 +250,25 @@ void FeedGovernor::watch_effect(const Frame& frame, double dt) noexcept {
   state_.speed_mm_s = frame.path_speed_mm_s;
 }
 
+/// What is asked for, by a decision or because none may be made.
+void FeedGovernor::request(const Frame& frame, bool by_text, Output& output) noexcept {
+  if (kernel::signal::is_locked(frame.motion)) {
+    output = withdraw(Reason::withdrawn_thread, output);
+  } else if (frame.motion != Motion::feed &&
+             (frame.motion == Motion::idle || !cutting_within_reach(frame))) {
+    output = withdraw(Reason::not_cutting, output);
+  } else if (by_text) {
+    output = withdraw(
+        frame.original_unknown ? Reason::contour_original_unknown : Reason::contour_in_text,
+        output);
+  } else if (!state_.engaged || course_s() >= state_.next_decision_s - 1e-9) {
+    state_.engaged = true;
+    decide(frame, output);
+    state_.next_decision_s =
+        std::max(state_.next_decision_s, course_s() - decision_s_) + decision_s_;
+  }
+}
+
 FeedGovernor::Output FeedGovernor::update(const Frame& frame,
                                           const kernel::signal::InForce& in_force,
                                           Reason unfit) noexcept {
@@ -300,22 +319,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   watch_effect(frame, dt);
   follow_shadow(frame, in_force, dt);
   output.pace = state_.shadow.on && dt > 0.0 ? state_.shadow.step_s / dt : 1.0;
-
-  if (kernel::signal::is_locked(frame.motion)) {
-    output = withdraw(Reason::withdrawn_thread, output);
-  } else if (frame.motion != Motion::feed &&
-             (frame.motion == Motion::idle || !cutting_within_reach(frame))) {
-    output = withdraw(Reason::not_cutting, output);
-  } else if (by_text) {
-    output = withdraw(
-        frame.original_unknown ? Reason::contour_original_unknown : Reason::contour_in_text,
-        output);
-  } else if (!state_.engaged || course_s() >= state_.next_decision_s - 1e-9) {
-    state_.engaged = true;
-    decide(frame, output);
-    state_.next_decision_s =
-        std::max(state_.next_decision_s, course_s() - decision_s_) + decision_s_;
-  }
+  request(frame, by_text, output);
   output.advised_ratio = state_.shadow.on ? state_.shadow.ratio : output.request.ratio;
   return state_.last = output;
 }

@@ -286,6 +286,7 @@ class FeedGovernor {
   [[nodiscard]] std::size_t reachable_candidate(std::size_t wanted) const noexcept;
   [[nodiscard]] kernel::outcome::Reason reason(const Choice& choice, bool no_effect, bool falls,
                                                std::size_t wanted) const noexcept;
+  void request(const kernel::signal::Frame& frame, bool by_text, Output& output) noexcept;
   void decide(const kernel::signal::Frame& frame, Output& output) noexcept;
   Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
 

@@ -90,7 +90,7 @@ TEST(CutChatter, EachSpindleSpeedOfTheProgramGetsItsOwnChoice) {
                                            "N40 G1 Z0 F500\n"
                                            "N50 G1 X40 F1000\n"
                                            "N60 G0 Z50\n"
-                                           "N70 S10000 M3\n"
+                                           "N70 S7500 M3\n"
                                            "N80 G4 F1\n"
                                            "N90 G1 Z0 F2000\n"
                                            "N100 G1 X0 F2000\n"

@@ -226,6 +226,12 @@ TEST(FromLinuxCnc, TakesTheServoDataOfIniAndHal) {
   EXPECT_DOUBLE_EQ(open.axes[0].servo_gain_1_s, 20.0);
   EXPECT_THAT(text_of_file(scratch.at("machine.toml")),
               HasSubstr("only if its output is a velocity"));
+  // A simulator that feeds the command back has no encoder for the scale.
+  scratch.file("x.hal", "net x joint.0.motor-pos-cmd => joint.0.motor-pos-fb\n");
+  const auto simulator =
+      machine_of(scratch, small_mill("", "", "", "mm", "INPUT_SCALE = 157.48\n", "x.hal"));
+  EXPECT_LT(simulator.axes[0].encoder.count_au, 0.002) << "1/157.48 mm is no count of this machine";
+  EXPECT_THAT(text_of_file(scratch.at("machine.toml")), HasSubstr("have no encoder for it"));
 }
 
 struct Fault {

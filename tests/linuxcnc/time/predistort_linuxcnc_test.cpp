@@ -75,7 +75,8 @@ TEST(PredistortOnLinuxCnc, CutsACircleInTheSameTimeWithoutItsError) {
   nc::interpret::Config config;
   config.axes = "XYZ";
   const auto done = contour::offline::predistort(
-      original, config, machine, {.max_shift_mm = 2.0, .told = {{"changes", "predistort"}}});
+      original, config, machine,
+      {.max_shift_mm = 2.0, .told = {{"changes", "predistort"}, {"tube-mm", "2"}}});
   ASSERT_TRUE(done.has_value());
   std::ofstream(changed) << done->replaced.text;
 

@@ -16,7 +16,7 @@ const WORDS = join(ROOT, 'docs/pictures.json');
 const PROGRAM = process.env['STEADYREST_PROGRAM'] ?? '';
 const UPDATE = process.env['STEADYREST_UPDATE_PICTURES'] === '1';
 const MOST = 0.006;
-const SIZE = { width: 1240, height: 880 };
+const SIZE = { width: 1240, height: 868 };
 
 const PICTURES: Record<string, string> = {
   'docs/report.png': 'cut examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml',

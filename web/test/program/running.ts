@@ -32,10 +32,13 @@ export const steadyrest = (of: readonly string[], input = ''): string => execFil
 function pageOf(run: ChildProcess): Promise<[string, string]> {
   return new Promise((resolve, reject) => {
     let said = '';
+    let known = false;
     run.stderr?.on('data', (part: Buffer) => {
       said += part.toString();
+      if (known) return;
       const found = /Page: (http:\/\/[^/\s]+)\/(?: \(its address with the key: (.+)\))?\n/.exec(said);
       if (found) {
+        known = true;
         const whole = found[2] === undefined ? '' : readFileSync(found[2], 'utf8');
         resolve([found[1] ?? '', /#key=(\S+)/.exec(whole)?.[1] ?? '']);
       }

@@ -69,7 +69,7 @@ constexpr std::array kKnown = {
     Known{"EMCIO", "TOOL_CHANGE_POSITION", ""},
     Known{"EMCIO", "TOOL_TABLE", "tools change with each set-up: name the table with --tools"},
     Known{"EMCIO", "DB_PROGRAM", "tools from a database are not read: give a table with --tools"},
-    Known{"EMCIO", "RANDOM_TOOLCHANGER", "pockets are not followed; T0 is no tool"},
+    Known{"EMCIO", "RANDOM_TOOLCHANGER", "pockets are not followed; T0 means no tool"},
     Known{"PYTHON", "TOPLEVEL", "subprograms and remaps in Python are not read; calls are refused"},
     Known{"EMC", "RS274NGC_STARTUP_CODE", ""},
 };

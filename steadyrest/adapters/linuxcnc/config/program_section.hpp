@@ -26,7 +26,7 @@ struct ProgramSection {
 /// Text for a comment of a TOML file; anything but printable ASCII would need TOML's rules there.
 [[nodiscard]] std::string comment_of(std::string_view text);
 
-/// A TOML string of `text`, at most `most` characters; what is no text becomes `?`.
+/// A TOML string of `text`, at most `most` characters; bytes that are not text become `?`.
 [[nodiscard]] std::string toml_string(std::string_view text, std::size_t most);
 
 }  // namespace steadyrest::adapters::linuxcnc::config

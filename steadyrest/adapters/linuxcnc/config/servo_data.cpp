@@ -40,12 +40,7 @@ class Loop {
       from_ini();
     }
     if (!out_.counts_per_unit) {
-      for (const char* key : {"ENCODER_SCALE", "INPUT_SCALE", "STEP_SCALE", "SCALE"}) {
-        if (auto scale = entry(key); scale && scale->value != 0.0) {
-          out_.counts_per_unit = scale;
-          break;
-        }
-      }
+      from_scale();
     }
     return std::move(out_);
   }
@@ -91,6 +86,7 @@ class Loop {
     } else if (const std::string step = pin_on(command, ".position-cmd"); !step.empty()) {
       no_lag(step, "a step generator in position mode follows without lag");
     } else if (!command.empty() && command == feedback) {
+      looped_back_ = true;
       no_lag(fmt::format("joint.{}.motor-pos-fb", joint_), "the feedback is the command itself");
     }
     for (const char* ending : {".position", ".position-fb"}) {
@@ -101,6 +97,20 @@ class Loop {
           out_.counts_per_unit = set;
         }
       }
+    }
+  }
+
+  void from_scale() {
+    for (const char* key : {"ENCODER_SCALE", "INPUT_SCALE", "STEP_SCALE", "SCALE"}) {
+      auto scale = entry(key);
+      if (!scale || scale->value == 0.0) {
+        continue;
+      }
+      if (!looped_back_) {
+        out_.counts_per_unit = scale;
+        return;
+      }
+      out_.unused.push_back(scale->from + " (the HAL files have no encoder for it)");
     }
   }
 
@@ -182,6 +192,7 @@ class Loop {
   const IniFile& ini_;
   const HalUse* hal_;
   std::size_t joint_;
+  bool looped_back_ = false;  ///< the feedback is the command itself
   std::map<std::string, std::string> signals_;
   ServoData out_;
 };

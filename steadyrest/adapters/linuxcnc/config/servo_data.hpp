@@ -21,7 +21,8 @@ struct ServoFigure {
 ///
 /// A `pid` whose output is a velocity (it goes to a step generator's velocity-cmd, through an
 /// integrator, or has FF1 = 1) is a loop with the gain Pgain in 1/s and the weight FF1. A step
-/// generator in position mode, or feedback taken from the command, leaves no lag: weight 1.
+/// generator in position mode, or feedback taken from the command, leaves no lag: weight 1. The
+/// latter has no encoder either: a scale in the INI file is unused then.
 struct ServoData {
   std::optional<ServoFigure> gain_1_s;
   std::optional<ServoFigure> feed_forward;

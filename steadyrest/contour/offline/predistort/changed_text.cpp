@@ -388,11 +388,9 @@ Result<Changed> write_pieces(const Program& program, const std::vector<Piece>& p
   if (!path) {
     return std::unexpected(of_original(path.error(), program.file, replaced->origin));
   }
-  Changed changed{.lines = {},
-                  .replaced = std::move(*replaced),
-                  .path = std::move(*path),
-                  .start_mm = {},
-                  .end_mm = {}};
+  Changed changed;
+  changed.replaced = std::move(*replaced);
+  changed.path = std::move(*path);
   Mapping(program, pieces, *lines, writer, changed).run();
   changed.lines = std::move(*lines);
   return changed;

@@ -45,9 +45,10 @@ struct PredistortConfig {
   /// Parts cut before, to learn from (learn/).
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<CutPart> parts = {};
+  /// For the mark in the program; its tube bounds the shift too.
   // Designated initialisers may leave it out.
   // NOLINTNEXTLINE(readability-redundant-member-init)
-  std::vector<nc::rewrite::Told> told = {};  ///< for the mark in the program
+  std::vector<nc::rewrite::Told> told = {};
   std::function<void(double share, std::string_view what)> progress = [](double, auto) {};
 };
 

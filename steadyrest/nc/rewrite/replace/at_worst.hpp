@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/rewrite/replace/cut_blocks.hpp>
 
 namespace steadyrest::nc::rewrite {
@@ -15,8 +16,12 @@ template <class Make>
 [[nodiscard]] auto at_worst_they_stay(CutBlocks& blocks, const Make& make) -> decltype(make()) {
   constexpr std::size_t kMore = 8;
   auto made = make();
+  // A disk that is full says nothing of any block.
+  const auto refused = [&] {
+    return !made && made.error().kind == kernel::outcome::Kind::bad_input;
+  };
   for (std::size_t keep = 1;
-       !made && blocks.keep_near(static_cast<std::uint32_t>(made.error().line), keep) > 0;
+       refused() && blocks.keep_near(static_cast<std::uint32_t>(made.error().line), keep) > 0;
        keep *= kMore) {
     made = make();
   }

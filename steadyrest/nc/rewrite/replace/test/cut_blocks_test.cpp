@@ -167,7 +167,7 @@ TEST(CutBlocks, AreAllKeptBeforeAProgramIsRefused) {
   int made = 0;
   const auto never = [&]() -> kernel::outcome::Result<int> {
     ++made;
-    return kernel::outcome::refuse("p.ngc", 20, "no", "never");
+    return kernel::outcome::refuse("p.ngc", 20U, "no", "never");
   };
   EXPECT_FALSE(at_worst_they_stay(found, never).has_value());
   EXPECT_LE(made, 5) << "eight times as many each time";

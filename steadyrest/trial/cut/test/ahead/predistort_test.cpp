@@ -8,6 +8,7 @@
 #include <ranges>
 #include <string>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
@@ -53,7 +54,7 @@ struct Judged {
 /// The program predistorted for `believed` and cut on `machine`, without any layer.
 Judged judged(const std::string& program, const Machine& machine, const Machine& believed,
               PredistortConfig how = {}) {
-  how.told = {{"changes", "predistort"}};
+  how.told = {{"changes", "predistort"}, {"tube-mm", fmt::format("{:g}", how.max_shift_mm)}};
   const std::string file = kExamples + "programs/" + program;
   Judged out;
   out.predicted = contour::offline::predistort(file, reading(believed), believed, how).value();
