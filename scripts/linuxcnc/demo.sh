@@ -37,7 +37,7 @@ cp "$layer" "$D/steadyrest"
 cd "$D/mill"
 "$D/steadyrest" machine from-linuxcnc mill.ini -o machine.toml --json >/dev/null
 # The servos of servos.hal; what no INI file says.
-sed -i 's/^servo_gain_1_s = 20 .*/servo_gain_1_s = 50/' machine.toml
+sed -i -e 's/^servo_gain_1_s = 20 .*/servo_gain_1_s = 50/' -e 's/^feed_forward = .*/feed_forward = 0/' machine.toml
 sed -i 's/^HALFILE = mill.hal/HALFILE = servos.hal/;s/^DISPLAY = .*/DISPLAY = hold/' mill.ini
 "$D/steadyrest" linuxcnc setup mill.ini --offsets --json >/dev/null
 sed -i 's/^HALFILE = mill-layer.hal/&\nHALFILE = drive.hal/' mill.ini

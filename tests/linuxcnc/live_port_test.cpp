@@ -158,8 +158,12 @@ void expect_lesser_of_layer_and_panel(const Table& frames, const Table& log) {
 
 /// A probe that was stopped for 60 ms: the feed has not risen meanwhile, nor when it went on.
 void expect_never_above(const Table& frames, double ratio) {
-  for (std::size_t i = first_corrected(frames); i < frames.size(); ++i) {
-    EXPECT_LE(frames[i][kInForce], ratio + 1e-9) << "frame " << i;
+  // The feed falls by its slew; from there on it stays.
+  const auto reached = std::ranges::find_if(
+      frames, [&](const auto& frame) { return frame[kInForce] <= ratio + 1e-9; });
+  ASSERT_NE(reached, frames.end());
+  for (auto frame = reached; frame != frames.end(); ++frame) {
+    EXPECT_LE((*frame)[kInForce], ratio + 1e-9) << "frame " << (frame - frames.begin());
   }
 }
 
