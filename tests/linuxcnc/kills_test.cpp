@@ -108,7 +108,8 @@ Life life(const std::vector<ServoRow>& log, double from, double killed) {
   out.speed_back = cycles_until(
       [](const ServoRow& row) { return std::abs(row.speed_mm_s - kFeed_mm_s) < 1e-6; });
   out.next = cycles_until([&](const ServoRow& row) { return row.beat != last->beat; });
-  for (At i = last; i != log.end() && i->tick - last->tick < std::min(kHold, out.next); ++i) {
+  // The next layer's first word is written before its first beat, so it may act a cycle earlier.
+  for (At i = last; i != log.end() && i->tick - last->tick < std::min(kHold, out.next - 1.0); ++i) {
     out.risen = std::max(out.risen, i->ratio - last->ratio);
   }
   const At end = at_tick(log, out.last_beat + kLongestSpeedReturn);

@@ -64,6 +64,9 @@ struct HalProcess::Hal {
   hal_stream_t vibration_stream{};
   bool has_vibration = false;
   double vibration_rate_hz = 0.0;
+  /// Level of the heartbeat when this process began: a killed layer's stays, and the first beat
+  /// must be seen with the first word.
+  bool first_level = false;
   std::array<double, kMostReadings> vibration{};
   long pause_ns = 100'000;
 };
@@ -160,6 +163,7 @@ Result<std::unique_ptr<HalProcess>> HalProcess::make(const Config& config) {
     // oneshot counts the cycle that starts it.
     hal->pins->values().hold->f = config.hold_s + config.servo_period_s;
     hal->pins->values().rise->f = config.rise_1_s;
+    hal->first_level = hal->pins->values().heartbeat->b;
   }
   return std::unique_ptr<HalProcess>(new HalProcess(std::move(hal)));
 }
@@ -242,7 +246,7 @@ void HalProcess::write_pins(const Pins& pins) noexcept {
   }
   // After the values: who sees the beat finds them in place.
   at.armed->b = pins.armed;
-  at.heartbeat->b = pins.heartbeat;
+  at.heartbeat->b = pins.heartbeat != hal_->first_level;
 }
 
 double HalProcess::vibration_rate_hz() const noexcept {
