@@ -144,7 +144,7 @@ class FeedGovernor {
   /// The course that the machine would take if the layer acted. Where nothing is written the
   /// decisions start from it, for an error that nobody holds down says nothing of them.
   struct Shadow {
-    /// What the control would have been told, so many cycles of its own time ago.
+    /// What the control would have been told `back` cycles ago, in the shadow's time.
     [[nodiscard]] double told(std::size_t back) const noexcept;
 
     bool on = false;

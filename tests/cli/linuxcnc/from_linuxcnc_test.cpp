@@ -230,7 +230,8 @@ TEST(FromLinuxCnc, TakesTheServoDataOfIniAndHal) {
   scratch.file("x.hal", "net x joint.0.motor-pos-cmd => joint.0.motor-pos-fb\n");
   const auto simulator =
       machine_of(scratch, small_mill("", "", "", "mm", "INPUT_SCALE = 157.48\n", "x.hal"));
-  EXPECT_LT(simulator.axes[0].encoder.count_au, 0.002) << "1/157.48 mm is no count of this machine";
+  EXPECT_LT(simulator.axes[0].encoder.count_au, 0.002)
+      << "no encoder of this machine counts 1/157.48 mm";
   EXPECT_THAT(text_of_file(scratch.at("machine.toml")), HasSubstr("have no encoder for it"));
 }
 

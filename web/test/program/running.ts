@@ -55,7 +55,7 @@ export class Demo {
   private run: ChildProcess | undefined;
 
   async start(): Promise<void> {
-    // A group of its own, which Ctrl-C ends as a terminal does.
+    // In a separate process group, so that Ctrl-C ends all of it, as in a terminal.
     const run = spawn('sh', ['scripts/demo.sh'], { cwd: ROOT, detached: true, env: { ...process.env, LAYER: PROGRAM, LISTEN: '0' } });
     this.run = run;
     run.stdout.on('data', (part: Buffer) => (this.said += part.toString()));

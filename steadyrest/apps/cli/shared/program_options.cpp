@@ -270,7 +270,7 @@ Result<nc::interpret::Report> run_program(const std::string& path,
   if (!run) {
     return std::unexpected(run.error());
   }
-  // stdin and pipes have no size: then there is no bar.
+  // stdin and pipes have no size, so they get no bar.
   std::error_code unknown;
   const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
   std::uint32_t steps = 0;

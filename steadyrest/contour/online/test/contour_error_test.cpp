@@ -66,7 +66,7 @@ TEST(ContourError, OutsideOfACornerIsMeasuredToTheCorner) {
 }
 
 // A rapid along X, a cut along Y. The tool lags by a millimetre: when the cut begins it is still on
-// the rapid, whose error is no fault of the part.
+// the rapid, whose error does not end up in the part.
 TEST(ContourError, IsThePartsOnlyWhereCommandAndToolAreInTheCut) {
   const auto path = PathMaker({0, 0, 0}, 50.0).line_to({10, 0, 0}).line_to({10, 10, 0}).path();
   for (const PathView shown : {PathView(path), PathView()}) {

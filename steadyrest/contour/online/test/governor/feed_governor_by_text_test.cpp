@@ -111,7 +111,7 @@ TEST(FeedGovernorByText, AnUnknownOriginalHasNoErrorAndNoWish) {
   }
 }
 
-// Where the place on the path is lost there is no original, and no guess may take its place.
+// Where the place on the path is lost, the original is unknown and must not be guessed.
 TEST(FeedGovernorByText, AnUnknownOriginalWithoutAPathIsLeftAloneToo) {
   const Corrected part;
   ClosedLoop loop(test::mill(kTextGain_1_s), part.path);
