@@ -254,10 +254,8 @@ Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Ev
   if (options.process.empty() && !events.empty()) {
     answer.json["notes"].push_back(
         "the speeds rest on the chatter frequency alone: 60·f/(teeth·k). They lie near the lobes, "
-        "but "
-        "whether the cut is stable there depends on the tool and the depth; --process FILE "
-        "--depth-mm "
-        "MM checks that and names a step");
+        "but whether the cut is stable there depends on the tool and the depth; --process FILE "
+        "--depth-mm MM checks that and names a step");
   }
   for (const Json& note : answer.json["notes"]) {
     answer.text += note.get<std::string>() + "\n";
