@@ -25,18 +25,19 @@ FINE_MM = 0.02
 COARSE_MM = 0.1
 APART_MM = 0.002  # of the figures: half of a fine step over a chord of the farthest, and four printed digits
 CELL_MM = 1.2
+SAME_MM = 2e-4  # start and end to the printed digits: a whole turn
 
 
 def arc_points(start, values, step):
     x, y, centre_x, centre_y, turn, z = values[:6]
     begin = math.atan2(start[1] - centre_y, start[0] - centre_x)
     sweep = math.atan2(y - centre_y, x - centre_x) - begin
-    # A whole turn where start and end are the same to the printed digits.
-    while turn > 0 and sweep <= 1e-5:
-        sweep += 2 * math.pi
-    while turn < 0 and sweep >= -1e-5:
-        sweep -= 2 * math.pi
     radius = math.dist(start[:2], (centre_x, centre_y))
+    same = SAME_MM / max(radius, SAME_MM)
+    while turn > 0 and sweep <= same:
+        sweep += 2 * math.pi
+    while turn < 0 and sweep >= -same:
+        sweep -= 2 * math.pi
     grown = math.dist((x, y), (centre_x, centre_y)) - radius
     parts = max(2, math.ceil(abs(sweep) * radius / step))
     for i in range(parts + 1):

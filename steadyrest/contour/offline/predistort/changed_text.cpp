@@ -32,9 +32,6 @@ using nc::rewrite::NewLines;
 using nc::rewrite::NewMove;
 using nc::rewrite::Stays;
 
-/// Rounding could leave a smaller arc without a centre.
-constexpr double kLeastArc_mm = 0.005;
-
 /// New blocks that differ from the old by less cut the same part.
 constexpr double kSameBlock_mm = 1e-4;
 constexpr double kSameBlockFeed = 1e-4;  ///< of the feed
@@ -159,8 +156,7 @@ class Writer {
     }
     for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
       const PathSegment& of = pieces_[next_].segment;
-      const bool arc = of.geometry == Geometry::arc && of.radius_mm > kLeastArc_mm &&
-                       of.radius_mm * of.sweep_rad > kLeastArc_mm;
+      const bool arc = is_written_as_arc(of);
       put({.geometry = arc ? Geometry::arc : Geometry::line,
            .end_mm = of.end_mm,
            .centre_mm = of.centre_mm,

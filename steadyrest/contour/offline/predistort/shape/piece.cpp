@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include <steadyrest/contour/offline/predistort/shape/piece.hpp>
@@ -16,6 +17,7 @@ using kernel::signal::Point;
 
 constexpr double kStraight_mm = 3000.0;  ///< a wider arc is written as a line
 constexpr double kShortest_mm = 1e-6;
+constexpr double kLeastTurn_rad = 1e-5;
 
 }  // namespace
 
@@ -64,6 +66,11 @@ std::optional<PathSegment> arc_from_tangent(nc::interpret::Plane plane, const Po
   arc.rise_mm = side * (end[axes.normal] - start[axes.normal]);
   arc.length_mm = std::hypot(arc.radius_mm * arc.sweep_rad, arc.rise_mm);
   return arc;
+}
+
+bool is_written_as_arc(const PathSegment& segment) noexcept {
+  return segment.geometry == Geometry::arc && segment.sweep_rad > kLeastTurn_rad &&
+         std::min(segment.radius_mm, segment.radius_mm * segment.sweep_rad) > kLeastArc_mm;
 }
 
 Piece part_of(const Piece& piece, double u, double w) {

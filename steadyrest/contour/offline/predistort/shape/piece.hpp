@@ -27,6 +27,11 @@ struct Piece {
 [[nodiscard]] std::optional<kernel::signal::PathSegment> arc_from_tangent(
     nc::interpret::Plane plane, const kernel::signal::Point& start,
     const kernel::signal::Point& tangent, const kernel::signal::Point& end);
+inline constexpr double kLeastArc_mm =
+    0.005;  ///< written digits could leave a smaller one no centre
+/// An arc that the text has as one. One that turns by less than 10 µrad is a line there: LinuxCNC
+/// takes a turn of 1 µrad for a whole circle.
+[[nodiscard]] bool is_written_as_arc(const kernel::signal::PathSegment& segment) noexcept;
 /// The part of a piece between two of its parameters 0 ≤ u < w ≤ 1; its progress in proportion.
 [[nodiscard]] Piece part_of(const Piece& piece, double u, double w);
 

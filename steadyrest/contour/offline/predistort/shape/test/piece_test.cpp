@@ -30,6 +30,18 @@ TEST(PartOfAPiece, SharesItsProgress) {
   EXPECT_EQ(part.progress_end_mm, 110.0);
 }
 
+// LinuxCNC 2.9 makes a whole circle of an arc that turns by less than 1e-6 rad.
+TEST(PieceArc, IsWrittenAsOneUnlessItIsAlmostStraight) {
+  const auto arc = [](double radius_mm, double sweep_rad) {
+    const Point end{radius_mm * std::sin(sweep_rad), radius_mm * (1.0 - std::cos(sweep_rad)), 0.0};
+    return *arc_from_tangent(Plane::xy, {0, 0, 0}, {1, 0, 0}, end);
+  };
+  EXPECT_FALSE(is_written_as_arc(arc(2500.0, 3.4e-6)));
+  EXPECT_TRUE(is_written_as_arc(arc(2500.0, 1e-4)));
+  EXPECT_TRUE(is_written_as_arc(arc(2.0, 0.01)));
+  EXPECT_FALSE(is_written_as_arc(arc(0.5, 0.008)));  // 4 µm long
+}
+
 RC_GTEST_PROP(PieceArc, LeavesAlongTheTangentAndArrives, ()) {
   const Plane plane = *rc::gen::element(Plane::xy, Plane::zx, Plane::yz);
   const auto axes = nc::interpret::axes_of(plane);
