@@ -224,10 +224,22 @@ FeedGovernor::Output FeedGovernor::withdraw(Reason reason, Output output) noexce
   output.decided = false;
   output.forecasts = output.forecast_steps = 0;
   state_.engaged = false;
-  state_.next_decision_s = state_.time_s;  // the first decision comes at once
-  state_.next_objective_s = state_.time_s;
+  state_.next_decision_s = course_s();  // the first decision comes at once
+  state_.next_objective_s = course_s();
   state_.objective = {};
   return output;
+}
+
+/// The frame must not be acted on. A layer that acts goes back by the slew, and so does its shadow.
+FeedGovernor::Output FeedGovernor::pause(Reason reason, const Frame& frame, double dt) noexcept {
+  servo_.pause();
+  precompensator_.reset();
+  state_.last = withdraw(reason, {});
+  if (state_.shadow.on) {
+    tell_shadow(frame, is_step(dt) ? dt : 0.0);
+    state_.last.advised_ratio = state_.shadow.ratio;
+  }
+  return state_.last;
 }
 
 /// The error that is shown: against the path that the part should have. No figure is better than
@@ -277,27 +289,23 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   }
   remember(in_force);
   if (!is_fit(frame)) {
-    servo_.pause();
-    precompensator_.reset();
     state_.started = false;
-    return state_.last = withdraw(Reason::input_not_finite, {});
+    return pause(Reason::input_not_finite, frame, cycle_s_);
   }
   const double dt = state_.started ? frame.time_s - state_.time_s : 0.0;
   state_.started = true;
   state_.time_s = frame.time_s;
   if (!(dt >= 0.0 && dt < 1.0)) {
     // The clock jumped: whatever it timed is void.
-    state_.next_decision_s = state_.next_objective_s = frame.time_s;
-    state_.fallen_s = frame.time_s - config_.pause_s;
+    state_.next_decision_s = state_.next_objective_s = course_s();
+    state_.fallen_s = course_s() - config_.pause_s;
     state_.idle_effect_s = 0.0;
   }
   if (unfit == Reason::none && frame.age_s > config_.envelope.stale_after_s) {
     unfit = Reason::input_stale;
   }
   if (unfit != Reason::none) {
-    servo_.pause();
-    precompensator_.reset();
-    return state_.last = withdraw(unfit, {});
+    return pause(unfit, frame, dt);
   }
 
   Output output = state_.last;
@@ -311,7 +319,7 @@ FeedGovernor::Output FeedGovernor::update(const Frame& frame,
   } else {
     servo_.update(frame);
   }
-  refresh_model(dt > 0.0 && dt < 0.1 ? dt : cycle_s_);
+  refresh_model(is_step(dt) ? dt : cycle_s_);
   observe(frame, error, dt);
   output.path_known = state_.last.path_known = look(frame, error);
   const bool by_text = frame.original_unknown || is_by_text(frame);

@@ -255,6 +255,7 @@ class FeedGovernor {
   void remember(const kernel::signal::InForce& in_force) noexcept;
   [[nodiscard]] double acting_ratio() const noexcept;
   void begin_shadow(const kernel::signal::Frame& frame) noexcept;
+  [[nodiscard]] double panel_limit(const kernel::signal::Frame& frame) const noexcept;
   double carry_shadow(const kernel::signal::Frame& frame, double dt) noexcept;
   void tell_shadow(const kernel::signal::Frame& frame, double step_s) noexcept;
   void follow_shadow(const kernel::signal::Frame& frame, const kernel::signal::InForce& in_force,
@@ -289,6 +290,10 @@ class FeedGovernor {
   void request(const kernel::signal::Frame& frame, bool by_text, Output& output) noexcept;
   void decide(const kernel::signal::Frame& frame, Output& output) noexcept;
   Output withdraw(kernel::outcome::Reason reason, Output output) noexcept;
+  Output pause(kernel::outcome::Reason reason, const kernel::signal::Frame& frame,
+               double dt) noexcept;
+  /// Times within one movement; beyond, the machine may have done anything.
+  [[nodiscard]] static bool is_step(double dt) noexcept { return dt > 0.0 && dt < 0.1; }
 
   Config config_;
   std::vector<double> candidate_;        ///< permitted ratios, ascending

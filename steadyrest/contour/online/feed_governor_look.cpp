@@ -118,11 +118,10 @@ bool FeedGovernor::is_by_text(const Frame& frame) const noexcept {
 /// The offsets that take the contour error away, where the machine takes any.
 void FeedGovernor::cancel(const Frame& frame, double dt, bool by_text, Output& output) noexcept {
   const bool locked = kernel::signal::is_locked(frame.motion);
-  const bool is_regular = dt > 0.0 && dt < 0.1;
   output.path_offset =
       precompensator_.update({.frame = frame,
                               .path = ahead_,
-                              .step_s = is_regular ? dt : 0.0,
+                              .step_s = is_step(dt) ? dt : 0.0,
                               .active = state_.offsets_act,
                               .permitted = output.path_known && !locked && !by_text,
                               .follows = state_.offsets_follow});
@@ -150,15 +149,18 @@ bool FeedGovernor::cutting_within_reach(const Frame& frame) const noexcept {
   return false;
 }
 
+/// The operator's panel caps the forecast as it will cap the word, unless the machine file lets the
+/// layer exceed it. A panel that cannot be read caps nothing.
+double FeedGovernor::panel_limit(const Frame& frame) const noexcept {
+  const bool caps = !config_.feed_override.layer_may_exceed_panel && frame.feed.panel_ratio >= 0.0;
+  return caps ? frame.feed.panel_ratio : std::numeric_limits<double>::infinity();
+}
+
 Outset FeedGovernor::outset(const Frame& frame) const noexcept {
   const bool shadows = state_.shadow.on;
   Outset outset = shadows && state_.last.path_known ? state_.shadow.outset : machine(frame);
   outset.rapid_ratio = frame.rapid.effective_ratio;
-  // The operator's panel caps the forecast as it will cap the word, unless the machine file lets
-  // the layer exceed it.
-  outset.panel_ratio = config_.feed_override.layer_may_exceed_panel
-                           ? std::numeric_limits<double>::infinity()
-                           : frame.feed.panel_ratio;
+  outset.panel_ratio = panel_limit(frame);
   if (shadows && !state_.last.path_known) {
     const double share = shadow_share(frame);
     outset.speed_mm_s *= share;

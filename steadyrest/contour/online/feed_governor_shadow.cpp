@@ -70,7 +70,7 @@ double FeedGovernor::carry_shadow(const Frame& frame, double dt) noexcept {
     from.tool->cell = ahead_.find(from.tool->position_mm, from.foot_cell);
   }
   from.rapid_ratio = frame.rapid.effective_ratio;
-  from.panel_ratio = frame.feed.panel_ratio;
+  from.panel_ratio = panel_limit(frame);
   from.follows = state_.offsets_follow;
   const std::size_t steps = forecast_.carry(ahead_, place_mm, acting_ratio(), kMostCarried, from);
   return forecast_.timing().step_s * static_cast<double>(steps);
@@ -80,10 +80,9 @@ double FeedGovernor::carry_shadow(const Frame& frame, double dt) noexcept {
 void FeedGovernor::tell_shadow(const Frame& frame, double step_s) noexcept {
   Shadow& shadow = state_.shadow;
   const Forecast::Timing& timing = forecast_.timing();
-  const double panel = config_.feed_override.layer_may_exceed_panel
-                           ? config_.envelope.max_feed_ratio
-                           : frame.feed.panel_ratio;
-  const double wanted = std::min(state_.last.request.ratio, panel);
+  const double panel = panel_limit(frame);
+  const double wanted =
+      std::min({state_.last.request.ratio, panel, config_.envelope.max_feed_ratio});
   shadow.ratio = std::clamp(wanted, shadow.ratio - timing.fall_1_s * step_s,
                             shadow.ratio + timing.rise_1_s * step_s);
   shadow.untold_s += step_s;
@@ -112,18 +111,17 @@ void FeedGovernor::follow_shadow(const Frame& frame, const kernel::signal::InFor
     shadow.word.fill(in_force.feed.word_ratio);
     begin_shadow(frame);
   }
-  const bool is_regular = dt > 0.0 && dt < 0.1;
-  if (!is_regular) {
-    begin_shadow(frame);
-    return;
-  }
-  if (state_.last.path_known) {
-    shadow.step_s = carry_shadow(frame, dt);
+  if (!is_step(dt)) {
+    // The same frame again is no time; a gap is the machine's own.
+    if (dt != 0.0) {
+      begin_shadow(frame);
+    }
+    shadow.step_s = 0.0;
   } else {
-    shadow.step_s = dt / shadow_share(frame);
+    shadow.step_s = state_.last.path_known ? carry_shadow(frame, dt) : dt / shadow_share(frame);
+    shadow.lead_s += shadow.step_s - dt;
+    tell_shadow(frame, shadow.step_s);
   }
-  shadow.lead_s += shadow.step_s - dt;
-  tell_shadow(frame, shadow.step_s);
   state_.in_force_ratio = shadow.ratio;
 }
 
