@@ -159,7 +159,7 @@ void ProgramWatch::plan(const LoadedProgram& loaded) {
   withdrawn_.clear();
   subprograms_.clear();
   stamp_ = stamps_of(loaded.file);
-  marked_ = loaded.file;
+  marked_.clear();  // another text may have other marks
   const auto begin = std::chrono::steady_clock::now();
   auto path = nc::plan::plan_file_from_start(loaded.file, loaded.start, machine_);
   plan_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -173,6 +173,7 @@ void ProgramWatch::plan(const LoadedProgram& loaded) {
   nc::rewrite::hold_against_original(marks, loaded.file, loaded.start, machine_, *path);
   port_.tell(
       {.path = marks.path, .path_unknown = !path->original_unknown.empty(), .heat = marks.heat});
+  marked_ = loaded.file;
   const Stamp main = stamp_->front();
   stamp_ = stamps_of(loaded.file);
   stamp_->front() = main;  // as it was before it was read

@@ -140,6 +140,18 @@ TEST(ProgramWatch, KnowsWithoutAPlanThatTheTextCorrectsThePath) {
   EXPECT_FALSE(watched.port.read()->original_unknown);
 }
 
+// The file has the name that it had without marks.
+TEST(ProgramWatch, ReadsTheMarksOfANewTextThatCannotBePlanned) {
+  Watched watched;
+  watched.write(kPart);
+  watched.control.tell(std::optional(watched.loaded()));
+  std::string refused = kCorrected;
+  watched.write(refused.insert(refused.find("M30"), "G999\n"));
+  watched.control.tell(std::optional(watched.loaded()));
+  EXPECT_EQ(watched.watch.status().segments, 0U);
+  EXPECT_TRUE(watched.port.read()->original_unknown);
+}
+
 TEST(ProgramWatch, SaysWhyAProgramIsNotRead) {
   Watched watched;
   watched.control.tell(std::optional(watched.loaded()));

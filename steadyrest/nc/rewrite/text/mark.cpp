@@ -199,14 +199,14 @@ kernel::outcome::Result<std::vector<Told>> checked(const std::string& changed, F
 // A program without inserted lines needs no mark.
 kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed) {
   auto found = find_mark(changed, kInsertedMark, [](std::string_view line) {
-    return is_inserted(line) && !is_mark(line, kReplacedMark) && !is_new(line) && !read_was(line);
+    return (is_inserted(line) && !was_replacing(line)) ||
+           changed_mark(line).starts_with("HEADTOLD--");
   });
   return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
 }
 
 kernel::outcome::Result<std::vector<Told>> read_replaced_mark(const std::string& changed) {
-  auto found = find_mark(changed, kReplacedMark,
-                         [](std::string_view line) { return is_new(line) || read_was(line); });
+  auto found = find_mark(changed, kReplacedMark, was_replacing);
   return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
 }
 

@@ -47,6 +47,8 @@ kernel::outcome::Result<PutBack> put_back(const std::string& changed) {
       }
     } else if (is_mark(line, kReplacedMark)) {
       ++back.removed;
+    } else if (was_replacing(line)) {
+      return refuse("its comment was changed");
     } else {
       out += line;
       out += source->ending();

@@ -116,4 +116,29 @@ bool is_new(std::string_view line) noexcept {
   return line.ends_with(kNew) && line.substr(0, line.size() - kNew.size()).ends_with(';');
 }
 
+std::string changed_mark(std::string_view line) {
+  constexpr std::string_view kLetters = "STEADYREST";
+  std::string plain;
+  for (const char c : line) {
+    if (c > ' ') {
+      plain += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    }
+  }
+  for (std::size_t at = plain.find(kLetters); at != std::string::npos;
+       at = plain.find(kLetters, at + 1)) {
+    if (at > 0 && (plain[at - 1] == '(' || plain[at - 1] == ';')) {
+      return plain.substr(at + kLetters.size());
+    }
+  }
+  return {};
+}
+
+bool was_replacing(std::string_view line) {
+  const std::string mark = changed_mark(line);
+  constexpr std::string_view kDigits = "0123456789";
+  return mark == "NEW" || mark == "NEW)" || mark.starts_with("HEADMADE--") ||
+         (mark.starts_with("WAS") && mark.size() > 3 &&
+          kDigits.find(mark[3]) != std::string_view::npos);
+}
+
 }  // namespace steadyrest::nc::rewrite

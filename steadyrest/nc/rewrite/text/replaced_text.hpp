@@ -35,4 +35,11 @@ struct Was {
 [[nodiscard]] std::optional<Was> read_was(std::string_view line);
 [[nodiscard]] bool is_new(std::string_view line) noexcept;
 
+/// A comment that begins with the tag, as a control or an editor may have changed it: what follows
+/// the tag, in capitals and without blanks. Empty: the line has none.
+[[nodiscard]] std::string changed_mark(std::string_view line);
+/// The line was a part of such a replacement, or of its record in the head, whatever has become of
+/// its letters, blanks and block number since.
+[[nodiscard]] bool was_replacing(std::string_view line);
+
 }  // namespace steadyrest::nc::rewrite

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <vector>
@@ -140,6 +142,43 @@ TEST(OriginalPath, AControlMayChangeBlanksLettersAndLineEnds) {
   }
   write_file(square.changed(), text);
   EXPECT_TRUE(square.path().original) << square.path().original_unknown;
+}
+
+std::string mapped(std::string text, int (*letter)(int)) {
+  std::ranges::transform(text, text.begin(),
+                         [letter](unsigned char c) { return static_cast<char>(letter(c)); });
+  return text;
+}
+
+// Nothing of such a program may look like one without marks.
+TEST(OriginalPath, IsUnknownWhereAControlHasChangedTheMarks) {
+  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik}) {
+    const Square square(dialect);
+    const std::string text = text_of_file(square.changed());
+    std::string bare = text;
+    std::erase(bare, ' ');
+    std::string numbered;
+    for (std::size_t at = 0, n = 10; at < text.size(); at = text.find('\n', at) + 1, n += 10) {
+      numbered += "N" + std::to_string(n) + " " + text.substr(at, text.find('\n', at) - at + 1);
+    }
+    for (const std::string& changed :
+         {mapped(text, std::toupper), mapped(text, std::tolower), bare, numbered}) {
+      write_file(square.changed(), changed);
+      const TextMarks marks = read_text_marks(square.changed());
+      EXPECT_TRUE(marks.path) << changed;
+      EXPECT_NE(marks.unknown, "") << changed;
+      EXPECT_FALSE(strip(square.changed(), square.folder() + "/out.nc")) << changed;
+    }
+  }
+}
+
+TEST(OriginalPath, AUsersOwnCommentIsNoMark) {
+  const Workshop shop;
+  write_file(shop.changed(),
+             "(steadyrest new position)\nG21 G1 X1 F100 (STEADYREST WAS OPEN)\nM2\n");
+  const TextMarks marks = read_text_marks(shop.changed());
+  EXPECT_FALSE(marks.path);
+  EXPECT_EQ(marks.unknown, "");
 }
 
 // Programs of earlier versions have no sum over their blocks; there the tube finds what it can.
