@@ -97,7 +97,8 @@ TEST(CutMarked, AnOriginalThatTheMarksDoNotGiveIsSaidAndLeftAlone) {
   EXPECT_FALSE(cut.contains("original"));
   EXPECT_EQ(cut["with"]["cycle_time_s"], cut["without"]["cycle_time_s"]);
   EXPECT_EQ(cut["with"]["contour_error_rms_mm"], cut["without"]["contour_error_rms_mm"]);
-  const std::string warning = cut["warnings"][0]["text"];
+  EXPECT_THAT(cut["warnings"][0]["text"].get<std::string>(), HasSubstr("--against names"));
+  const std::string warning = cut["warnings"][1]["text"];
   EXPECT_THAT(warning, HasSubstr("the original is not known"));
   EXPECT_THAT(warning, HasSubstr("how it was made is missing or changed"));
   EXPECT_THAT(warning, HasSubstr("the layer stays out of the contour"));

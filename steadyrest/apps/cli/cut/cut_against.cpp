@@ -65,6 +65,9 @@ std::expected<std::shared_ptr<const trial::cut::Original>, Answer> read_original
   }
   const double tube_mm = tube_of(options, changed.file);
   auto original = trial::cut::Original::make(*path, other, tube_mm);
+  if (!original && options.file.empty()) {  // its marks are paired, in a wider tube than most
+    original = trial::cut::Original::make(*path, other, trial::cut::Original::kWidestTube_mm);
+  }
   if (!original) {
     Refusal refusal = std::move(original.error());
     refusal.file = refusal.line > 0 ? changed.file : "--tube-mm";

@@ -239,6 +239,13 @@ Outcome run(const Options& options, Progress& progress) {
   if (!against) {
     return against.error();
   }
+  if (!*against && !planned->path->original_unknown.empty()) {
+    planned->warnings.insert(planned->warnings.begin(),
+                             {.line = 1,
+                              .text = "the errors here are against the path of the text, which is "
+                                      "not the part's; --against names the original"});
+    ++planned->warning_count;
+  }
   // This may switch the machine's modulator on, so it comes before all cuts.
   auto chatter = cut_chatter(options.chatter, *planned->path, *machine, progress);
   if (!chatter) {

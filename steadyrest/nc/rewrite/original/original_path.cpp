@@ -26,6 +26,9 @@ using math::geometry::PathPairing;
 using plan::PlannedPath;
 
 constexpr double kRounding = 1.25;
+/// A block in several at other feeds has its corners rounded otherwise, with G64 of LinuxCNC by
+/// millimetres. Blocks that are proved whole need no tube that finds edits.
+constexpr double kOtherRounding_mm = 5.0;
 constexpr double kWrittenDigits_mm = 5e-4;
 
 /// The segments' places on the original, and which of them the text moves.
@@ -47,9 +50,13 @@ void put_places(const PathPairing& pairing, double tube_mm, PlannedPath& path) {
 }
 
 /// Empty, or why the paths cannot be paired.
-std::string pair_with(PlannedPath original, double tube_mm, PlannedPath& path) {
-  const auto pairing =
+std::string pair_with(PlannedPath original, const TextMarks& marks, PlannedPath& path) {
+  const double tube_mm = marks.tube_mm;
+  auto pairing =
       PathPairing::make(path.segments, original.segments, {.tube_mm = kRounding * tube_mm});
+  if (!pairing && marks.whole && kRounding * tube_mm < kOtherRounding_mm) {
+    pairing = PathPairing::make(path.segments, original.segments, {.tube_mm = kOtherRounding_mm});
+  }
   if (!pairing) {
     const PathPairing::Parting& parting = pairing.error();
     return fmt::format(
@@ -86,10 +93,12 @@ TextMarks read_text_marks(const std::string& file) {
     marks.unknown = kernel::outcome::text(back.error());
     return marks;
   }
-  if (const auto whole = blocks_are_whole(file, *replaced); !whole || !*whole) {
+  const auto blocks = compare_blocks(file, *replaced);
+  if (!blocks || *blocks == Blocks::edited) {
     marks.unknown = file + ": its replaced blocks were edited after it was made";
     return marks;
   }
+  marks.whole = *blocks == Blocks::whole;
   marks.tube_mm = permitted->tube_mm;
   marks.original = std::move(back->text);
   return marks;
@@ -124,7 +133,7 @@ void hold_against_original(const TextMarks& marks, const std::string& file,
   } else if (original->segments.empty()) {
     path.original_unknown = "the original that its marks hold moves no axis";
   } else {
-    path.original_unknown = pair_with(std::move(*original), marks.tube_mm, path);
+    path.original_unknown = pair_with(std::move(*original), marks, path);
   }
 }
 

@@ -14,6 +14,7 @@ namespace steadyrest::nc::rewrite {
 struct TextMarks {
   bool path = false;     ///< blocks on another path
   bool heat = false;     ///< corrections of a plan inserted
+  bool whole = false;    ///< a sum says that no block was edited since
   double tube_mm = 0.0;  ///< the path may be so far from the original's
   std::string original;  ///< the program with replaced blocks put back, as strip() does
   std::string unknown;   ///< why the marks cannot be read; empty: they can
@@ -32,8 +33,9 @@ struct TextMarks {
 /// and which place of it belongs to each of the path's. Where that is not known, why.
 ///
 /// Law: PathPairing, in the tube that the mark states (1.25 of it: the control rounds the corners
-/// of both). A segment in the cut is `by_text` where it leaves the original by more than 0.5 µm,
-/// which is what the rounding of the written digits does.
+/// of both), or in one of 5 mm where that fails and a sum proves the blocks. A segment in the cut
+/// is `by_text` where it leaves the original by more than 0.5 µm, which is what the rounding of the
+/// written digits does.
 void hold_against_original(const TextMarks& marks, const std::string& file,
                            const interpret::Config& config, const kernel::machine::Machine& machine,
                            plan::PlannedPath& path);

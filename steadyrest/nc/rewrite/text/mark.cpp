@@ -126,7 +126,7 @@ std::string BlocksSum::text() const {
   return fmt::format("{:08x}", sum_);
 }
 
-kernel::outcome::Result<bool> blocks_are_whole(const std::string& changed,
+kernel::outcome::Result<Blocks> compare_blocks(const std::string& changed,
                                                const std::vector<Told>& told) {
   const auto written = std::ranges::find(told, kBlocksSum, &Told::name);
   auto lines = SourceLines::open(changed);
@@ -139,7 +139,10 @@ kernel::outcome::Result<bool> blocks_are_whole(const std::string& changed,
       sum.add(lines->line());
     }
   }
-  return written == told.end() || written->value == sum.text();
+  if (written == told.end()) {
+    return Blocks::unknown;
+  }
+  return written->value == sum.text() ? Blocks::whole : Blocks::edited;
 }
 
 bool is_mark(std::string_view line, std::string_view begin) noexcept {
@@ -180,7 +183,8 @@ kernel::outcome::Result<Found> find_mark(const std::string& changed, std::string
 }
 
 /// The options without the sum that covers them.
-kernel::outcome::Result<std::vector<Told>> checked(const std::string& changed, Found found) {
+kernel::outcome::Result<std::vector<Told>> checked(const std::string& changed, Found found,
+                                                   std::string_view to_do) {
   Told sum;
   if (!found.told.empty()) {
     sum = std::move(found.told.back());
@@ -189,7 +193,7 @@ kernel::outcome::Result<std::vector<Told>> checked(const std::string& changed, F
   if (found.needed && (sum.name != kSum || sum.value != sum_of(found.told))) {
     return kernel::outcome::refuse(
         changed, "the record in its head of how it was made is missing or changed",
-        std::string(kAgainstOtherLines));
+        std::string(to_do));
   }
   return std::move(found.told);
 }
@@ -202,12 +206,16 @@ kernel::outcome::Result<std::vector<Told>> read_mark(const std::string& changed)
     return (is_inserted(line) && !was_replacing(line)) ||
            changed_mark(line).starts_with("HEADTOLD--");
   });
-  return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
+  return found ? checked(changed, std::move(*found), kAgainstOtherLines)
+               : std::unexpected(found.error());
 }
 
 kernel::outcome::Result<std::vector<Told>> read_replaced_mark(const std::string& changed) {
   auto found = find_mark(changed, kReplacedMark, was_replacing);
-  return found ? checked(changed, std::move(*found)) : std::unexpected(found.error());
+  return found ? checked(changed, std::move(*found),
+                         "make the program again from its original; a control or an editor may "
+                         "have changed its comments")
+               : std::unexpected(found.error());
 }
 
 }  // namespace steadyrest::nc::rewrite

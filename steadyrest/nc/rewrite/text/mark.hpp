@@ -51,9 +51,14 @@ class BlocksSum {
   std::uint32_t sum_ = 2166136261U;  ///< FNV-1a
 };
 inline constexpr std::string_view kBlocksSum = "blocks";
-/// Whether the blocks of a program are as they were written, by its mark; true where that has no
-/// sum over them, as in programs of earlier versions.
-[[nodiscard]] kernel::outcome::Result<bool> blocks_are_whole(const std::string& changed,
+/// Whether the blocks of a program are as they were written.
+enum class Blocks : std::uint8_t {
+  whole,
+  edited,
+  unknown  ///< the mark has no sum over them, as in programs of earlier versions
+};
+/// By its mark.
+[[nodiscard]] kernel::outcome::Result<Blocks> compare_blocks(const std::string& changed,
                                                              const std::vector<Told>& told);
 /// The line is part of such a mark.
 [[nodiscard]] bool is_mark(std::string_view line, std::string_view begin) noexcept;

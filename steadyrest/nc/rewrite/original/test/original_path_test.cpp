@@ -172,6 +172,24 @@ TEST(OriginalPath, IsUnknownWhereAControlHasChangedTheMarks) {
   }
 }
 
+// A block in two: the control rounds the corner at its end by less, and the tube is smaller than
+// that.
+TEST(OriginalPath, IsKnownWhereTheControlRoundsACornerOtherwise) {
+  Workshop shop;
+  shop.config.dialect = Dialect::linuxcnc;
+  write_file(shop.original(), "G17 G21 G90 G94 G54 G64 P2\nG1 X20 F4000\nY20\nM2\n");
+  write_file(shop.changed(),
+             replace(shop.original(), Dialect::linuxcnc, {{2, {"G1 X19.5 F4000.0", "G1 X20.0"}}},
+                     {{"changes", "predistort,feeds"}, {"tube-mm", "0.02"}})
+                 .value()
+                 .text);
+  auto path = plan::plan_file(shop.changed(), shop.config, shop.machine).value();
+  hold_against_original(read_text_marks(shop.changed()), shop.changed(), shop.config, shop.machine,
+                        path);
+  ASSERT_TRUE(path.original) << path.original_unknown;
+  EXPECT_TRUE(std::ranges::any_of(path.segments, &kernel::signal::PathSegment::by_text));
+}
+
 TEST(OriginalPath, AUsersOwnCommentIsNoMark) {
   const Workshop shop;
   write_file(shop.changed(),
