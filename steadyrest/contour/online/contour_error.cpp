@@ -178,7 +178,9 @@ double ContourError::advance(const Input& input) noexcept {
   if (!state_.started || has_path != state_.from_path) {
     state_.lag_mm = input.path_speed_mm_s / config_.servo_gain_1_s;
     state_.foot_position_mm = -1.0;
-    state_.cut_from_mm = -std::numeric_limits<double>::infinity();
+    // A tool that was not seen in the cut may be on the rapid before it.
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    state_.cut_from_mm = state_.started && state_.tool_in_cut ? -kInfinite : kInfinite;
   }
   // ℓ' = v − k·ℓ, exactly over the step for constant v.
   const double decay = std::exp(-config_.servo_gain_1_s * elapsed_s);
@@ -243,7 +245,10 @@ ContourError::Output ContourError::update(const Input& input) noexcept {
   state_.foot_position_mm = foot.position_mm;
   state_.foot_index = foot.index;
   measure(input.actual_mm, foot, here, config_.plane_normal, output);
-  output.in_cut = input.in_cut && foot.position_mm >= state_.cut_from_mm;
+  // A control may tell the cut before the path's place is in it.
+  const bool on_cut = !state_.from_path || kernel::signal::in_cut(input.path[foot.index].motion);
+  output.in_cut = input.in_cut && on_cut && foot.position_mm >= state_.cut_from_mm;
+  state_.tool_in_cut = output.in_cut;
   return output;
 }
 

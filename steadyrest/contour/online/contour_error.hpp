@@ -84,6 +84,7 @@ class ContourError {
     double foot_position_mm = 0.0;
     std::size_t foot_index = 0;
     double cut_from_mm = 0.0;   ///< commanded length where the cut began; a foot before it is not
+    bool tool_in_cut = false;   ///< at the last sample
     double travelled_mm = 0.0;  ///< of the commanded point, in place of a path
     std::size_t count = 0;      ///< commanded points in the ring
     std::size_t next = 0;

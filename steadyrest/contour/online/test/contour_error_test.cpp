@@ -94,6 +94,54 @@ TEST(ContourError, IsThePartsOnlyWhereCommandAndToolAreInTheCut) {
   }
 }
 
+/// The rapid and the cut of above; whether the error is the part's with the tool at `tool_mm`.
+struct RapidThenCut {
+  RapidThenCut() {
+    path = PathMaker({0, 0, 0}, 50.0).line_to({10, 0, 0}).line_to({10, 10, 0}).path();
+    path[0].motion = kernel::signal::Motion::rapid;
+  }
+  bool in_cut(double place_mm, double tool_mm, bool cuts, bool shown) {
+    const auto at = [](double way) {
+      return kernel::signal::Point{std::min(way, 10.0), std::max(0.0, way - 10.0), 0.0};
+    };
+    time_s += 0.002;
+    return error
+        .update({.time_s = time_s,
+                 .command_mm = at(place_mm),
+                 .actual_mm = at(tool_mm),
+                 .path = shown ? PathView(path) : PathView(),
+                 .path_index = place_mm > 10.0 ? 1U : 0U,
+                 .path_position_mm = place_mm,
+                 .path_speed_mm_s = 50.0,
+                 .in_cut = cuts})
+        .in_cut;
+  }
+  std::vector<PathSegment> path;
+  ContourError error = estimator();
+  double time_s = 0.0;
+};
+
+TEST(ContourError, IsNoneOfARapidWhoseEndIsTheFirstThatIsSeen) {
+  RapidThenCut fresh;
+  EXPECT_FALSE(fresh.in_cut(10.2, 9.2, true, true));
+  EXPECT_FALSE(fresh.in_cut(11.1, 10.1, true, true));
+  EXPECT_TRUE(fresh.in_cut(11.3, 10.3, true, true));
+  RapidThenCut found;  // the place is found as the cut begins
+  EXPECT_FALSE(found.in_cut(9.0, 8.0, false, false));
+  EXPECT_FALSE(found.in_cut(9.9, 8.9, false, false));
+  EXPECT_FALSE(found.in_cut(10.2, 9.2, true, true));
+  EXPECT_TRUE(found.in_cut(11.3, 10.3, true, true));
+  EXPECT_TRUE(found.in_cut(11.4, 10.4, true, false)) << "lost within the cut";
+  EXPECT_TRUE(found.in_cut(11.5, 10.5, true, true));
+}
+
+TEST(ContourError, IsNoneWhereTheControlTellsTheCutTooEarly) {
+  RapidThenCut early;
+  for (double s = 8.0; s < 12.0; s += 0.1) {
+    EXPECT_EQ(early.in_cut(s, s - 1.0, true, true), s - 1.0 > 10.0) << s;
+  }
+}
+
 TEST(ContourError, StaysOnItsOwnTurnOfANarrowSpiral) {
   // Pitch 0.2 mm: the neighbouring turn is nearer than the lag of 1 mm, and nearer than the error.
   const auto path =
