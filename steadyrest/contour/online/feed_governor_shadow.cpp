@@ -15,7 +15,8 @@ namespace {
 namespace geometry = math::geometry;
 using kernel::signal::Frame;
 
-constexpr std::size_t kMostCarried = 256;  ///< forecast steps in a cycle
+/// Forecast steps in a cycle; more where the share of the work that a search may have holds more.
+constexpr std::size_t kMostCarried = 256;
 constexpr double kAtRest_mm_s = 1e-6;
 /// Further off its place on the path, in times of what the machine travels in a cycle, the shadow
 /// begins again.
@@ -72,7 +73,8 @@ double FeedGovernor::carry_shadow(const Frame& frame, double dt) noexcept {
   from.rapid_ratio = frame.rapid.effective_ratio;
   from.panel_ratio = panel_limit(frame);
   from.follows = state_.offsets_follow;
-  const std::size_t steps = forecast_.carry(ahead_, place_mm, acting_ratio(), kMostCarried, from);
+  const std::size_t steps = forecast_.carry(ahead_, place_mm, acting_ratio(),
+                                            std::max(kMostCarried, search_steps_), from);
   return forecast_.timing().step_s * static_cast<double>(steps);
 }
 

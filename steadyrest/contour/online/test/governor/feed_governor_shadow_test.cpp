@@ -133,6 +133,24 @@ TEST(FeedGovernorShadow, GoesBackByTheSlewWhileTheInputIsUnfit) {
   }
 }
 
+// Stiff axes have short forecast steps: at a tenth of the feed a long cycle takes hundreds.
+TEST(FeedGovernorShadow, KeepsUpWithTheMachineAtLowRatiosInLongCycles) {
+  Machine machine = test::mill(300.0);
+  machine.control.interpolator_period_s = 0.020;
+  machine.contour.limit_mm = 0.0005;
+  const auto path = circle(2.0, 4000.0, 5.0);
+  Observed observed(machine, path);
+  double pace = 0.0;
+  for (double position_mm = 0.0; position_mm < 55.0;) {
+    position_mm = observed.loop.step().position_mm;
+    if (position_mm > 20.0) {
+      ASSERT_GT(observed.layer.course().shadow.outset.position_mm, position_mm - 1e-9);
+      pace = std::max(pace, observed.output.pace);
+    }
+  }
+  EXPECT_GT(pace, 9.0);
+}
+
 /// One odd layer: its machine and what it is told.
 struct Odd {
   Machine machine = test::mill(50.0);
