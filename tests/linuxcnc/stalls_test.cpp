@@ -22,9 +22,6 @@ using kernel::file::testing::OwnFolder;
 using linuxcnc_test::servo_log;
 using linuxcnc_test::ServoRow;
 
-/// Two beats may come in one servo cycle and so be missed: words act so many cycles before the
-/// first that is seen.
-constexpr double kMissedBeats = 3.0;
 constexpr double kHold = 1000.0;       ///< servo cycles of 1 ms: late_hold_ms
 constexpr double kAfterwards = 300.0;  ///< cycles in which the layer finds its way again
 /// Of the ratio: what the governor itself moves about on a circle, which asks for 0.13 here.
@@ -86,7 +83,7 @@ TEST(Stalls, NeverRaiseTheFeedInTheCut) {
     late += beats->tick - begin->tick > 20.0 ? 1 : 0;
     for (auto i = begin; i < log.end() && i->tick < beats->tick + kAfterwards; ++i) {
       const double risen = i->ratio - begin->ratio;
-      const bool held = i->tick < std::min(beats->tick - kMissedBeats, begin->tick + kHold - 5.0);
+      const bool held = i->tick < std::min(beats->tick, begin->tick + kHold - 5.0);
       (held ? most : most_afterwards) = std::max(held ? most : most_afterwards, risen);
     }
   }
