@@ -114,7 +114,7 @@ void FeedGovernor::follow_shadow(const Frame& frame, const kernel::signal::InFor
     begin_shadow(frame);
   }
   if (!is_step(dt)) {
-    // The same frame again is no time; a gap is the machine's own.
+    // A repeated frame takes no time; after a gap the shadow begins where the machine is.
     if (dt != 0.0) {
       begin_shadow(frame);
     }
