@@ -35,7 +35,7 @@ constexpr std::array kOthers = {
     Other{"1/min", "rpm"}, Other{"u/min", "rpm"}, Other{"min-1", "rpm"}, Other{"rev/min", "rpm"},
     Other{"-", "1"},       Other{"1", "1"},       Other{"%", "1"},       Other{"count", "1"},
     Other{"counts", "1"},  Other{"inc", "1"},     Other{"micron", "um"}, Other{"microns", "um"},
-    Other{"iso8601", "1"},
+    Other{"iso8601", "1"}, Other{"inch", "in"},
 };
 
 /// Lower case; µ (either code) as u, `^2` and `²` as 2; without blanks, ° and round brackets.

@@ -10,10 +10,10 @@
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
+#include <steadyrest/table/packed_file.hpp>
 #include <steadyrest/thermal/offline/log/log.hpp>
 #include <steadyrest/thermal/offline/log/log_clock.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
-#include <steadyrest/thermal/offline/log/packed_file.hpp>
 #include <steadyrest/thermal/online/sensor_watch.hpp>
 
 // From a table to a Log: the clock first, since all rows depend on it, then the speed, which must
@@ -370,7 +370,7 @@ Result<Log> parse_log(std::string_view text, const std::string& file, const tabl
 }
 
 Result<Log> read_log(const std::string& path, const table::Format& format) {
-  const auto text = read_packed(path);
+  const auto text = table::read_packed(path);
   if (!text) {
     return std::unexpected(text.error());
   }

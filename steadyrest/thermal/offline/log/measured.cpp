@@ -9,9 +9,9 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/table/clock.hpp>
+#include <steadyrest/table/packed_file.hpp>
 #include <steadyrest/thermal/offline/log/log_table.hpp>
 #include <steadyrest/thermal/offline/log/measured.hpp>
-#include <steadyrest/thermal/offline/log/packed_file.hpp>
 
 // Gauging reports come from people: columns in any order, units in the name, `;` or `,`. An unknown
 // column is refused, not skipped, since a misspelt tolerance_um would silently change the level.
@@ -225,7 +225,7 @@ Result<std::vector<Measured>> parse_measured(std::string_view text, const std::s
 }
 
 Result<std::vector<Measured>> read_measured(const std::string& path, const MeasuredFormat& format) {
-  auto text = read_packed(path);
+  auto text = table::read_packed(path);
   if (!text) {
     text.error().to_do =
         "give the path of a CSV of measured parts, with columns part, transition or time_min, "

@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <zlib.h>
 
-#include <steadyrest/thermal/offline/log/packed_file.hpp>
+#include <steadyrest/table/packed_file.hpp>
 
-namespace steadyrest::thermal::offline {
+namespace steadyrest::table {
 namespace {
 
 using kernel::outcome::Kind;
@@ -56,10 +56,11 @@ Result<std::string> read_packed(const std::string& path) {
                   "copy it again, or unpack what is readable");
   }
   if (out.size() > kMaxBytes) {
-    return refuse(Kind::bad_input, fmt::format("is larger than {} MB", kMaxBytes >> 20U),
-                  "log less often: one row every 15 s is enough");
+    return refuse(
+        Kind::bad_input, fmt::format("is larger than {} MB", kMaxBytes >> 20U),
+        "log less often or for a shorter time; heat needs no more than one row every 15 s");
   }
   return out;
 }
 
-}  // namespace steadyrest::thermal::offline
+}  // namespace steadyrest::table

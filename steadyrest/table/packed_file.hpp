@@ -6,9 +6,9 @@
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// Files that may be packed.
-namespace steadyrest::thermal::offline {
+namespace steadyrest::table {
 
 /// The bytes of a file, unpacked if gzip packed them.
 [[nodiscard]] kernel::outcome::Result<std::string> read_packed(const std::string& path);
 
-}  // namespace steadyrest::thermal::offline
+}  // namespace steadyrest::table
