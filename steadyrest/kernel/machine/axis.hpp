@@ -42,9 +42,10 @@ struct Axis {
   bool rotary = false;
   bool present = true;  ///< false: a placeholder for a missing X, Y or Z (a lathe's Y), so that the
                         ///< first three are X, Y, Z on every machine; its travel is 0…0
-  double servo_gain_1_s = 50.0;  ///< position loop gain k
-  double feed_forward = 0.0;     ///< weight a of the velocity feed-forward, 0…1
-  double velocity_lag_s = 0.0;   ///< first-order lag of the closed velocity loop
+  double servo_gain_1_s = 50.0;    ///< position loop gain k
+  double feed_forward = 0.0;       ///< weight a of the velocity feed-forward, 0…1
+  double velocity_lag_s = 0.0;     ///< first-order lag of the closed velocity loop
+  bool velocity_lag_known = true;  ///< false: the machine file does not say; the value is 0
   double max_speed_au_s = 200.0;
   double max_acceleration_au_s2 = 2000.0;
   double max_jerk_au_s3 = kUnlimited;

@@ -11,6 +11,12 @@ namespace steadyrest::kernel::machine {
 /// Unit of lengths where a program does not say it.
 enum class ProgramUnit : std::uint8_t { unknown, mm, inch };
 
+/// How the control's acceleration rises: with the jerk limits, or at once.
+enum class AccelerationMode : std::uint8_t { soft, brisk };
+
+/// LinuxCNC's planners (PLANNER_TYPE): that of 2.9, and those of 2.10 with limited jerk.
+enum class LinuxCncPlanner : std::uint8_t { trapezoid, s_curve };
+
 /// How the control plans motion along the path.
 struct Control {
   Dialect dialect = Dialect::linuxcnc;
@@ -29,12 +35,16 @@ struct Control {
   double centripetal_share = 0.866;  ///< share of the axes' acceleration that arcs may use across
                                      ///< the path; the rest is for speed changes
   double blend_share = 0.5;  ///< a corner arc takes at most this share of each of its neighbours
-  double min_block_cycles = 0.0;  ///< a block takes at least this many interpolator periods
+  double min_block_cycles = 0.0;     ///< a block takes at least this many interpolator periods
+  double block_time_s = kUnlimited;  ///< and at least this long; unlimited: not known
+  double exact_stop_mm = 0.0;  ///< an exact stop lasts until the axes are within this; 0: no wait
+  AccelerationMode acceleration_mode = AccelerationMode::soft;
+  LinuxCncPlanner planner = LinuxCncPlanner::trapezoid;
   double merge_share =
       0.0;  ///< lines merge while within this share of the program's own tolerance; 0 = never
   double junction_share =
-      1.0;  ///< share of an axis's acceleration that a corner of the exact path may use in one
-            ///< period; below 1 the rest is what its neighbours keep
+      1.0;  ///< share of an axis's acceleration that a corner may take in one period at the feed;
+            ///< beyond it the exact path stops there (LinuxCNC); 1: no such law
   double corner_acceleration_share =
       1.0;  ///< continuous mode: share of the acceleration available next to a corner that could
             ///< not be rounded and before a stop
@@ -45,5 +55,23 @@ struct Control {
 
   friend bool operator==(const Control&, const Control&) = default;
 };
+
+/// What a block takes on the slowest of the older controls.
+inline constexpr double kWorstBlockTime_s = 0.02;
+
+/// LinuxCNC takes a block in each period, as min_block_cycles says.
+[[nodiscard]] inline bool knows_block_time(const Control& control) noexcept {
+  return control.block_time_s != kUnlimited || control.min_block_cycles > 0.0 ||
+         control.dialect == Dialect::linuxcnc;
+}
+
+/// What a block takes at least: where it is not known, what it takes on the slowest controls.
+[[nodiscard]] inline double least_block_s(const Control& control) noexcept {
+  const double by_cycles_s = control.min_block_cycles * control.interpolator_period_s;
+  if (control.block_time_s != kUnlimited) {
+    return control.block_time_s > by_cycles_s ? control.block_time_s : by_cycles_s;
+  }
+  return knows_block_time(control) ? by_cycles_s : kWorstBlockTime_s;
+}
 
 }  // namespace steadyrest::kernel::machine

@@ -21,6 +21,8 @@ using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
 constexpr std::string_view kGainKeys[] = {"servo_gain_1_s", "servo_gain_m_min_mm"};
+constexpr std::string_view kForwardKey = "feed_forward";
+constexpr std::string_view kLagKey = "velocity_lag_ms";
 constexpr double kWrittenTo = 1e-4;  // six digits
 
 /// `value # comment` in place of the rest of a line.
@@ -72,12 +74,23 @@ std::optional<std::vector<Edit>> edits_of(std::string_view text, const toml::tab
   if (out.empty()) {
     return std::nullopt;
   }
-  const std::string forward = value_text(values.feed_forward, values.feed_forward_comment);
-  if (const toml::node* node = axis.get("feed_forward")) {
-    return replace("feed_forward", *node, forward) ? std::optional(out) : std::nullopt;
+  // New keys go before the gain's line end, so that a last line without one stays so.
+  std::string added;
+  const auto put = [&](std::string_view key, double value, const std::string& comment) {
+    const toml::node* node = axis.get(key);
+    if (node != nullptr) {
+      return replace(key, *node, value_text(value, comment));
+    }
+    added += fmt::format("\n{}{} = {}", indent, key, value_text(value, comment));
+    return true;
+  };
+  const std::size_t gain = out.size() - 1;
+  if (!put(kForwardKey, values.feed_forward, values.feed_forward_comment) ||
+      (values.velocity_lag_s && !put(kLagKey, unit_of(kLagKey).from_inner(*values.velocity_lag_s),
+                                     values.velocity_lag_comment))) {
+    return std::nullopt;
   }
-  // Before the gain's line end, so that a last line without one stays so.
-  out.back().text += with_line_ends("\n" + indent + "feed_forward = " + forward, text);
+  out[gain].text += with_line_ends(added, text);
   return out;
 }
 
@@ -94,8 +107,7 @@ bool changes_only(const std::string& edited, std::string_view text,
     for (const toml::table* tree : {&before, &after}) {
       // Ours: both trees are local.
       auto* axis = const_cast<toml::table*>(axis_of(*tree, one.axis));
-      for (const std::string_view key :
-           {kGainKeys[0], kGainKeys[1], std::string_view("feed_forward")}) {
+      for (const std::string_view key : {kGainKeys[0], kGainKeys[1], kForwardKey, kLagKey}) {
         axis->erase(key);
       }
     }
@@ -129,7 +141,8 @@ Result<std::string> edited(std::string_view text, const std::string& file,
   const auto has = [&machine](const ServoValues& one) {
     const auto axis = std::ranges::find(machine->axes, one.axis, &Axis::name);
     return axis != machine->axes.end() && near(axis->servo_gain_1_s, one.gain_1_s) &&
-           near(axis->feed_forward, one.feed_forward);
+           near(axis->feed_forward, one.feed_forward) &&
+           near(axis->velocity_lag_s, one.velocity_lag_s.value_or(axis->velocity_lag_s));
   };
   if (!std::ranges::all_of(values, has) || !changes_only(out, text, values)) {
     return refuse(file, "putting the gains in would change something else", "put them in by hand");

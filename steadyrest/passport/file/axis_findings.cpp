@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <fmt/core.h>
 
@@ -92,6 +93,24 @@ void drives(const Machine& machine, List& out) {
   }
 }
 
+/// An unknown lag changes the sign of the error on a circle between kτ = 0 and 1.
+void unknown_lag(const Machine& machine, List& out) {
+  std::string names;
+  for (const Axis* axis : contouring(machine)) {
+    if (!axis->velocity_lag_known) {
+      names += (names.empty() ? "" : ", ") + axis->name;
+    }
+  }
+  if (!names.empty()) {
+    out.push_back(
+        {Severity::note, "velocity_lag",
+         fmt::format("the lag of the velocity loop of {} is not known: program predistort "
+                     "changes only what gets no worse with any",
+                     names),
+         "fit it with machine from-log, or write velocity_lag_ms (0: none)"});
+  }
+}
+
 /// A limit along the path beyond what all axes together can do (the root of the sum of squares) is
 /// harmless, but the reader of the file expects it to have an effect.
 void path_limits(const Machine& machine, List& out) {
@@ -130,6 +149,7 @@ void add_axis_findings(const Machine& machine, std::vector<Finding>& out) {
   servo_gains(machine, out);
   feed_forward(machine, out);
   drives(machine, out);
+  unknown_lag(machine, out);
   path_limits(machine, out);
 }
 

@@ -152,6 +152,7 @@ class FileReader {
     const std::size_t before = faults_.list.size();
     SectionReader<Axis> reader(faults_, axis_keys(), head, kind);
     const Given given = reader.read(table, out, {"encoder", "friction"});
+    out.velocity_lag_known = given.has("velocity_lag_ms");
     if (faults_.list.size() == before) {
       if (known) {
         contradictions(out, given, faults_);
@@ -217,8 +218,7 @@ class FileReader {
         axis.servo_gain_1_s = like.servo_gain_1_s;
         axis.feed_forward = like.feed_forward;
         axis.velocity_lag_s = like.velocity_lag_s;
-        axis.min_au = 0.0;
-        axis.max_au = 0.0;
+        axis.min_au = axis.max_au = 0.0;
         axis.encoder.count_au = 0.0;
         machine_.axes.push_back(axis);
       }

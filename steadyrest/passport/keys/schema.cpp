@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <cstddef>
+#include <utility>
 
 #include <steadyrest/passport/keys/choice.hpp>
 #include <steadyrest/passport/keys/schema.hpp>
@@ -28,6 +30,8 @@ constexpr std::array<string_view, 5> kPorts = {"sim", "linuxcnc", "lines", "opcu
 constexpr auto kBuiltPorts = std::span(kPorts).first<4>();
 constexpr std::array<string_view, 3> kModes = {"observe", "advise", "act"};
 constexpr std::array<string_view, 2> kCodings = {"gray", "binary"};
+constexpr std::array<string_view, 2> kAccelerationModes = {"soft", "brisk"};
+constexpr std::array<string_view, 2> kPlanners = {"trapezoid", "s_curve"};
 constexpr std::array<string_view, 3> kProgramUnits = {"unknown", "mm", "inch"};
 
 constexpr auto kMust = Need::mandatory;
@@ -35,26 +39,9 @@ constexpr auto kMay = Need::optional;
 constexpr auto kLinear = For::linear;
 constexpr auto kRotary = For::rotary;
 
-}  // namespace
-
-/// Only built ports are allowed, so a machine file cannot promise a port that does nothing.
-std::span<const Key<Machine>> top_keys() noexcept {
-  static const std::array kKeys = {
-      Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
-      Key<Machine>{"port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
-                   "The port to the machine: `sim`, the simulated machine; `linuxcnc`, a running "
-                   "LinuxCNC; `lines`, the override lines between panel and control; `opcua`, a "
-                   "control behind its OPC UA server."},
-      Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
-                   "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
-  };
-  return kKeys;
-}
-
-/// How the control plans. Periods fix the grid of the simulated control; shares and tolerances
-/// imitate the look-ahead of the real one.
-std::span<const Key<Control>> control_keys() noexcept {
-  static const std::array kKeys = {
+/// Language, periods and limits of a control.
+auto limit_keys() noexcept {
+  return std::array{
       Key<Control>{"dialect", choice<Control, &Control::dialect>(kernel::machine::kDialectNames), 0,
                    0, "Language of the control's NC programs.", kMust},
       Key<Control>{"units", choice<Control, &Control::units>(kProgramUnits), 0, 0,
@@ -85,7 +72,12 @@ std::span<const Key<Control>> control_keys() noexcept {
       Key<Control>{"junction_deviation_mm", &Control::junction_deviation_mm, 0, 1,
                    "Speed limit through a corner of the exact path."},
       Key<Control>{"tool_change_s", &Control::tool_change_s, 0, 3600, "Time for one tool change."},
-      // The rest of this section imitates LinuxCNC's planner; program times depend on it.
+  };
+}
+
+/// What imitates a real control's planner; program times depend on it.
+auto planner_keys() noexcept {
+  return std::array{
       Key<Control>{"centripetal_share", &Control::centripetal_share, 0.1, 0.999,
                    "Share of the axes' acceleration that arcs may use across the path."},
       Key<Control>{"blend_share", &Control::blend_share, 0.01, 0.5,
@@ -95,12 +87,31 @@ std::span<const Key<Control>> control_keys() noexcept {
                    "interpolator periods, it keeps the arc's acceleration."},
       Key<Control>{"min_block_cycles", &Control::min_block_cycles, 0, 1000,
                    "A block takes at least this many interpolator periods."},
+      Key<Control>{
+          "block_time_ms", &Control::block_time_s, 0, 1000,
+          "A block takes at least this long, a spline as a whole: about 4 ms on a SINUMERIK 840D, "
+          "10 to 20 on older controls. Without it 20 ms are assumed, but on LinuxCNC, which takes "
+          "`min_block_cycles`; `program check` says where that slows a cut."},
+      Key<Control>{"exact_stop_um", &Control::exact_stop_mm, 0, 1000,
+                   "An exact stop (G9, G60, G61.1) lasts until the axes are this near by their "
+                   "servo gain, as SINUMERIK's MD36010 and MD36000 say; 0 = no wait."},
+      Key<Control>{
+          "acceleration_mode", choice<Control, &Control::acceleration_mode>(kAccelerationModes), 0,
+          0,
+          "`soft`: the jerk limits hold (SINUMERIK's SOFT). `brisk`: they do not, and the "
+          "acceleration begins at once (BRISK, in force where MD20150 does not say SOFT)."},
+      Key<Control>{"planner", choice<Control, &Control::planner>(kPlanners), 0, 0,
+                   "LinuxCNC's `PLANNER_TYPE`: `trapezoid` is 0 and that of 2.9; `s_curve` is 1 or "
+                   "2 of 2.10, with `max_path_jerk_mm_s3`. Then G61 passes corners between lines "
+                   "at `junction_share` instead of stopping there."},
       Key<Control>{"merge_share", &Control::merge_share, 0, 1,
                    "Lines are merged while all points lie within this share of the program's "
                    "tolerance; 0 = never."},
-      Key<Control>{"junction_share", &Control::junction_share, 0.001, 1,
-                   "Share of the axes' acceleration that a corner of the exact path may use in one "
-                   "interpolator period."},
+      Key<Control>{
+          "junction_share", &Control::junction_share, 0.001, 1,
+          "LinuxCNC's ARC_BLEND_KINK_RATIO: share of the axes' acceleration that a corner "
+          "may take in one interpolator period at the feed. Beyond it the exact path stops "
+          "there; 1 = no such law."},
       Key<Control>{"corner_acceleration_share", &Control::corner_acceleration_share, 0.01, 1,
                    "Continuous mode: share of the acceleration left next to an unrounded corner, "
                    "and before a stop."},
@@ -111,6 +122,37 @@ std::span<const Key<Control>> control_keys() noexcept {
       Key<Control>{"stop_between_rapid_and_feed", &Control::stop_between_rapid_and_feed, 0, 0,
                    "The control stops between G0 and a feed move."},
   };
+}
+
+template <std::size_t First, std::size_t Second>
+auto joined(const std::array<Key<Control>, First>& first,
+            const std::array<Key<Control>, Second>& second) noexcept {
+  return [&]<std::size_t... I, std::size_t... J>(std::index_sequence<I...>,
+                                                 std::index_sequence<J...>) {
+    return std::array{first[I]..., second[J]...};
+  }(std::make_index_sequence<First>{}, std::make_index_sequence<Second>{});
+}
+
+}  // namespace
+
+/// Only built ports are allowed, so a machine file cannot promise a port that does nothing.
+std::span<const Key<Machine>> top_keys() noexcept {
+  static const std::array kKeys = {
+      Key<Machine>{"name", &Machine::name, 1, 80, "Name of the machine in reports."},
+      Key<Machine>{"port", choice<Machine, &Machine::port>(kBuiltPorts), 0, 0,
+                   "The port to the machine: `sim`, the simulated machine; `linuxcnc`, a running "
+                   "LinuxCNC; `lines`, the override lines between panel and control; `opcua`, a "
+                   "control behind its OPC UA server."},
+      Key<Machine>{"mode", choice<Machine, &Machine::mode>(kModes), 0, 0,
+                   "`observe` writes nothing, `advise` shows what it would write, `act` writes."},
+  };
+  return kKeys;
+}
+
+/// How the control plans. Periods fix the grid of the simulated control; shares and tolerances
+/// imitate the look-ahead of the real one.
+std::span<const Key<Control>> control_keys() noexcept {
+  static const auto kKeys = joined(limit_keys(), planner_keys());
   return kKeys;
 }
 
@@ -128,7 +170,9 @@ std::span<const Key<Axis>> axis_keys() noexcept {
       Key<Axis>{"feed_forward", &Axis::feed_forward, 0, 1.5,
                 "Weight of the velocity feed-forward: 0 none, 1 full."},
       Key<Axis>{"velocity_lag_ms", &Axis::velocity_lag_s, 0, 500,
-                "First-order lag of the closed velocity loop."},
+                "First-order lag of the closed velocity loop; 0 = none. Without the key it is not "
+                "known: 0 is taken, and `program predistort` changes only what gets no worse with "
+                "any lag up to half of 1 / servo gain. `machine from-log` fits it."},
       Key<Axis>{"max_feed_mm_min", &Axis::max_speed_au_s, 1, 1e6, "Largest speed of the axis.",
                 kMust, kLinear},
       Key<Axis>{"max_speed_deg_s", &Axis::max_speed_au_s, 0.01, 1e5, "Largest speed of the axis.",

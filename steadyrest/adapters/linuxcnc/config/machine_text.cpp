@@ -27,8 +27,8 @@ class Writer {
 
   Result<MachineText> write() {
     head();
-    for (const auto part : {&Writer::control, &Writer::program, &Writer::axes, &Writer::overrides,
-                            &Writer::spindle}) {
+    for (const auto part :
+         {&Writer::control, &Writer::axes, &Writer::overrides, &Writer::spindle}) {
       if (auto done = (this->*part)(); !done) {
         return std::unexpected(done.error());
       }
@@ -130,10 +130,14 @@ class Writer {
         !done) {
       return done;
     }
-    if (auto done = optional("max_feed_mm_min", "TRAJ", "MAX_LINEAR_VELOCITY", mm,
-                             {1.0 / 60.0, 1e6 / 60.0, "mm/s"}, 60.0, "the axes' own limits count");
-        !done) {
-      return done;
+    // It limits rapids as well.
+    for (const char* key : {"max_feed_mm_min", "rapid_mm_min"}) {
+      if (auto done =
+              optional(key, "TRAJ", "MAX_LINEAR_VELOCITY", mm, {1.0 / 60.0, 1e6 / 60.0, "mm/s"},
+                       60.0, "the axes' own limits count");
+          !done) {
+        return done;
+      }
     }
     // Two lines meet in one arc, so the depth counts both.
     if (auto done =
@@ -157,32 +161,28 @@ class Writer {
           "# [TRAJ] ARC_BLEND_ENABLE = 0: without arcs at corners; these laws are then an "
           "estimate.");
     }
-    line("corner_tolerance_mm = 10");
-    line("junction_deviation_mm = 0");
     if (auto done = setting("junction_share", "ARC_BLEND_KINK_RATIO", 1.0, 0.001, 1.0, 0.1);
         !done) {
       return done;
     }
-    line("centripetal_share = 0.866");
-    line("blend_share = 0.5");
     if (auto done = setting("blend_gap_cycles", "ARC_BLEND_GAP_CYCLES", 1.0, 0.0, 1000.0, 4.0);
         !done) {
       return done;
     }
-    line("min_block_cycles = 1.02");
-    line("merge_share = 1");
-    line("corner_acceleration_share = 0.5");
-    line("stop_between_rapid_and_feed = true");
+    const auto laws = planner_laws(ini_, machine_.mm_per_unit);
+    if (!laws) {
+      return std::unexpected(laws.error());
+    }
+    add(*laws);
+    add(program_section(ini_, machine_, hal_unread_));
     return {};
   }
 
-  Result<void> program() {
-    ProgramSection made = program_section(ini_, machine_, hal_unread_);
+  void add(ProgramSection made) {
     out_.text += made.text;
     out_.from_ini += made.values.size();
     std::ranges::move(made.values, std::back_inserter(out_.values));
-    out_.not_carried = std::move(made.not_carried);
-    return {};
+    std::ranges::move(made.not_carried, std::back_inserter(out_.not_carried));
   }
 
   Result<void> axes() {
@@ -236,6 +236,7 @@ class Writer {
     if (servo.feed_forward) {
       found("feed_forward", *servo.feed_forward, servo.feed_forward->value, {0.0, 1.5, ""});
     }
+    line("# velocity_lag_ms: not in these files; `steadyrest machine from-log` fits it");
     for (const std::string& unused : servo.unused) {
       line("# not carried: " + comment_of(unused));
       out_.not_carried.push_back(unused);

@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/adapters/linuxcnc/config/limits.hpp>
 #include <steadyrest/adapters/linuxcnc/config/program_section.hpp>
 #include <steadyrest/adapters/linuxcnc/config/text_lines.hpp>
 #include <steadyrest/kernel/machine/program.hpp>
@@ -312,6 +313,40 @@ std::string comment_of(std::string_view text) {
 ProgramSection program_section(const IniFile& ini, const Configuration& machine,
                                const std::string& hal_unread) {
   return Section(ini, machine).make(hal_unread);
+}
+
+kernel::outcome::Result<ProgramSection> planner_laws(const IniFile& ini, double mm_per_unit) {
+  constexpr double kLeastJerk = 1.0;  // in the machine's units
+  const auto type = figure(ini, "TRAJ", "PLANNER_TYPE", 1.0, {0.0, 2.0, ""});
+  const auto jerk = figure(ini, "TRAJ", "MAX_LINEAR_JERK", mm_per_unit, {0.0, 1e9, "mm/s³"});
+  if (!type || !jerk) {
+    return std::unexpected(type ? jerk.error() : type.error());
+  }
+  ProgramSection out;
+  out.text =
+      "corner_tolerance_mm = 10\njunction_deviation_mm = 0\ncentripetal_share = 0.866\n"
+      "blend_share = 0.5\nmin_block_cycles = 1.02\nmerge_share = 1\ncorner_acceleration_share = "
+      "0.5\n"
+      "stop_between_rapid_and_feed = true\nclips_programmed_feed = true\n";
+  if (!*type || (*type)->value < 1.0) {
+    return out;
+  }
+  const double limit_mm_s3 = *jerk ? (*jerk)->value : 1e9;
+  if (limit_mm_s3 < kLeastJerk * mm_per_unit) {
+    out.text += "# [TRAJ] MAX_LINEAR_JERK below 1: LinuxCNC takes its planner of 2.9.\n";
+    return out;
+  }
+  const auto given = [&](const std::string& key, const std::string& value, const Figure& figure) {
+    out.text += fmt::format("{} = {}  # {}\n", key, value, comment_of(figure.from));
+    out.values.push_back({.key = "control." + key,
+                          .value = value,
+                          .from = fmt::format("{}: {}", figure.where, figure.from)});
+  };
+  given("planner", "\"s_curve\"", **type);
+  if (*jerk) {
+    given("max_path_jerk_mm_s3", fmt::format("{:.10g}", limit_mm_s3), **jerk);
+  }
+  return out;
 }
 
 }  // namespace steadyrest::adapters::linuxcnc::config

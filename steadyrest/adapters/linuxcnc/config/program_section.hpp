@@ -23,6 +23,12 @@ struct ProgramSection {
 [[nodiscard]] ProgramSection program_section(const IniFile& ini, const Configuration& machine,
                                              const std::string& hal_unread);
 
+/// The laws of LinuxCNC's planner that no machine changes, and that of 2.10 with limited jerk where
+/// the INI file asks for it by PLANNER_TYPE and MAX_LINEAR_JERK (below 1 it is the one of 2.9):
+/// keys of [control]. Refused: what figure() refuses.
+[[nodiscard]] kernel::outcome::Result<ProgramSection> planner_laws(const IniFile& ini,
+                                                                   double mm_per_unit);
+
 /// Text for a comment of a TOML file; anything but printable ASCII would need TOML's rules there.
 [[nodiscard]] std::string comment_of(std::string_view text);
 

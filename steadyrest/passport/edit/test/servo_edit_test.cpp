@@ -37,6 +37,28 @@ TEST(ServoEdit, ReplacesValuesWithTheirCommentsAndNothingElse) {
   EXPECT_EQ(with_servo(*out, "m.toml", both()), *out);
 }
 
+// A lag is added where there was none, 0 too; without one the file's own stays.
+TEST(ServoEdit, WritesTheVelocityLag) {
+  auto values = both();
+  values[0].velocity_lag_s = 0.015;
+  values[0].velocity_lag_comment = "fitted: sd 0.1 ms";
+  const auto out = with_servo(kServoX + kServoY + kRest, "m.toml", values);
+  ASSERT_TRUE(out) << kernel::outcome::text(out.error());
+  EXPECT_THAT(*out, HasSubstr("# fitted: sd 0.1\n  velocity_lag_ms = 15  # fitted: sd 0.1 ms\n"));
+  values[0].velocity_lag_s = 0.0;
+  values[0].velocity_lag_comment = "";
+  const auto none = with_servo(*out, "m.toml", values);
+  ASSERT_TRUE(none) << kernel::outcome::text(none.error());
+  EXPECT_THAT(*none, HasSubstr("# fitted: sd 0.1\n  velocity_lag_ms = 0\n"));
+  const auto own = with_servo(*out, "m.toml", both());
+  ASSERT_TRUE(own) << kernel::outcome::text(own.error());
+  EXPECT_THAT(*own, HasSubstr("\n  velocity_lag_ms = 15  # fitted: sd 0.1 ms\n"));
+  const auto machine = parse(*none, "m.toml");
+  ASSERT_TRUE(machine);
+  EXPECT_TRUE(machine->axes[0].velocity_lag_known);
+  EXPECT_FALSE(machine->axes[1].velocity_lag_known);
+}
+
 TEST(ServoEdit, KeepsTheFilesLineEnds) {
   std::string text;
   for (const char c : kServoX + kServoY + kRest) {

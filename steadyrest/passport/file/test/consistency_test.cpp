@@ -57,6 +57,8 @@ std::vector<Case> cases() {
          }
        },
        "servo_gain", Severity::warning},
+      {"lag", [](Machine& m) { m.axes[1].velocity_lag_known = false; }, "velocity_lag",
+       Severity::note},
       // kT = 50 · 0.1 = 5.
       {"unstable", [](Machine& m) { m.control.servo_period_s = 0.1; }, "servo_gain",
        Severity::error},

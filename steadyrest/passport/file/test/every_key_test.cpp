@@ -53,6 +53,10 @@ TEST(EveryKey, PathPlanner) {
   EXPECT_DOUBLE_EQ(c.blend_share, 0.22);
   EXPECT_DOUBLE_EQ(c.blend_gap_cycles, 3);
   EXPECT_DOUBLE_EQ(c.min_block_cycles, 4);
+  EXPECT_DOUBLE_EQ(c.block_time_s, 0.0055);
+  EXPECT_DOUBLE_EQ(c.exact_stop_mm, 0.0095);
+  EXPECT_EQ(c.acceleration_mode, kernel::machine::AccelerationMode::brisk);
+  EXPECT_EQ(c.planner, kernel::machine::LinuxCncPlanner::s_curve);
   EXPECT_DOUBLE_EQ(c.merge_share, 0.55);
   EXPECT_DOUBLE_EQ(c.junction_share, 0.56);
   EXPECT_DOUBLE_EQ(c.corner_acceleration_share, 0.57);
