@@ -116,7 +116,7 @@ class ProgramRun::Run {
       return accepted;
     }
     executed_ = !(block_.deleted() && block_delete_);
-    if (executed_ && block_.acting() != read::Acting::none) {
+    if (executed_ && block_.acting() > read::Acting::message) {
       return refuse(acting_comment(block_, provenance_.known().doubt));
     }
     if (!interpreter_->execute(block_, counter_)) {

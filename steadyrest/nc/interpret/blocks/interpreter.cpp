@@ -6,6 +6,7 @@
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/interpret/blocks/interpreter.hpp>
+#include <steadyrest/nc/interpret/blocks/waits.hpp>
 #include <steadyrest/nc/interpret/check/settings_check.hpp>
 #include <steadyrest/nc/interpret/decode/codes.hpp>
 
@@ -60,6 +61,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   const bool follows = plain_.forget();
   if (block.deleted() && control_.config.block_delete) {
     return true;
+  }
+  if (block.acting() == read::Acting::message) {
+    out_.wait_for_rest();
   }
   // Comments, labels and empty lines are not blocks.
   if (block.words().empty() && !block.end_mark()) {
@@ -143,6 +147,9 @@ bool Interpreter::act(const Step& step) {
   assumptions_.look(step);
   if (step.modulation >= 0) {
     control_.state.speed_modulation = step.modulation == 1;
+  }
+  if (control_.rules.words_wait && waits_for_rest(step, control_.state)) {
+    out_.wait_for_rest();
   }
   if (control_.rules.units_first) {
     modes_.units(step);

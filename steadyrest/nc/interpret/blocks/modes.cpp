@@ -50,6 +50,8 @@ void Modes::path(const Step& step) noexcept {
       // A negative P means "none given" on LinuxCNC.
       state_.path_tolerance_mm =
           step.has('P') && step['P'] > 0.0 ? step['P'] * state_.unit_mm : 0.0;
+      state_.merge_tolerance_mm =
+          step.has('Q') && step['Q'] >= 0.0 ? step['Q'] * state_.unit_mm : -1.0;
       break;
     default:
       break;
@@ -117,6 +119,7 @@ void Modes::restore(const State& kept) {
   state_.feed_deg_s = kept.feed_deg_s;
   state_.path_mode = kept.path_mode;
   state_.path_tolerance_mm = kept.path_tolerance_mm;
+  state_.merge_tolerance_mm = kept.merge_tolerance_mm;
   state_.override_off = kept.override_off;
   state_.surface_speed = kept.surface_speed;
   state_.surface_speed_mm_s = kept.surface_speed_mm_s;

@@ -61,9 +61,7 @@ bool Offsets::work_offset(const Step& step) {
   if (step.zero_offset) {
     state_.work_offset_on = false;
   } else if (code != kNoCode) {
-    // G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are 591, 592, 593.
-    const auto active = static_cast<std::size_t>(
-        code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10 : 5 + (code - g::kWorkOffset6));
+    const std::size_t active = place_of_offset(code);
     // LinuxCNC keeps its values when the system is already in force, even if the program has since
     // set its numbers (#5221 …).
     if (active != state_.active_offset || !state_.work_offset_on) {

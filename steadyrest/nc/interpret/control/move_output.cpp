@@ -29,6 +29,7 @@ void MoveOutput::put_modes(Move& move) const noexcept {
   move.feed_mode = state_.feed_mode;
   move.path_mode = state_.path_mode;
   move.path_tolerance_mm = state_.path_tolerance_mm;
+  move.merge_tolerance_mm = state_.merge_tolerance_mm;
   move.spindle_rev_s =
       state_.surface_speed ? 0.0 : state_.spindle_direction * state_.spindle_speed_rev_s;
   move.surface_speed_mm_s = state_.spindle_direction * state_.surface_speed_mm_s;
@@ -60,7 +61,7 @@ void MoveOutput::move(MoveKind kind, const Axes& end) {
     current_.start = take_place();
   }
   state_.position = end;
-  sink_->on_move(current_);
+  send();
   current_.machine_axes = 0;
 }
 

@@ -37,8 +37,10 @@ class MoveOutput {
     current_.end = end;
     current_.feed_mm_s = kind == MoveKind::rapid ? 0.0 : state_.feed_mm_s;
     state_.position = end;
-    sink_->on_move(current_);
+    send();
   }
+  /// The axes come to rest before the next move.
+  void wait_for_rest() noexcept { current_.after_rest = true; }
   void dwell(double seconds);
   /// Sends the spindle's state.
   void spindle();
@@ -57,6 +59,10 @@ class MoveOutput {
   [[nodiscard]] Axes take_place() noexcept;
 
  private:
+  void send() {
+    sink_->on_move(current_);
+    current_.after_rest = false;
+  }
   /// Copies frame, modes and spindle from the state.
   void put_modes(Move& move) const noexcept;
 

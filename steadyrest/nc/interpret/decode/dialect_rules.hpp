@@ -53,6 +53,7 @@ struct DialectRules {
   bool programs_in_a_row = true;   ///< in one file; each ends before the next begins
   bool numbered_programs = false;  ///< M98 P looks for its number in the file first
   bool named_calls = false;  ///< of cycles and subprograms, with values; M17 or RET ends these
+  bool words_wait = false;   ///< offsets, S, outputs … wait until the moves before them are done
   bool short_way = false;    ///< plain lines may bypass the checks: see plain_block.hpp
   bool plain_words = false;  ///< letters with literal numbers mean the same in any state
   bool has_g92 = true;

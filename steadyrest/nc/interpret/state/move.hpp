@@ -57,14 +57,22 @@ struct Move {
   // modal state needed for timing and simulation
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;    ///< G64 P; 0 = none given
+  double merge_tolerance_mm = -1.0;  ///< G64 Q, for lines in a row; < 0 = P
   double spindle_rev_s = 0.0;        ///< signed: > 0 clockwise (M3); 0 under G96
   double surface_speed_mm_s = 0.0;   ///< G96: cutting speed, signed as above; 0 = G97
   double spindle_limit_rev_s = 0.0;  ///< G96: the spindle's upper limit; 0 = none given
   bool override_locked = false;      ///< thread, tap, M49: the feed override has no effect
   double dwell_s = 0.0;
   bool speed_modulation = false;  ///< the spindle's speed is to be modulated (M38)
+  bool in_spline = false;         ///< one of the lines that a spline is planned as
+  bool after_rest = false;        ///< the control lets the axes come to rest before it
   bool from_start = false;        ///< its place follows from where the axes stood at the start
 };
+
+/// What the program permits lines that become one.
+[[nodiscard]] inline double merge_tolerance_mm(const Move& move) noexcept {
+  return move.merge_tolerance_mm < 0.0 ? move.path_tolerance_mm : move.merge_tolerance_mm;
+}
 
 /// Machine coordinates of a point of the move: turned about Z by `rotation_deg`, then shifted.
 [[nodiscard]] Axes machine_of(const Move& move, const Axes& work) noexcept;

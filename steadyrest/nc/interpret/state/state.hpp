@@ -80,6 +80,7 @@ struct State {
   double feed_deg_s = 0.0;  ///< the same F if only rotary axes move
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;
+  double merge_tolerance_mm = -1.0;
   bool override_off = false;  ///< M49, M50 P0
 
   double spindle_speed_rev_s = 0.0;  ///< S, without sign

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 /// The G and M words of a `Step` by name. Numbers are LinuxCNC's, whatever the dialect; those of G
@@ -106,6 +107,13 @@ inline constexpr Code kRetractToInitial = 980;
 inline constexpr Code kRetractToR = 990;
 
 }  // namespace g
+
+/// Place of a work offset among them, by its code: G54 … G59 are 540, 550, … 590; G59.1 … G59.3 are
+/// 591, 592, 593.
+[[nodiscard]] constexpr std::size_t place_of_offset(int code) noexcept {
+  return static_cast<std::size_t>(code <= g::kWorkOffset6 ? (code - g::kWorkOffset1) / 10
+                                                          : 5 + (code - g::kWorkOffset6));
+}
 
 namespace m {
 

@@ -97,6 +97,8 @@ void MachineCheck::on_move(const Move& move) {
   }
   if (feeds(move)) {
     check_feed(move);
+    check_block(move);
+    check_blend(move);
     check_stopped(move);
   }
 }
@@ -170,6 +172,58 @@ void MachineCheck::check_feed(const Move& move) {
                    mm_min_from_mm_s(feed_mm_s),
                    axes_mm_s <= machine_.control.max_feed_mm_s ? "axes" : "control",
                    mm_min_from_mm_s(most_mm_s)));
+}
+
+void MachineCheck::check_block(const Move& move) {
+  const auto& control = machine_.control;
+  const double block_s = kernel::machine::least_block_s(control);
+  if (block_warned_ || control.dialect == kernel::machine::Dialect::linuxcnc || block_s <= 0.0 ||
+      move.kind == MoveKind::spline || move.feed_mode != interpret::FeedMode::per_minute) {
+    return;
+  }
+  const double far_mm = std::hypot(move.end[0] - move.start[0], move.end[1] - move.start[1],
+                                   move.end[2] - move.start[2]);
+  if (far_mm >= move.feed_mm_s * block_s) {
+    return;  // an arc is longer than its chord
+  }
+  const auto made = pieces_.make(move, piece_);
+  if (!made || !*made || piece_.nominal_mm >= move.feed_mm_s * block_s) {
+    return;
+  }
+  block_warned_ = true;
+  const std::string slowed = fmt::format(
+      "{:.4g} mm at {:.9g} mm/min take {:.3g} ms, less than a block takes on the control ({:g} "
+      "ms): "
+      "it slows to {:.4g} mm/min",
+      piece_.nominal_mm, mm_min_from_mm_s(move.feed_mm_s), 1e3 * piece_.nominal_mm / move.feed_mm_s,
+      1e3 * block_s, mm_min_from_mm_s(piece_.nominal_mm / block_s));
+  warn(move.line, What::block, 0,
+       kernel::machine::knows_block_time(control)
+           ? slowed
+           : slowed +
+                 "; that time is not known, so the worst is assumed: set block_time_ms in "
+                 "[control]");
+}
+
+void MachineCheck::check_blend(const Move& move) {
+  constexpr double kSmall_mm = 5.0;
+  const bool overdone = machine_.control.planner == kernel::machine::LinuxCncPlanner::s_curve &&
+                        move.kind == MoveKind::arc &&
+                        move.path_mode == interpret::PathMode::continuous &&
+                        move.path_tolerance_mm > 0.0;
+  if (blend_warned_ || !overdone) {
+    return;
+  }
+  const auto made = pieces_.make(move, piece_);
+  if (!made || !*made || piece_.segment.radius_mm > kSmall_mm) {
+    return;
+  }
+  blend_warned_ = true;
+  warn(move.line, What::blend, 0,
+       fmt::format("blends at an arc of {:.3g} mm under G64 P{:g}: LinuxCNC 2.10's S-curve planner "
+                   "has gone up to 8 times beyond the axes' acceleration there (its issue 3773); "
+                   "use G61, or a smaller P",
+                   piece_.segment.radius_mm, move.path_tolerance_mm));
 }
 
 void MachineCheck::check_stopped(const Move& move) {

@@ -36,6 +36,8 @@ struct Known {
 ///   of the rest is compared with the travel's length: all feed moves, and rapids that end outside
 ///   the travel. A rapid within it may go to a reference point (G28);
 /// - feed: F against the axes' speeds along the move and the control's largest feed, at each new F;
+/// - blocks: the first that the control's block time slows, and that this time is not known; the
+///   first small arc whose blending LinuxCNC's S-curve planner overdoes;
 /// - spindle: S outside its range; a cut (line, arc, spline) while it is stopped.
 /// Each line is reported once per check and axis.
 class MachineCheck final : public interpret::Sink {
@@ -54,7 +56,7 @@ class MachineCheck final : public interpret::Sink {
   static constexpr std::size_t kMost = 1000;
 
  private:
-  enum class What : std::uint8_t { travel, extent, feed, spindle, standing };
+  enum class What : std::uint8_t { travel, extent, feed, block, blend, spindle, standing };
 
   /// The range that the program uses of an axis whose place in the travel is unknown.
   struct Extent {
@@ -65,6 +67,8 @@ class MachineCheck final : public interpret::Sink {
 
   void check_travel(const interpret::Move& move, std::size_t axis);
   void check_feed(const interpret::Move& move);
+  void check_block(const interpret::Move& move);
+  void check_blend(const interpret::Move& move);
   void check_stopped(const interpret::Move& move);
   void warn(std::uint32_t line, What what, std::size_t axis, std::string text);
   /// Whether the machine coordinates of the move's end are known.
@@ -78,6 +82,8 @@ class MachineCheck final : public interpret::Sink {
   bool lathe_ = false;
   bool tool_came_ = false;
   bool stopped_warned_ = false;
+  bool block_warned_ = false;
+  bool blend_warned_ = false;
   double feed_warned_mm_s_ = 0.0;
   std::array<const kernel::machine::Axis*, 9> axis_{};  ///< linear ones, by X Y Z A B C U V W
   std::array<Extent, 9> extent_;

@@ -22,6 +22,7 @@ namespace {
 // Smaller turns are left to the junction law: no axis jumps by more than 1e-4 of the speed there.
 constexpr double kSmoothTurn_rad = 1e-4;
 constexpr double kInPlane = 1e-6;
+constexpr double kSameRadius_ratio = 1e-4;  ///< the slope of a circle that the text has rounded
 constexpr double kStraight_mm = 1e6;  ///< a wider rounding is a straight line to every machine
 constexpr double kRounding = 1e-7;    ///< of lengths, where the pieces are nearly in line
 
@@ -62,8 +63,9 @@ struct Curve {
   double turn = 1.0;  ///< o
 };
 
-std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const Point& normal,
-                              const Point& direction) {
+/// `radius_mm`: at the corner.
+std::optional<Curve> curve_of(const PathSegment& s, double radius_mm, const Flat& tangent,
+                              const Point& normal, const Point& direction) {
   Curve out;
   // The plane of the corner contains both tangents by construction; a line needs nothing else.
   out.tangent = tangent;
@@ -71,14 +73,15 @@ std::optional<Curve> curve_of(const PathSegment& s, const Flat& tangent, const P
     return std::abs(dot(direction, normal)) < kInPlane ? std::optional(out) : std::nullopt;
   }
   const double along = dot(s.axis, normal);
-  // A helix, a spiral or an arc in another plane has no offset curve in the corner's plane.
+  // A helix, a spiral or an arc in another plane has no offset curve in the corner's plane; radii
+  // that differ by the text's last digit make no spiral.
   if (std::abs(std::abs(along) - 1.0) > kInPlane || std::abs(s.rise_mm) > 1e-9 ||
-      s.radius_end_mm != s.radius_mm) {
+      std::abs(s.radius_end_mm - s.radius_mm) > kSameRadius_ratio * s.radius_mm * s.sweep_rad) {
     return std::nullopt;
   }
   out.circle = true;
   out.turn = along > 0.0 ? 1.0 : -1.0;
-  out.radius = s.radius_mm;
+  out.radius = radius_mm;
   // The corner is the origin: the centre lies a radius to the left of the direction there, or to
   // the right.
   out.centre = (out.turn * out.radius) * left_of(tangent);
@@ -252,8 +255,8 @@ std::optional<CornerArc> round_corner(const PathSegment& before, const PathSegme
     return result;
   }
   // In the plane frame the piece before leaves along x, the piece after at the turning angle.
-  const auto a = curve_of(before, {1.0, 0.0}, bend.axis, in);
-  const auto b = curve_of(after, {bend.cosine, bend.sine}, bend.axis, out);
+  const auto a = curve_of(before, before.radius_end_mm, {1.0, 0.0}, bend.axis, in);
+  const auto b = curve_of(after, after.radius_mm, {bend.cosine, bend.sine}, bend.axis, out);
   if (!a || !b) {
     return std::nullopt;
   }

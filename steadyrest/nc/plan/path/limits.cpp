@@ -25,12 +25,13 @@ PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
   acceleration_.fill(kUnlimited);
   jerk_.fill(kUnlimited);
   axes_ = std::clamp<std::size_t>(axes.size(), 3, kMaxAxes);
+  const bool soft = control.acceleration_mode == kernel::machine::AccelerationMode::soft;
   double largest_linear = 0.0;
   for (std::size_t i = 0; i < std::min(axes.size(), kMaxAxes); ++i) {
     const auto& axis = axes[i];
     speed_[i] = axis.max_speed_au_s;
     acceleration_[i] = axis.max_acceleration_au_s2;
-    jerk_[i] = axis.max_jerk_au_s3;
+    jerk_[i] = soft ? axis.max_jerk_au_s3 : kUnlimited;
     // One averaging window serves all axes. A window of A_i/J_i makes a step of the acceleration to
     // A_i rise at J_i, so the longest window keeps every axis within its jerk.
     if (std::isfinite(jerk_[i])) {
@@ -40,7 +41,7 @@ PathLimits::PathLimits(std::span<const kernel::machine::Axis> axes,
       largest_linear = std::max(largest_linear, acceleration_[i]);
     }
   }
-  if (std::isfinite(control.max_path_jerk_mm_s3)) {
+  if (soft && std::isfinite(control.max_path_jerk_mm_s3)) {
     // Along a space diagonal three axes together give √3 times the acceleration of one.
     const double most = std::min(path_acceleration_mm_s2_, std::sqrt(3.0) * largest_linear);
     jerk_time_s_ = std::max(jerk_time_s_, most / control.max_path_jerk_mm_s3);
@@ -148,19 +149,14 @@ SpeedLimits PathLimits::arc(const PathSegment& s) const noexcept {
   return out;
 }
 
-// At a corner axis i changes its velocity by v·|Δt_i| within one period. This acceleration of
-// v·|Δt_i|/T adds to the ramp's, so the ramps before and after get only the rest.
-double PathLimits::junction_use(const AxisValues& before, const AxisValues& after,
-                                double speed_mm_s) const noexcept {
-  if (junction_share_ >= 1.0) {
-    return 0.0;
-  }
-  double use = 0.0;
+double PathLimits::kink(const AxisValues& before, const AxisValues& after, double speed_mm_s,
+                        double ramp_mm_s2) const noexcept {
+  const double at_once_mm_s2 = speed_mm_s / period_s_ + ramp_mm_s2;
+  double most = 0.0;
   for (std::size_t i = 0; i < axes_; ++i) {
-    use =
-        std::max(use, std::abs(after[i] - before[i]) * speed_mm_s / (acceleration_[i] * period_s_));
+    most = std::max(most, std::abs(after[i] - before[i]) * at_once_mm_s2 / acceleration_[i]);
   }
-  return std::min(use, junction_share_);
+  return most;
 }
 
 // Three laws, see the header. Axes that do not change direction do not count.
@@ -181,7 +177,7 @@ double PathLimits::junction_mm_s(const AxisValues& before, const AxisValues& aft
   for (std::size_t i = 0; i < axes_; ++i) {
     const double delta = std::abs(after[i] - before[i]);
     if (delta > 1e-9) {
-      jump = std::min(jump, junction_share_ * acceleration_[i] * period_s_ / delta);
+      jump = std::min(jump, acceleration_[i] * period_s_ / delta);
       facets_a = std::min(facets_a, acceleration_[i] / delta);
     }
     if (i < 3) {

@@ -17,15 +17,20 @@
 ///             a_plane = min A_i/g_i;  v ≤ √(κ_n·a_plane·R_eff), R_eff = R/cos²(helix angle) of the
 ///             tightest radius;  the tangential part gets the rest: a_t = √(a_plane² −
 ///             (v²/R_eff)²)
-///   junction  jump: v·|Δt_i| ≤ κ_j·A_i·T in one interpolator period T, κ_j = junction_share;
-///             deviation: v² ≤ a·δ·sin β/(1 − sin β), β = half the angle between the legs, the
+///   kink      the share of an axis's acceleration that a corner takes when it is passed at v in
+///   one
+///             interpolator period T and the next segment's ramp a begins in the same period:
+///             k = max |Δt_i|·(v/T + a)/A_i
+///   junction  jump: v·|Δt_i| ≤ A_i·T in one period;  deviation: v² ≤ a·δ·sin β/(1 − sin β), β =
+///   half the angle between the legs, the
 ///             speed at which an arc that stays within δ of the corner would be possible; facets:
 ///             v² ≤ min A_i/|Δt_i|·ℓ, ℓ = mean length of the two segments, the centripetal limit of
 ///             the curve that the corners approximate. v_junction = min(facets, max(jump,
 ///             deviation)).
 /// With δ = 0 no axis ever jumps by more than one period of its acceleration. Sources: the junction
 /// deviation of the Grbl firmware (Jeon 2011) for the deviation law; κ_n = √3/2 is the share that
-/// LinuxCNC gives to the centripetal part (documented in its trajectory planner).
+/// LinuxCNC gives to the centripetal part (documented in its trajectory planner); its
+/// ARC_BLEND_KINK_RATIO for the kink.
 namespace steadyrest::nc::plan {
 
 struct SpeedLimits {
@@ -39,6 +44,9 @@ struct PlaneLimits {
   double speed_mm_s = 0.0;
   double jerk_mm_s3 = 0.0;
 };
+
+/// Next to an arc a kink counts double: half of an arc's acceleration turns it.
+inline constexpr double kKinkOfArcs = 2.0;
 
 /// The limits of a machine in the order of its axes; axes it does not have are unlimited.
 class PathLimits {
@@ -57,11 +65,13 @@ class PathLimits {
                                      const kernel::signal::AxisValues& after,
                                      double length_before_mm,
                                      double length_after_mm) const noexcept;
-  /// Share of the acceleration that the jump at `speed_mm_s` takes, at most junction_share; 0 when
-  /// junction_share is 1: the jump then has a period of its own.
-  [[nodiscard]] double junction_use(const kernel::signal::AxisValues& before,
-                                    const kernel::signal::AxisValues& after,
-                                    double speed_mm_s) const noexcept;
+  /// k at the feed `speed_mm_s`; `ramp_mm_s2` is that of the segment after.
+  [[nodiscard]] double kink(const kernel::signal::AxisValues& before,
+                            const kernel::signal::AxisValues& after, double speed_mm_s,
+                            double ramp_mm_s2) const noexcept;
+  /// The control judges corners by their kink (junction_share below 1), as LinuxCNC does.
+  [[nodiscard]] bool has_kinks() const noexcept { return junction_share_ < 1.0; }
+  [[nodiscard]] double junction_share() const noexcept { return junction_share_; }
   /// Averaging time of the jerk filter: max A_i/J_i, 0 without a jerk limit.
   [[nodiscard]] double jerk_time_s() const noexcept { return jerk_time_s_; }
   [[nodiscard]] double centripetal_share() const noexcept { return centripetal_share_; }

@@ -13,10 +13,10 @@
 namespace steadyrest::nc::plan {
 
 using interpret::FeedMode;
+using interpret::merge_tolerance_mm;
 using interpret::Move;
 using interpret::MoveKind;
 using interpret::PathMode;
-using kernel::machine::kUnlimited;
 using kernel::machine::Machine;
 using kernel::outcome::bad_input;
 using kernel::outcome::Result;
@@ -34,20 +34,9 @@ namespace {
 // A move is built in a free place, waits there for merging (waiting_), then for its corner (held_),
 // and goes out once the corner is decided. Three places are enough.
 
-constexpr double kUsable = 1.0 - 1e-6;
 /// A spline is planned as chords within this distance.
 constexpr double kSplineTolerance_mm = 5e-4;
 constexpr std::size_t kMostMerged = 512;
-
-bool others_move(const PathSegment& s) {
-  return s.other_start != s.other_end;
-}
-
-bool may_be_rounded(const Piece& before, const Piece& after) {
-  return before.tolerance_mm > 0.0 && !others_move(before.segment) && !others_move(after.segment) &&
-         before.plan.per_revolution == after.plan.per_revolution && !before.plan.locked &&
-         !after.plan.locked;
-}
 
 }  // namespace
 
@@ -77,7 +66,8 @@ void PathStream::release(double exit_speed_limit_mm_s) {
   if (held_ == kNone) {
     return;
   }
-  places_[held_].segment.exit_speed_limit_mm_s = exit_speed_limit_mm_s;
+  places_[held_].segment.exit_speed_limit_mm_s = std::min(exit_speed_limit_mm_s, entry_mm_s_);
+  pieces_.limit_rest(places_[held_]);
   pieces_.clip_feed(places_[held_]);
   emit(places_[held_]);
   held_ = kNone;
@@ -136,155 +126,10 @@ void PathStream::accept() {
   merged_.clear();
 }
 
-/// Puts a tangential arc into the corner between the held piece and `next`.
-bool PathStream::round_corner(Piece& next) {
-  const Piece& held = places_[held_];
-  if (!may_be_rounded(held, next)) {
-    return false;
-  }
-  const Point in = xyz_of(held.end_direction);
-  const Point out = xyz_of(next.start_direction);
-  const auto bend = bend_of(in, out);
-  if (!bend) {
-    return false;
-  }
-  const double share = machine_.control.blend_share;
-  const double slower = std::min(held.plan.feed_mm_s, next.plan.feed_mm_s);
-  const double goal = std::min({held.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s,
-                                machine_.feed_override.max_ratio * slower});
-  const PlaneLimits& plane = plane_of(bend->axis);
-  const double kappa = pieces_.limits().centripetal_share();
-  const double a_normal = kappa * plane.acceleration_mm_s2;
-  const double a_tangential = std::sqrt(1.0 - kappa * kappa) * plane.acceleration_mm_s2;
-  // A sliver of every piece remains, so that two corner arcs never touch.
-  CornerRequest request;
-  request.tolerance_mm = held.tolerance_mm;
-  request.room_before_mm = kUsable * std::min(share * held.nominal_mm, held.segment.length_mm);
-  request.room_after_mm = kUsable * share * next.nominal_mm;
-  request.most_radius_mm = held.plan.per_revolution
-                               ? kUnlimited
-                               : goal * goal / std::min(a_normal, bend->turn_rad * a_tangential);
-  const auto corner = plan::round_corner(held.segment, next.segment, in, out, *bend, request);
-  const double exact = pieces_.limits().junction_mm_s(
-      held.end_direction, next.start_direction, held.segment.length_mm, next.segment.length_mm);
-  if (!corner || std::sqrt(a_normal * corner->radius_mm) <= exact ||
-      corner->taken_before_mm <= 10.0 * kShortest_mm) {
-    return false;
-  }
-  set_corner(*corner, held, next);
-  pieces_.limit(corner_, pieces_.limits().circle(corner->radius_mm, plane));
-  put_in_corner(*corner, goal, next);
-  return true;
-}
-
-/// The arc's piece: whatever the arc does not define comes from the slower neighbour.
-void PathStream::set_corner(const CornerArc& corner, const Piece& held, const Piece& next) {
-  const Piece& like = held.plan.feed_mm_s <= next.plan.feed_mm_s ? held : next;
-  Piece& arc = corner_;
-  arc.plan = like.plan;
-  arc.plan.rapid = held.plan.rapid && next.plan.rapid;
-  arc.plan.from_start = held.plan.from_start || next.plan.from_start;
-  arc.segment = {.geometry = Geometry::arc,
-                 .motion = arc.plan.rapid ? Motion::rapid : Motion::feed,
-                 .speed_modulation = like.segment.speed_modulation,
-                 .line = held.segment.line,
-                 .start_mm = corner.start_mm,
-                 .end_mm = corner.end_mm,
-                 .centre_mm = corner.centre_mm,
-                 .axis = corner.axis,
-                 .radius_mm = corner.radius_mm,
-                 .radius_end_mm = corner.radius_mm,
-                 .sweep_rad = corner.sweep_rad,
-                 .other_start = held.segment.other_end,
-                 .other_end = held.segment.other_end,
-                 .length_mm = corner.radius_mm * corner.sweep_rad,
-                 .feed_mm_s = like.segment.feed_mm_s};
-  arc.nominal_mm = arc.segment.length_mm;
-}
-
-/// Makes room for the arc between the held piece and `next`; hands over the held piece and the arc.
-void PathStream::put_in_corner(const CornerArc& corner, double goal_mm_s, Piece& next) {
-  Piece& held = places_[held_];
-  Piece& arc = corner_;
-  shorten(held, corner.taken_before_mm);
-  held.segment.end_mm = corner.start_mm;
-  const auto& control = machine_.control;
-  const double gap = control.blend_gap_cycles * control.interpolator_period_s *
-                     std::min(goal_mm_s, arc.plan.speed_limit_mm_s);
-  if (held.segment.length_mm < gap) {
-    held.plan.acceleration_mm_s2 =
-        std::min(held.plan.acceleration_mm_s2, arc.plan.acceleration_mm_s2);
-  }
-  shorten(next, corner.taken_after_mm);
-  next.segment.start_mm = corner.end_mm;
-  pieces_.clip_corner_feed(arc, held, next);
-  release(std::min(held.plan.speed_limit_mm_s, arc.plan.speed_limit_mm_s));
-  arc.segment.exit_speed_limit_mm_s =
-      std::min(arc.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);
-  emit(arc);
-}
-
-/// Shortens a piece at either end; the caller moves the end point.
-void PathStream::shorten(Piece& piece, double taken_mm) {
-  PathSegment& s = piece.segment;
-  if (s.geometry == Geometry::arc) {
-    s.sweep_rad *= 1.0 - taken_mm / s.length_mm;
-  }
-  s.length_mm -= taken_mm;
-  piece.plan.length_mm = s.length_mm;
-}
-
-/// Decides how the path goes from the held piece into `next` and hands over the held piece.
-void PathStream::join(Piece& next) {
-  if (held_ == kNone) {
-    return;
-  }
-  Piece& held = places_[held_];
-  const bool probing = held.segment.motion == Motion::probe || next.segment.motion == Motion::probe;
-  const bool changes =
-      machine_.control.stop_between_rapid_and_feed && held.plan.rapid != next.plan.rapid;
-  if (held.mode == PathMode::exact_stop || probing || changes) {
-    release(0.0);
-    return;
-  }
-  if (held.mode == PathMode::continuous && round_corner(next)) {
-    return;
-  }
-  const double junction = pieces_.limits().junction_mm_s(
-      held.end_direction, next.start_direction, held.segment.length_mm, next.segment.length_mm);
-  const double most = std::min(held.plan.speed_limit_mm_s, next.plan.speed_limit_mm_s);
-  const double use = pieces_.limits().junction_use(held.end_direction, next.start_direction, most);
-  if (held.mode == PathMode::continuous && junction < most) {
-    slow_ramps(held, machine_.control.corner_acceleration_share);
-    slow_ramps(next, machine_.control.corner_acceleration_share);
-  } else if (use > 0.0) {
-    slow_ramps(held, 1.0 - use);
-    slow_ramps(next, 1.0 - use);
-  }
-  release(std::min(junction, most));
-}
-
-/// Limits a piece to a share of the acceleration; the smaller of two shares counts.
-void PathStream::slow_ramps(Piece& out, double share) const {
-  if (share < out.ramp_share) {
-    out.plan.acceleration_mm_s2 *= share / out.ramp_share;
-    out.ramp_share = share;
-  }
-}
-
-/// The path ends or stops here.
-void PathStream::rest() {
-  accept();
-  if (held_ != kNone && places_[held_].mode == PathMode::continuous) {
-    slow_ramps(places_[held_], machine_.control.corner_acceleration_share);
-  }
-  release(0.0);
-}
-
 /// An arc that is a line within the merge tolerance becomes two, over its middle; LinuxCNC does so
 /// in the XY plane under G64 P (manual, G64).
 bool PathStream::split_flat_arc(const Move& move) {
-  const double tolerance_mm = machine_.control.merge_share * move.path_tolerance_mm;
+  const double tolerance_mm = machine_.control.merge_share * merge_tolerance_mm(move);
   if (move.kind != MoveKind::arc || move.path_mode != PathMode::continuous ||
       move.feed_mode == FeedMode::inverse_time || move.override_locked || !(tolerance_mm > 0.0) ||
       move.normal[2] == 0.0 || std::abs(move.turns) > 1) {
@@ -326,6 +171,9 @@ void PathStream::on_move(const Move& move) {
     }
     spline_lines(move, kSplineTolerance_mm, [this](const Move& line) { on_move(line); });
     return;
+  }
+  if (move.after_rest) {
+    rest();
   }
   if (move.kind == MoveKind::dwell) {
     refusal_ = least_.add_dwell(move);

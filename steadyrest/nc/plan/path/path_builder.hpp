@@ -10,6 +10,7 @@
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/plan/path/blend.hpp>
 #include <steadyrest/nc/plan/path/corner.hpp>
 #include <steadyrest/nc/plan/path/least_time.hpp>
 #include <steadyrest/nc/plan/path/piece.hpp>
@@ -37,11 +38,14 @@ class PathReceiver {
 ///   can be taken at v and is long enough to change the speed within it;  φ = turning angle,
 ///   a = a_plane, a_t = √(1 − κ_n²)·a.
 /// The speed through it is √(κ_n·a_plane·R); the corner stays sharp where the exact path is faster.
-/// In continuous mode with a tolerance, lines are merged while all points between lie within
-/// merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY plane
-/// nearer to its chord than that, r·(1 − cos(sweep/2)), becomes two lines through its middle. Every
-/// event stops the path. Splines become chords within 0.5 µm (spline_lines.hpp). Programs longer
-/// than kLongestProgram_s are refused (LeastTime).
+/// With junction_share below 1 the joint follows LinuxCNC's law instead: limits.hpp (kink),
+/// blend.hpp. The exact path with a tolerance, which no text asks for, is the continuous one with
+/// sharp corners.
+/// In continuous mode with a tolerance, lines are merged while all points between lie
+/// within merge_share·(the program's own tolerance) of the chord (0 = never); an arc in the XY
+/// plane nearer to its chord than that, r·(1 − cos(sweep/2)), becomes two lines through its middle.
+/// Every event stops the path. Splines become chords within 0.5 µm (spline_lines.hpp). Programs
+/// longer than kLongestProgram_s are refused (LeastTime).
 class PathStream final : public interpret::Sink {
  public:
   PathStream(const kernel::machine::Machine& machine, PathReceiver& receiver);
@@ -58,13 +62,22 @@ class PathStream final : public interpret::Sink {
  private:
   void accept();
   void join(Piece& next);
+  [[nodiscard]] CornerRequest general_request(const Piece& held, const Piece& next,
+                                              const Bend& bend, double goal_mm_s);
   bool round_corner(Piece& next);
+  bool round_corner(Piece& next, const Bend& bend, const CornerRequest& request,
+                    double least_radius_mm, double goal_mm_s, double lasts_s = 0.0);
+  bool blend(const BlendSide& before, const BlendSide& after, double sharp_mm_s, Piece& next);
+  [[nodiscard]] BlendSide side_of(const Piece& piece, const kernel::signal::Point& along,
+                                  const kernel::signal::Point& inward) const;
   void set_corner(const CornerArc& corner, const Piece& held, const Piece& next);
   void put_in_corner(const CornerArc& corner, double goal_mm_s, Piece& next);
   static void shorten(Piece& piece, double taken_mm);
   bool merge(const Piece& next);
   bool split_flat_arc(const interpret::Move& move);
-  void slow_ramps(Piece& out, double share) const;
+  void join_at_kink(Piece& held, Piece& next);
+  void slow_beside_blend(Piece& out) const;
+  [[nodiscard]] double entry_of_last(const Piece& last) const;
   void rest();
   void release(double exit_speed_limit_mm_s);
   void emit(Piece& out);
@@ -86,6 +99,7 @@ class PathStream final : public interpret::Sink {
   PlaneLimits plane_;  ///< of the plane with that normal: most corners lie in the one before's
   std::size_t emitted_ = 0;
   double position_mm_ = 0.0;
+  double entry_mm_s_ = kernel::machine::kUnlimited;  ///< into the piece that is being joined
   bool spindle_pending_ = false;
   std::uint32_t spindle_line_ = 0;
   double spindle_rev_s_ = 0.0;

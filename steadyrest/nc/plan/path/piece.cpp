@@ -16,8 +16,10 @@ namespace steadyrest::nc::plan {
 
 using interpret::Axes;
 using interpret::FeedMode;
+using interpret::merge_tolerance_mm;
 using interpret::Move;
 using interpret::MoveKind;
+using kernel::machine::least_block_s;
 using kernel::machine::Machine;
 using kernel::outcome::Result;
 using kernel::signal::AxisValues;
@@ -257,16 +259,24 @@ void PieceMaker::limit(Piece& out) const {
   limit(out, limits_.line(out.start_direction));
 }
 
+void PieceMaker::limit_rest(Piece& out) const {
+  const double block_s = least_block_s(machine_.control);
+  if (!limits_.has_kinks() || out.in_arc || block_s <= 0.0) {
+    return;
+  }
+  out.plan.speed_limit_mm_s = std::min(out.plan.speed_limit_mm_s, out.segment.length_mm / block_s);
+  out.segment.speed_limit_mm_s = out.plan.speed_limit_mm_s;
+}
+
 void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   PathSegment& s = out.segment;
   SegmentPlan& p = out.plan;
   const auto& control = machine_.control;
   double speed = std::min(limits.speed_mm_s, p.rapid ? control.rapid_mm_s : control.max_feed_mm_s);
-  // A control executes at most one block per min_block_cycles periods (LinuxCNC: slightly more than
-  // one). The length before rounding counts: that is the control's block.
-  if (control.min_block_cycles > 0.0) {
-    speed = std::min(speed,
-                     out.nominal_mm / (control.min_block_cycles * control.interpolator_period_s));
+  // The length before rounding counts: that is the control's block. The chords of a spline are
+  // ours.
+  if (const double block_s = least_block_s(control); block_s > 0.0 && !out.in_spline) {
+    speed = std::min(speed, out.nominal_mm / block_s);
   }
   s.speed_limit_mm_s = speed;
   p.speed_limit_mm_s = speed;
@@ -276,6 +286,46 @@ void PieceMaker::limit(Piece& out, const SpeedLimits& limits) const {
   if (p.rapid) {
     s.feed_mm_s = speed;
     p.feed_mm_s = speed;
+  }
+}
+
+// The lag that a ramp leaves at its end is (1 − ff)·a/k² at most; it decays with k.
+double PieceMaker::settle_s(const Piece& piece) const {
+  const double near_mm = machine_.control.exact_stop_mm;
+  double longest_s = 0.0;
+  for (std::size_t i = 0; near_mm > 0.0 && i < std::min<std::size_t>(machine_.axes.size(), 3);
+       ++i) {
+    const auto& axis = machine_.axes[i];
+    const double gain = axis.servo_gain_1_s;
+    const double a = std::abs(piece.end_direction[i]) * piece.plan.acceleration_mm_s2;
+    const double lag_mm = std::abs(1.0 - axis.feed_forward) * a / (gain * gain);
+    if (lag_mm > near_mm) {
+      longest_s = std::max(longest_s, std::log(lag_mm / near_mm) / gain);
+    }
+  }
+  return longest_s;
+}
+
+double PieceMaker::ramp_mm_s2(const Piece& piece) const {
+  const PathSegment& s = piece.segment;
+  return s.geometry == Geometry::line ? limits_.line(line_direction(s)).acceleration_mm_s2
+                                      : limits_.plane(s.axis).acceleration_mm_s2;
+}
+
+void PieceMaker::slow_ramps(Piece& out, Turn turn) const {
+  const double share =
+      (1.0 - out.kink) * (out.beside_blend ? machine_.control.corner_acceleration_share : 1.0);
+  if (share >= out.ramp_share) {
+    return;
+  }
+  const double ratio = share / out.ramp_share;
+  out.ramp_share = share;
+  out.plan.acceleration_mm_s2 *= ratio;
+  if (turn == Turn::slower && out.segment.geometry == Geometry::arc && limits_.has_kinks()) {
+    // v² = κ_n·a·R, where the axes' speed does not bind.
+    const double slower = std::sqrt(ratio) * limits_.arc(out.segment).speed_mm_s;
+    out.plan.speed_limit_mm_s = std::min(out.plan.speed_limit_mm_s, slower);
+    out.segment.speed_limit_mm_s = out.plan.speed_limit_mm_s;
   }
 }
 
@@ -307,10 +357,12 @@ Result<bool> PieceMaker::make(const Move& move, Piece& out) const {
     return false;
   }
   out.nominal_mm = s.length_mm;
+  out.in_spline = move.in_spline;
   out.mode = move.path_mode;
   out.tolerance_mm =
       move.path_tolerance_mm > 0.0 ? move.path_tolerance_mm : machine_.control.corner_tolerance_mm;
-  out.merge_tolerance_mm = machine_.control.merge_share * move.path_tolerance_mm;
+  out.program_tolerance_mm = move.path_tolerance_mm;
+  out.merge_tolerance_mm = machine_.control.merge_share * merge_tolerance_mm(move);
   set_speed(out, move);
   if (!out.plan.rapid && !(out.plan.feed_mm_s > 0.0)) {
     return refuse("a feed move without a feed above 0", "give F before or in this block");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -20,9 +21,14 @@ struct Piece {
   SegmentPlan plan;
   interpret::PathMode mode = interpret::PathMode::continuous;
   double tolerance_mm = 0.0;
+  double program_tolerance_mm = 0.0;
   double merge_tolerance_mm = 0.0;
-  double ramp_share = 1.0;  ///< already applied to the acceleration
-  double nominal_mm = 0.0;  ///< length before its corners were rounded
+  double kink = 0.0;          ///< share of the acceleration that the kinks at its ends take
+  bool beside_blend = false;  ///< next to a corner that could not be rounded, or before a stop
+  bool in_arc = false;        ///< what is left of the line belongs to the corner arc after it
+  bool in_spline = false;     ///< a chord of a spline, which is one block
+  double ramp_share = 1.0;    ///< already applied to the acceleration
+  double nominal_mm = 0.0;    ///< length before its corners were rounded
   kernel::signal::AxisValues start_direction{};
   kernel::signal::AxisValues end_direction{};
 };
@@ -31,8 +37,18 @@ struct Piece {
   return {v[0], v[1], v[2]};
 }
 
+[[nodiscard]] inline bool others_move(const kernel::signal::PathSegment& s) {
+  return s.other_start != s.other_end;
+}
+
 /// The arc of a move through the segment's start and end, which must be set.
 void set_arc(kernel::signal::PathSegment& segment, const interpret::Move& move);
+
+/// What becomes of an arc's speed when there is less acceleration.
+enum class Turn : std::uint8_t {
+  slower,
+  as_before  ///< LinuxCNC settles a piece when the next one is known; the last keeps its speed
+};
 
 /// Moves → pieces: machine coordinates, geometry and length, feed, the limits of machine and
 /// control.
@@ -49,6 +65,14 @@ class PieceMaker {
   void limit(Piece& out) const;
   /// The same with given limits.
   void limit(Piece& out, const SpeedLimits& limits) const;
+  /// How long the axes take to come near an exact stop after it (Control::exact_stop_mm).
+  [[nodiscard]] double settle_s(const Piece& piece) const;
+  /// The acceleration of a piece that turns nowhere.
+  [[nodiscard]] double ramp_mm_s2(const Piece& piece) const;
+  /// Applies what its kinks and blends leave of the acceleration: an arc turns more slowly too.
+  void slow_ramps(Piece& out, Turn turn = Turn::slower) const;
+  /// LinuxCNC: what is left between its corners takes a block's time too.
+  void limit_rest(Piece& out) const;
   /// The control's law for an F that the axes cannot reach (Control::clips_programmed_feed); its
   /// own limit along the path does not count. Of a finished piece: pieces of one F merge.
   void clip_feed(Piece& out) const;

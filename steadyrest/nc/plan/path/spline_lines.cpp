@@ -30,6 +30,7 @@ class Halving {
     chord_.kind = interpret::MoveKind::linear;
     chord_.spline = {};
     chord_.spline_order = 0;
+    chord_.in_spline = true;
   }
 
   void span(double u0, double u1) { halve(u0, at(u0), u1, at(u1), 0); }

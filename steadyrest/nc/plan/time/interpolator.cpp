@@ -308,7 +308,7 @@ bool Interpolator::at_event() noexcept {
   return false;
 }
 
-Setpoint Interpolator::update(const Overrides& overrides) noexcept {
+Setpoint Interpolator::update(const Overrides& overrides, bool placed) noexcept {
   take(overrides);
   starved_ = false;
   if (phase_ == Phase::standstill) {
@@ -318,7 +318,7 @@ Setpoint Interpolator::update(const Overrides& overrides) noexcept {
         lead_.segment + 1 < window_.end || window_.complete || event_ < window_.event_end;
     if (arrived && !goes_on) {
       starved_ = true;
-      return setpoint();
+      return setpoint(true);
     }
     if (arrived) {
       ++lead_.segment;
@@ -349,10 +349,10 @@ Setpoint Interpolator::update(const Overrides& overrides) noexcept {
   if (phase_ == Phase::flush && flush_ == 0) {
     settle();
   }
-  return setpoint();
+  return setpoint(placed || phase_ != Phase::run);
 }
 
-Setpoint Interpolator::setpoint() noexcept {
+Setpoint Interpolator::setpoint(bool placed) noexcept {
   Setpoint out;
   out.spindle_rev_s = spindle_rev_s_;
   out.coolant = coolant_;
@@ -372,10 +372,12 @@ Setpoint Interpolator::setpoint() noexcept {
     }
   } else if (index_ < window_.end && !out.finished) {
     const auto& s = window_.segment(index_);
-    const PathPoint point = axes_at(s, distance_mm_);
-    position_ = point.position;
-    for (std::size_t i = 0; i < out.velocity.size(); ++i) {
-      out.velocity[i] = point.direction[i] * speed_mm_s_;
+    if (placed) {
+      const PathPoint point = axes_at(s, distance_mm_);
+      position_ = point.position;
+      for (std::size_t i = 0; i < out.velocity.size(); ++i) {
+        out.velocity[i] = point.direction[i] * speed_mm_s_;
+      }
     }
     out.motion = s.motion;
     out.speed_modulation = s.speed_modulation;

@@ -40,8 +40,9 @@ class Interpolator {
   static kernel::outcome::Result<Interpolator> make(const kernel::machine::Machine& machine,
                                                     const PathWindow& path);
 
-  /// The setpoint at the end of the next interpolator period.
-  Setpoint update(const Overrides& overrides) noexcept;
+  /// The setpoint at the end of the next interpolator period. Who samples seldom saves most of the
+  /// time with `placed` false: in motion, position and velocity are then not worked out.
+  Setpoint update(const Overrides& overrides, bool placed = true) noexcept;
 
   /// Passes the periods that further updates with the last one's overrides would make like it: the
   /// same event waited for, or the same speed on the same segment. Returns how many; 0 where it
@@ -84,7 +85,7 @@ class Interpolator {
   void settle() noexcept;
   [[nodiscard]] bool at_event() noexcept;
   [[nodiscard]] bool event_passed(const PathEvent& event) noexcept;
-  [[nodiscard]] Setpoint setpoint() noexcept;
+  [[nodiscard]] Setpoint setpoint(bool placed) noexcept;
 
   PathWindow window_;
   double period_s_;

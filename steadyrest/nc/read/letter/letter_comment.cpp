@@ -28,9 +28,10 @@ bool is_foreign(std::string_view comment) noexcept {
 /// comma. MSG, DEBUG, PRINT, LOG, LOGOPEN, LOGAPPEND, LOGCLOSE, PROBEOPEN and PROBECLOSE move
 /// nothing and set nothing.
 Acting acting_of(std::string_view comment) noexcept {
-  return is_foreign(comment)         ? Acting::foreign
-         : begins(comment, "ABORT,") ? Acting::abort
-                                     : Acting::none;
+  return is_foreign(comment)                                    ? Acting::foreign
+         : begins(comment, "ABORT,")                            ? Acting::abort
+         : begins(comment, "MSG,") || begins(comment, "DEBUG,") ? Acting::message
+                                                                : Acting::none;
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ struct Flow {
 /// A comment that a control acts on, and not only shows.
 enum class Acting : std::uint8_t {
   none,
-  abort,   ///< (ABORT,…) ends the program
-  foreign  ///< (PY,…), ;py,…, (PYRUN,…), (PYRELOAD): what it does only the control knows
+  message,  ///< (MSG,…), (DEBUG,…): shown when the moves before it are done
+  abort,    ///< (ABORT,…) ends the program
+  foreign   ///< (PY,…), ;py,…, (PYRUN,…), (PYRELOAD): what it does only the control knows
 };
 
 /// One line of a program, split into words. Reused from line to line: no allocation.

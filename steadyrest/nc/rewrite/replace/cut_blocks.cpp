@@ -131,11 +131,14 @@ class CutSurvey {
       return move.kind == MoveKind::linear || move.kind == MoveKind::arc ||
              move.kind == MoveKind::spline;
     });
-    inherit(said, !kept_.moves.empty() || said.keeps, cuts || said.keeps);
+    // A dwell takes no motion word.
+    const bool moves = std::ranges::any_of(
+        kept_.moves, [](const Move& move) { return move.kind != MoveKind::dwell; });
+    inherit(said, moves || said.keeps, cuts || said.keeps);
     if (run_.doubt().line) {
       hold_last();
     }
-    cut_last_ = cut_last_ && kept_.moves.empty();
+    cut_last_ = cut_last_ && !moves;
     used_ |= axes_used(run_.block(), kept_.moves);
     by_switch_now_ = false;
     if (run_.block().deleted()) {

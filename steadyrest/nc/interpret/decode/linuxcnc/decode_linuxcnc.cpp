@@ -124,6 +124,7 @@ const DialectRules& linuxcnc_rules() noexcept {
                                        .rotary_tool_in_machine_frame = true,
                                        .taps_in_xy_alone = true,
                                        .programs_in_a_row = false,
+                                       .words_wait = true,
                                        .short_way = true,
                                        .plain_words = true};
   return kRules;

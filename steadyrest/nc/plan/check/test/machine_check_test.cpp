@@ -212,5 +212,54 @@ TEST(IdleOverride, SaysWhenTheNextStepChangesNothing) {
   EXPECT_FALSE(idle(kHead + "G0 X500\nM2\n"));
 }
 
+/// What is said of lines of 0.1 mm at F3000: 2 ms each.
+std::vector<Warning> of_short_blocks(double block_time_s, double min_block_cycles = 0.0) {
+  auto machine = limited_mill();
+  machine.control.dialect = kernel::machine::Dialect::fanuc;
+  machine.control.block_time_s = block_time_s;
+  machine.control.min_block_cycles = min_block_cycles;
+  MachineCheck check(machine, kAll);
+  interpret::Config config;
+  config.dialect = kernel::machine::Dialect::fanuc;
+  run("G21 G90 S1000 M3\nG1 X1 F3000\nX1.1\nX1.2\nM30\n", check, config);
+  return check.warnings();
+}
+
+TEST(MachineCheck, NamesTheFirstBlockThatTheControlIsTooSlowFor) {
+  EXPECT_THAT(of_short_blocks(0.001), IsEmpty());
+  const auto slow = of_short_blocks(0.004);
+  ASSERT_EQ(slow.size(), 1U);
+  EXPECT_EQ(slow[0].line, 3U);
+  EXPECT_EQ(slow[0].text,
+            "0.1 mm at 3000 mm/min take 2 ms, less than a block takes on the control (4 ms): it "
+            "slows to 1500 mm/min");
+}
+
+TEST(MachineCheck, AssumesTheWorstOfAControlWhoseBlockTimeIsNotKnown) {
+  const auto unknown = of_short_blocks(kernel::machine::kUnlimited);
+  ASSERT_EQ(unknown.size(), 1U);
+  EXPECT_THAT(unknown[0].text,
+              HasSubstr("(20 ms): it slows to 300 mm/min; that time is not known"));
+  // Periods say it, too.
+  EXPECT_THAT(of_short_blocks(kernel::machine::kUnlimited, 1.0), IsEmpty());
+}
+
+TEST(MachineCheck, WarnsOfSmallArcsThatLinuxCncsPlannerWithLimitedJerkOverdoes) {
+  const auto said = [](const std::string& mode, kernel::machine::LinuxCncPlanner planner) {
+    auto machine = limited_mill();
+    machine.control.planner = planner;
+    MachineCheck check(machine, kAll);
+    run("G21 G90 S1000 M3 " + mode + "\nG1 X10 Y20 F600\nG3 X18 I4 J0\nG1 X20\nM2\n", check);
+    return check.warnings();
+  };
+  using kernel::machine::LinuxCncPlanner;
+  const auto warned = said("G64 P0.1", LinuxCncPlanner::s_curve);
+  ASSERT_EQ(warned.size(), 1U);
+  EXPECT_EQ(warned[0].line, 3U);
+  EXPECT_THAT(warned[0].text, HasSubstr("an arc of 4 mm under G64 P0.1"));
+  EXPECT_THAT(said("G61", LinuxCncPlanner::s_curve), IsEmpty());
+  EXPECT_THAT(said("G64 P0.1", LinuxCncPlanner::trapezoid), IsEmpty());
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::plan

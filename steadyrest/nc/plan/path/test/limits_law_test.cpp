@@ -163,13 +163,13 @@ RC_GTEST_PROP(PathLimitsLaw, OnAHelixOrSpiralNoAxisIsBeyondItsLimits, ()) {
   }
 }
 
-// Without a deviation an axis jumps by at most one period of its share of the acceleration; where
-// no curve is approximated (long lines) one axis jumps by exactly that.
+// Without a deviation an axis jumps by at most one period of its acceleration; where no curve is
+// approximated (long lines) one axis jumps by exactly that. A kink is the same share at any speed,
+// and that of the ramp after it.
 RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
   const auto axes = random_axes();
   kernel::machine::Control control;
   control.junction_deviation_mm = 0.0;
-  control.junction_share = *rc::gen::element(0.3, 0.7, 1.0);
   const PathLimits limits(axes, control);
   const Point in = random_unit();
   const Point out = random_unit();
@@ -182,11 +182,21 @@ RC_GTEST_PROP(PathLimitsLaw, AtACornerNoAxisJumpsByMoreThanItsPeriod, ()) {
     use = std::max(use, v * std::abs(after[i] - before[i]) /
                             (axes[i].max_acceleration_au_s2 * control.interpolator_period_s));
   }
-  RC_ASSERT(std::abs(use - control.junction_share) <= 1e-9);
-  const double kept = limits.junction_use(before, after, 0.5 * v);
-  RC_ASSERT(std::abs(kept - (control.junction_share < 1.0 ? 0.5 * use : 0.0)) <= 1e-9);
-  RC_ASSERT(limits.junction_use(before, after, 9.0 * v) ==
-            (control.junction_share < 1.0 ? control.junction_share : 0.0));
+  RC_ASSERT(std::abs(use - 1.0) <= 1e-9);
+  const double ramp = random_number(0.0, 5000.0);
+  const double with_ramp = 1.0 + ramp * control.interpolator_period_s / v;
+  RC_ASSERT(std::abs(limits.kink(before, after, v, ramp) / with_ramp - 1.0) <= 1e-9);
+  RC_ASSERT(std::abs(limits.kink(before, after, 0.5 * v, 0.0) - 0.5) <= 1e-9);
+}
+
+TEST(PathLimitsLaw, BriskHasNoJerkLimit) {
+  std::vector<kernel::machine::Axis> axes(3);
+  axes[0].max_jerk_au_s3 = 1e4;
+  kernel::machine::Control control;
+  control.max_path_jerk_mm_s3 = 1e4;
+  EXPECT_GT(PathLimits(axes, control).jerk_time_s(), 0.0);
+  control.acceleration_mode = kernel::machine::AccelerationMode::brisk;
+  EXPECT_EQ(PathLimits(axes, control).jerk_time_s(), 0.0);
 }
 
 // The averaging time is the longest A/J of the axes and of the path (√3 times the largest linear

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/nc/plan/test/moves.hpp>
+#include <steadyrest/nc/plan/time/interpolator.hpp>
 #include <steadyrest/nc/plan/time/test/interpolated.hpp>
 
 namespace steadyrest::nc::plan {
@@ -154,6 +155,36 @@ TEST(Interpolator, AProgramWithoutMotionFinishes) {
   Program p;
   p.dwell(0.1);
   EXPECT_EQ(run(m, plan_of(m, p)).size(), 100U);
+}
+
+// Where the positions between are not worked out, nothing else changes: at a dwell the machine
+// stands where the cut before it ended.
+TEST(Interpolator, IsTheSameWhereFewPositionsAreWorkedOut) {
+  for (const double jerk : {0.0, 50000.0}) {
+    const auto m = jerk > 0.0 ? mill(jerk) : mill();
+    Program p;
+    p.line(20, 0, 50.0);
+    p.dwell(0.05);
+    p.arc(30, 10, 20, 10, 1, 40.0);
+    p.line(30, 40, 80.0);
+    const auto path = plan_of(m, p);
+    auto every = Interpolator::make(m, whole(path)).value();
+    auto some = Interpolator::make(m, whole(path)).value();
+    for (std::size_t i = 0; !every.finished(); ++i) {
+      ASSERT_LT(i, 10'000U);
+      const bool placed = i % 5 == 0;
+      const Setpoint is = every.update({});
+      const Setpoint was = some.update({}, placed);
+      ASSERT_EQ(was.motion, is.motion) << i;
+      ASSERT_EQ(was.line, is.line) << i;
+      ASSERT_EQ(was.finished, is.finished) << i;
+      ASSERT_EQ(was.path_position_mm, is.path_position_mm) << i;
+      ASSERT_EQ(was.path_speed_mm_s, is.path_speed_mm_s) << i;
+      if (placed || is.motion == kernel::signal::Motion::dwell || is.finished) {
+        ASSERT_EQ(was.position, is.position) << i;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -126,6 +126,17 @@ TEST(CutBlocks, HandTheirMotionOnToABlockWithAnyOtherWord) {
   EXPECT_FALSE(hands_on("G81 X7 Z-1 R1\nX9", Dialect::linuxcnc));
 }
 
+TEST(CutBlocks, HandNothingOnToADwell) {
+  const auto arc_before = [](const std::string& next, Dialect dialect) {
+    return why_it_stays("G21 G90 G94 G17 F100\nG0 X9 Y0 Z1\nG2 X9 Y0 I-9 J0\n" + next + "\nM2\n", 3,
+                        dialect);
+  };
+  EXPECT_EQ(arc_before("G4 P0.5", Dialect::linuxcnc), Stays::free);
+  EXPECT_EQ(arc_before("G4 P500", Dialect::fanuc), Stays::free);
+  EXPECT_EQ(arc_before("G4 P0.5\nG0 X1", Dialect::linuxcnc), Stays::free);
+  EXPECT_EQ(arc_before("G4 P0.5\nX9 Y0 I-9 J0", Dialect::linuxcnc), Stays::motion_needed);
+}
+
 // LinuxCNC ignores G52 when G10 changes the rotation under it: the control counts with another
 // point than where the machine is, and an axis that is not named goes there.
 TEST(CutBlocks, StayWholeWhereTheControlCountsWithAnotherStart) {
