@@ -8,7 +8,7 @@
 #include <steadyrest/kernel/machine/axis.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
-/// Servo gain and feed-forward of an axis from a record of its motion.
+/// Servo gain, feed-forward, lag and delay of an axis from a record of its motion.
 namespace steadyrest::contour::offline {
 
 /// Positions of one axis, sampled once a cycle. mm, on a rotary axis rad; so are all lengths below.
@@ -25,15 +25,27 @@ struct ServoFit {
   double gain_sd_1_s = 0.0;
   double feed_forward = 0.0;  ///< f
   double feed_forward_sd = 0.0;
+  double lag_s = 0.0;  ///< τ of the velocity loop; 0: the record shows none
+  double lag_sd_s = 0.0;
+  double least_lag_s = 0.0;  ///< what the record allows, two standard deviations each way
+  double most_lag_s = 0.0;
+  bool second_order = false;  ///< the velocity loop has a second pole
+  double delay_s = 0.0;       ///< d, of all axes
+  double delay_sd_s = 0.0;
+  double mode_hz = 0.0;  ///< of a structure that the encoder sees; 0: none
+  double mode_damping = 0.0;
+  double mode_weight = 0.0;
+  /// The record determines gain (3 %) and feed-forward (0.05) well enough for the machine file.
+  bool determined = true;
   double rest_error = 0.0;  ///< c − x at rest
   /// Actual less simulated position over the whole record, at rest too.
   double rms = 0.0;
   double largest = 0.0;
-  double hard_rms = 0.0;  ///< the same where the command accelerates hardest, and just after
-  double calm_rms = 0.0;  ///< elsewhere
-  int shift_cycles = 0;
+  double hard_rms = 0.0;    ///< the same where the command accelerates hardest, and just after
+  double calm_rms = 0.0;    ///< elsewhere
+  int shift_cycles = 0;     ///< the delay in whole cycles
   std::size_t samples = 0;  ///< in motion: those that the fit used
-  /// How far the axis falls behind the law when it reverses; backlash and friction raise it.
+  /// How far the axis falls behind when it reverses: backlash and friction.
   double lost_motion = 0.0;
   double lost_motion_sd = 0.0;
   std::size_t reversals = 0;
@@ -42,27 +54,30 @@ struct ServoFit {
 struct ServoFits {
   std::vector<ServoFit> axes;
   double period_s = 0.0;
-  bool shift_certain = false;  ///< the other shift fits clearly worse
+  bool shift_certain = false;  ///< the delay is known to half a cycle, two standard deviations
 };
 
 /// Fits every axis; `logs` and `axes` belong together, one by one.
 ///
-/// Law. x' = k·(c − x − o) + f·c', o the error at rest. With the command straight between two
-/// samples, h apart, and e = c − x, d = Δc, that is exactly
-///   e⁺ = p·e + q·d + o·(1 − p),   p = exp(−k·h),   q = (1 − f)·(1 − p)/(k·h).
-/// The command may be `shift_cycles` ahead of the actual position: c is that of so many cycles
-/// before. The same shift holds for all axes: 0 or 1, whichever leaves less (likelihood). With
-/// little feed-forward it leaves no trace but a feed-forward lower by k·h; then 1 where 0 would
-/// give one below zero, else 0.
+/// Law (servo_law.hpp). τ·x″ + x′ = k·(c(t − d) − x − o) + f·c′(t − d), o the error at rest, d
+/// common to all axes; where the record supports it with a second pole of the velocity loop, a
+/// structural mode that the encoder sees, and motion lost at reversals. Maximum likelihood of the
+/// free simulation over what is in motion, exact in discrete time, residuals with the colour of an
+/// autoregression of up to 8 cycles (servo_likelihood.hpp).
 ///
-/// Least squares for p, q and o over the stretches in motion, then again with the simulated e as
-/// instrument and all filtered by 1/(1 − p·z⁻¹) until p stays: counts and noise in e no longer pull
-/// p down, and what is made small is the error of the free simulation. Standard deviations from
-/// sums over batches longer than 5/k, so residuals that hang together count for what they are.
+/// From the simplest law up: gain, feed-forward and a delay of no cycle or one, where they leave no
+/// more than the counts and the unknown between the samples do (servo_simplest.hpp). Else what the
+/// record supports: −2·ln of the likelihood and 6 for each number, over all combinations, with
+/// delays of 0, ½ and 1 cycle beside a free one (servo_orders.hpp). Standard deviations hold what
+/// this choice leaves open: near τ = f = 0 a delay, a lag and a gain look alike to the first order.
+///
+/// Of 44 random axes (k 12 … 57 1/s, τ to 20 ms, f to 0.9, delays to 3 ms, 1 µm of noise, half of
+/// them with a mode of 40 Hz) 6 were refused, as f and the delay could not be told apart; of the
+/// other 38 had 35 k within 2 % and τ within 1 ms. Two standard deviations held for k in 34, for f
+/// in 32, for τ in 35: they are too small where a mode passes for delay and feed-forward.
 ///
 /// A control that interpolates finer than the log's cycle makes k too high by about k·(k·h)²/12:
-/// 0.4 % at 50 1/s and 4 ms. One that samples and holds, x⁺ = x + h·k·(c − x) + f·d, is fitted to
-/// the order k·h/2.
+/// 0.4 % at 50 1/s and 4 ms.
 ///
 /// Refused, by the axis's name: a cycle that is not even; travel, speed or gain outside the axis's
 /// limits; too little motion; constant speed only; no following error; an actual position that

@@ -24,24 +24,31 @@ class ErrorFigures {
     put(nominal_, error, sample.more_mm, line);
     over_ += error > limit_mm_ ? 1U : 0U;
     for (std::size_t i = 0; i < others_.size(); ++i) {
-      put(others_[i], sample.other_error_mm[i], sample.more_mm, line);
+      others_[i].add(sample.others[i].error_mm, sample.others[i].peak_mm);
     }
   }
 
-  struct Of {
+  struct Whole {
     double max_mm = 0.0;
     double sum_mm2 = 0.0;
     std::size_t samples = 0;
-    std::vector<float> by_line_mm;  ///< largest, by line number
     [[nodiscard]] double rms_mm() const noexcept {
       return samples == 0 ? 0.0 : std::sqrt(sum_mm2 / static_cast<double>(samples));
     }
+    void add(double error_mm, double peak_mm) noexcept {
+      max_mm = std::max(max_mm, peak_mm);
+      sum_mm2 += error_mm * error_mm;
+      ++samples;
+    }
+  };
+  struct Of : Whole {
+    std::vector<float> by_line_mm;  ///< largest, by line number
     [[nodiscard]] double line_mm(std::size_t line) const noexcept {
       return line < by_line_mm.size() ? static_cast<double>(by_line_mm[line]) : 0.0;
     }
   };
   [[nodiscard]] const Of& nominal() const noexcept { return nominal_; }
-  [[nodiscard]] std::span<const Of> others() const noexcept { return others_; }
+  [[nodiscard]] std::span<const Whole> others() const noexcept { return others_; }
   [[nodiscard]] double share_over() const noexcept {
     return nominal_.samples == 0
                ? 0.0
@@ -50,9 +57,7 @@ class ErrorFigures {
 
  private:
   static void put(Of& of, double error_mm, double more_mm, std::uint32_t line) {
-    of.max_mm = std::max(of.max_mm, error_mm + more_mm);
-    of.sum_mm2 += error_mm * error_mm;
-    ++of.samples;
+    of.add(error_mm, error_mm + more_mm);
     if (line >= of.by_line_mm.size()) {
       of.by_line_mm.resize(line + 1U, 0.0F);
     }
@@ -61,7 +66,7 @@ class ErrorFigures {
 
   double limit_mm_;
   Of nominal_;
-  std::vector<Of> others_;
+  std::vector<Whole> others_;
   std::size_t over_ = 0;
 };
 

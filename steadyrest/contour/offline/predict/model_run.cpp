@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include <steadyrest/contour/offline/predict/model_run.hpp>
-#include <steadyrest/contour/online/axis_step.hpp>
+#include <steadyrest/contour/offline/predict/other_axes.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/signal/arriving.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
@@ -18,52 +18,13 @@ namespace {
 namespace geometry = math::geometry;
 using kernel::signal::Motion;
 using kernel::signal::PathSegment;
+using kernel::signal::PathView;
 using kernel::signal::Point;
 using nc::plan::Setpoint;
-using online::AxisStep;
 
 constexpr double kJump = 1.5;  ///< of the tool's way, that its foot goes at a corner …
 constexpr double kLeastJump_mm = 0.01;
 constexpr double kSampleOfLag = 0.1;  ///< between two samples, in 1/k
-
-/// Three axes that follow their commands.
-class Axes {
- public:
-  Axes(const ServoModels& model, double period_s, const std::array<double, 3>& backlash_mm) noexcept
-      : backlash_mm_(backlash_mm) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      step_[i] = AxisStep::of(model[i], period_s);
-    }
-  }
-
-  /// One period with these mean velocities and their change since the period before.
-  void step(const Point& mean_mm_s, const Point& change_mm_s) noexcept {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const AxisStep& s = step_[i];
-      const double e = state_.error_mm[i];
-      const double w = state_.velocity_mm_s[i];
-      state_.error_mm[i] =
-          s.ee * e + s.ew * w + s.e_mean * mean_mm_s[i] + s.e_change * change_mm_s[i];
-      state_.velocity_mm_s[i] =
-          s.we * e + s.ww * w + s.w_mean * mean_mm_s[i] + s.w_change * change_mm_s[i];
-    }
-  }
-  /// z = min(max(z, x − b/2), x + b/2)
-  void carry(const Point& command_mm) noexcept {
-    const Point motor = geometry::subtract(command_mm, state_.error_mm);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double half = 0.5 * backlash_mm_[i];
-      tool_mm_[i] = std::clamp(tool_mm_[i], motor[i] - half, motor[i] + half);
-    }
-  }
-  [[nodiscard]] const Point& tool_mm() const noexcept { return tool_mm_; }
-
- private:
-  std::array<AxisStep, 3> step_{};
-  online::ServoState state_;
-  std::array<double, 3> backlash_mm_;
-  Point tool_mm_{};
-};
 
 class Runner {
  public:
@@ -75,10 +36,10 @@ class Runner {
         step_s_(period_s_ * static_cast<double>(every_)),
         arriving_(softest_gain_1_s(run.model)),
         contour_(contour),
-        axes_(run.model, step_s_, run.backlash_mm),
-        other_error_mm_(run.others.size()) {
-    for (const ServoModels& other : run.others) {
-      others_.emplace_back(other, step_s_, run.backlash_mm);
+        others_(run.others, step_s_, run.backlash_mm),
+        bends_mm_(run.others.size() > 0 ? bends_of(run.original.segments) : std::vector<double>{}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      axes_.emplace_back(run.model[i], step_s_, run.backlash_mm[i]);
     }
   }
 
@@ -95,16 +56,16 @@ class Runner {
     }
     const Point mean = geometry::scale(geometry::subtract(command, before_), 1.0 / step_s_);
     const Point change = geometry::subtract(mean, mean_);
-    axes_.step(mean, change);
-    axes_.carry(command);
-    for (Axes& other : others_) {
-      other.step(mean, change);
-      other.carry(command);
+    for (std::size_t i = 0; i < 3; ++i) {
+      axes_[i].step(command[i], mean[i], change[i]);
     }
+    others_.step(command, mean, change);
     before_ = command;
     mean_ = mean;
     sample(s, motion, command, on_sample);
   }
+  /// The next setpoint's position is needed.
+  [[nodiscard]] bool placed() const noexcept { return count_ == 0 || (count_ + 1) % every_ == 0; }
   /// The command has ended; the tool goes on until it has arrived.
   void arrive(const Setpoint& end, const std::function<void(const ModelSample&)>& on_sample) {
     do {
@@ -123,7 +84,7 @@ class Runner {
             : 0.0;
     const double start = run_.map.start_mm[s.path_index];
     progress_mm_ = start + share * (run_.map.end_mm[s.path_index] - start);
-    const auto& original = run_.original.segments;
+    const PathView original = run_.original.segments;
     const auto ends_before = [&](std::size_t i) {
       return i + 1 < original.size() &&
              original[i].position_mm + original[i].length_mm < progress_mm_;
@@ -134,24 +95,18 @@ class Runner {
     while (index_ > 0 && original[index_].position_mm > progress_mm_) {
       --index_;
     }
+    const Point tool = {axes_[0].tool_mm(), axes_[1].tool_mm(), axes_[2].tool_mm()};
     const auto error = contour_.update({.time_s = time_s(),
                                         .command_mm = command,
-                                        .actual_mm = axes_.tool_mm(),
+                                        .actual_mm = tool,
                                         .path = original,
                                         .path_index = index_,
                                         .path_position_mm = progress_mm_,
                                         .path_speed_mm_s = s.path_speed_mm_s});
-    const double more = error.valid ? peak_mm(error) - std::abs(error.error_mm) : 0.0;
+    const double more = error.valid ? peak_mm(error, tool) - std::abs(error.error_mm) : 0.0;
     const Point unknown = run_.unknown ? run_.unknown(error.foot_position_mm) : Point{};
-    for (std::size_t i = 0; i < others_.size(); ++i) {
-      const Point off =
-          geometry::subtract(geometry::subtract(others_[i].tool_mm(), error.foot_mm), unknown);
-      const Point across =
-          geometry::add_scaled(off, error.tangent, -geometry::dot(off, error.tangent));
-      other_error_mm_[i] = geometry::norm(across);
-    }
     if (error.valid) {
-      const Point off = geometry::add(geometry::subtract(error.foot_mm, axes_.tool_mm()), unknown);
+      const Point off = geometry::add(geometry::subtract(error.foot_mm, tool), unknown);
       on_sample(
           {.time_s = time_s(),
            .position_mm = s.path_position_mm,
@@ -162,19 +117,29 @@ class Runner {
                run_.unknown ? std::copysign(geometry::norm(off), error.error_mm) : error.error_mm,
            .more_mm = more,
            .off_mm = off,
+           .axes = {.servo = servo(), .mean_mm_s = mean_, .tool_mm = tool},
            .line = line_,
            .segment = s.path_index,
            .cuts = motion == Motion::feed && original[error.foot_index].motion == Motion::feed,
            .arriving = arriving_.cuts_on(),
            .ended = s.finished,
-           .other_error_mm = other_error_mm_});
+           .others = others_.errors(
+               {.path = original, .at = error, .unknown_mm = unknown, .bends_mm = bends_mm_})});
     }
+  }
+
+  [[nodiscard]] online::ServoState servo() const noexcept {
+    online::ServoState state;
+    for (std::size_t i = 0; i < 3; ++i) {
+      state.error_mm[i] = axes_[i].error_mm();
+      state.velocity_mm_s[i] = axes_[i].velocity_mm_s();
+    }
+    return state;
   }
 
   /// The largest error since the sample before. At a corner it rises until the foot jumps to the
   /// other side, and falls from there: between two samples the peak would be missed.
-  double peak_mm(const online::ContourError::Output& error) noexcept {
-    const Point& tool = axes_.tool_mm();
+  double peak_mm(const online::ContourError::Output& error, const Point& tool) noexcept {
     const double moved_mm = geometry::distance(tool, last_tool_mm_);
     double peak = std::abs(error.error_mm);
     if (last_foot_mm_ >= 0.0 &&
@@ -198,9 +163,9 @@ class Runner {
   double step_s_;
   kernel::signal::Arriving arriving_;
   online::ContourError contour_;
-  Axes axes_;
-  std::vector<Axes> others_;
-  std::vector<double> other_error_mm_;
+  std::vector<ModelAxis> axes_;
+  OtherAxes others_;
+  std::vector<double> bends_mm_;
   std::size_t count_ = 0;
   std::size_t index_ = 0;  ///< segment of the original
   double progress_mm_ = 0.0;
@@ -279,7 +244,8 @@ kernel::outcome::Result<double> run_model(
   Runner runner(run, *contour);
   nc::plan::SpindleClock spindle(run.machine.spindle);
   for (;;) {
-    const Setpoint s = interpolator->update({.spindle_actual_rev_s = spindle.speed_rev_s()});
+    const Setpoint s =
+        interpolator->update({.spindle_actual_rev_s = spindle.speed_rev_s()}, runner.placed());
     if (s.finished) {
       const double seconds = runner.time_s();
       runner.arrive(s, on_sample);

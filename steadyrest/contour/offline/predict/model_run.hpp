@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <steadyrest/contour/online/axis_step.hpp>
 #include <steadyrest/contour/online/servo_model.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -24,6 +25,21 @@ using ServoModels = std::array<online::AxisModel, 3>;
     std::span<const kernel::machine::Axis> axes) noexcept;
 /// The lowest gain, 1/s.
 [[nodiscard]] double softest_gain_1_s(const ServoModels& models) noexcept;
+
+/// What each axis may be as well; together all combinations, those of Z fastest. None where an axis
+/// has none.
+struct OtherModels {
+  std::array<std::vector<online::AxisModel>, 3> axis;
+
+  [[nodiscard]] std::size_t size() const noexcept {
+    return axis[0].size() * axis[1].size() * axis[2].size();
+  }
+  [[nodiscard]] ServoModels operator[](std::size_t i) const {
+    const std::size_t z = axis[2].size();
+    const std::size_t yz = axis[1].size() * z;
+    return {axis[0][i / yz], axis[1][i % yz / z], axis[2][i % z]};
+  }
+};
 
 /// How far each axis is behind its command, s: g = (1 − a)/k.
 [[nodiscard]] std::array<double, 3> first_lags_s(const ServoModels& models) noexcept;
@@ -44,13 +60,26 @@ struct ModelRun {
   const PathMap& map;
   ServoModels model;
   /// Other models that follow the same commands: what the model's uncertainty makes of it.
-  std::vector<ServoModels> others;
+  OtherModels others;
   std::array<double, 3> backlash_mm{};  ///< between the motors and the tool
   /// What the tool is off by beyond the model, by original path length: added to all errors.
   std::function<kernel::signal::Point(double foot_mm)> unknown = nullptr;
 };
 
-/// One sample of the run; `other_error_mm` and the sample are valid during the call only.
+/// Where the modelled axes are and how they move.
+struct AxesState {
+  online::ServoState servo;           ///< behind the command
+  kernel::signal::Point mean_mm_s{};  ///< of the command, over the last step
+  kernel::signal::Point tool_mm{};    ///< within the backlash of the motors
+};
+
+/// Of one of the other models.
+struct OtherError {
+  double error_mm = 0.0;  ///< its magnitude
+  double peak_mm = 0.0;   ///< the largest since the sample before
+};
+
+/// One sample of the run; `others` and the sample are valid during the call only.
 struct ModelSample {
   double time_s = 0.0;
   double position_mm = 0.0;   ///< of the command on the path that is run
@@ -61,12 +90,13 @@ struct ModelSample {
   /// How much larger the error was since the sample before, where the tool passes a corner.
   double more_mm = 0.0;
   kernel::signal::Point off_mm{};  ///< from the tool to its foot
-  std::uint32_t line = 0;          ///< of the path that is run
+  AxesState axes;
+  std::uint32_t line = 0;  ///< of the path that is run
   std::size_t segment = 0;
-  bool cuts = false;                       ///< the command is in a feed move, and so is the tool
-  bool arriving = false;                   ///< the command waits, the tool still cuts …
-  bool ended = false;                      ///< … behind the program's end: no part of its time
-  std::span<const double> other_error_mm;  ///< magnitudes, for each of `others`
+  bool cuts = false;      ///< the command is in a feed move, and so is the tool
+  bool arriving = false;  ///< the command waits, the tool still cuts …
+  bool ended = false;     ///< … behind the program's end: no part of its time
+  std::span<const OtherError> others;
 };
 
 /// Runs a planned program on the servo model: the control's setpoints (nc/plan, 100 % override),
@@ -74,8 +104,8 @@ struct ModelSample {
 ///
 ///   τ·ẍ + ẋ = k·(c − x) + a·ċ;   error = min |p(s) − x| near the place that the map gives.
 ///
-/// The errors of `others` are taken square to the path at the foot of `model`: good to (k − k′)²v²
-/// /(2Rk⁴), the square of a difference of lags. Samples are 0.1/k of the softest axis apart, at
+/// The errors of `others` are taken square to the path at the foot of `model` where that is good to
+/// 1 µm, else they are searched for around it. Samples are 0.1/k of the softest axis apart, at
 /// least one interpolator period. The tool follows the motors within the
 /// backlash, and after a stop until it has arrived (Arriving), at the program's end too. Not in it:
 /// friction, cutting forces. Returns the cycle time in s; the spindle takes its ramps. Refused:

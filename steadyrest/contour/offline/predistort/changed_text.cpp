@@ -23,6 +23,7 @@
 namespace steadyrest::contour::offline {
 namespace {
 
+namespace geometry = math::geometry;
 using kernel::outcome::Result;
 using kernel::signal::Geometry;
 using kernel::signal::PathSegment;
@@ -37,7 +38,7 @@ constexpr double kSameBlock_mm = 1e-4;
 constexpr double kSameBlockFeed = 1e-4;  ///< of the feed
 
 bool same_place(const Point& a, const Point& b) noexcept {
-  return math::geometry::distance(a, b) <= kSameBlock_mm;
+  return geometry::distance(a, b) <= kSameBlock_mm;
 }
 
 /// The moves run along the block's own line or arc (a segment of the path) at its own feed.
@@ -49,7 +50,7 @@ bool changes_nothing(const std::vector<NewMove>& moves, const CutBlock& block,
   const auto same = [&](const NewMove& move) {
     const bool arc = move.geometry == Geometry::arc;
     return move.geometry == of.geometry && std::abs(move.feed_ratio - 1.0) <= kSameBlockFeed &&
-           math::geometry::foot_point(of, move.end_mm).distance_mm <= kSameBlock_mm &&
+           geometry::foot_point(of, move.end_mm).distance_mm <= kSameBlock_mm &&
            (!arc || (move.clockwise == clockwise && same_place(move.centre_mm, of.centre_mm)));
   };
   return !moves.empty() && std::ranges::all_of(moves, same) &&
@@ -108,7 +109,7 @@ class Writer {
 
  private:
   static bool moves_nothing(const CutBlock& block) noexcept {
-    return math::geometry::distance(block.start_mm, block.end_mm) < 1e-9;
+    return geometry::distance(block.start_mm, block.end_mm) < 1e-9;
   }
 
   /// Nothing where they would change nothing.
@@ -129,10 +130,9 @@ class Writer {
     if (modes_kept_ && same_place(at_mm_, block.start_mm) &&
         changes_nothing(moves.moves, block, segments[segment])) {
       as_they_are_.emplace(block.line, first);
-      at_mm_ =
-          block.incremental
-              ? math::geometry::add(at_mm_, math::geometry::subtract(block.end_mm, block.start_mm))
-              : block.end_mm;
+      at_mm_ = block.incremental
+                   ? geometry::add(at_mm_, geometry::subtract(block.end_mm, block.start_mm))
+                   : block.end_mm;
       return std::nullopt;
     }
     return write(block, line, moves);
@@ -151,7 +151,7 @@ class Writer {
     // The control rounds the corner before the run, so the run begins behind it; the block before,
     // which stays, ends at the corner.
     const Point& first = pieces_[next_].segment.start_mm;
-    if (math::geometry::distance(at_mm_, first) > kLeastArc_mm && begins) {
+    if (geometry::distance(at_mm_, first) > kLeastArc_mm && begins) {
       put({.geometry = Geometry::line, .end_mm = first, .feed_ratio = 1.0});
     }
     for (; next_ < pieces_.size() && pieces_[next_].segment.line == block.line; ++next_) {
@@ -270,7 +270,6 @@ class Mapping {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  static constexpr double kHalfTurn_rad = std::numbers::pi;
   static constexpr double kNear_mm = 10.0;  ///< more than a correction moves anything
 
   [[nodiscard]] double whole_mm() const {
@@ -306,11 +305,17 @@ class Mapping {
     // What rounds the end of a block is the last of its line.
     const bool rounds = same_block && i + 1 < segments.size() && segments[i + 1].line != line &&
                         segments[i].geometry == Geometry::arc;
-    const std::size_t of = same_block ? (rounds ? taken_ : kNone) : kept(line, at_mm);
-    return of == kNone || original_[of].line != origin_of(line)
-               ? kernel::units::kNan
-               : original_[of].position_mm +
-                     original_[of].length_mm * passed(original_[of], segments[i].start_mm, rounds);
+    std::size_t of = same_block ? (rounds ? taken_ : kNone) : kept(line, at_mm);
+    if (of == kNone || original_[of].line != origin_of(line)) {
+      return kernel::units::kNan;
+    }
+    // Blocks that the control merges have the first one's line: the end is the last one's.
+    const Point& at = segments[i].start_mm;
+    for (auto j = of; rounds && j < original_.size() && original_[j].position_mm < at_mm; ++j) {
+      const double away_mm = geometry::distance(at, original_[j].end_mm);
+      of = away_mm < geometry::distance(at, original_[of].end_mm) ? j : of;
+    }
+    return original_[of].position_mm + original_[of].length_mm * passed(original_[of], at, rounds);
   }
 
   /// How much of a segment is behind a point near its start (near its end where `at_end`), as a
@@ -319,10 +324,10 @@ class Mapping {
     if (!(segment.length_mm > 0.0)) {
       return 0.0;
     }
-    const double part = std::min(0.5, kHalfTurn_rad / std::max(segment.sweep_rad, 1e-9));
-    const auto foot = at_end ? math::geometry::foot_point(segment, point, 1.0 - part, 1.0, 1.0)
-                             : math::geometry::foot_point(segment, point, 0.0, part, 0.0);
-    return math::geometry::distance_at(segment, foot.u) / segment.length_mm;
+    const double part = std::min(0.5, std::numbers::pi / std::max(segment.sweep_rad, 1e-9));
+    const auto foot = at_end ? geometry::foot_point(segment, point, 1.0 - part, 1.0, 1.0)
+                             : geometry::foot_point(segment, point, 0.0, part, 0.0);
+    return geometry::distance_at(segment, foot.u) / segment.length_mm;
   }
 
   /// A block that stays: the next segment of the original with its line.

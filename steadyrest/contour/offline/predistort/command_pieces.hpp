@@ -20,6 +20,8 @@ struct CommandTask {
   const ServoInverse& inverse;
   const Learnt& learnt;
   const FeedCaps& caps;
+  double tolerance_mm = ShapeConfig{}.tolerance_mm;  ///< of the fit
+  double smooth = ShapeConfig{}.smooth;
 };
 
 /// The pieces for a command at this speed: its curve, corners led beyond, kinks rounded, feeds
@@ -32,6 +34,8 @@ struct CommandTask {
   const ToolMotion motion(task.inverse, task.path, speed);
   const nc::plan::PathLimits limits(task.machine.axes, task.machine.control);
   ShapeConfig shape;
+  shape.tolerance_mm = task.tolerance_mm;
+  shape.smooth = task.smooth;
   shape.across_mm_s2 =
       kAcrossShare * limits.centripetal_share() * limits.plane({0.0, 0.0, 1.0}).acceleration_mm_s2;
   auto made = CommandShape(task.path, use, task.inverse, motion, task.learnt, shape).pieces();

@@ -50,7 +50,7 @@ bool FeedCaps::tighten(const std::vector<ErrorPlace>& places, const CommandSpeed
                        double limit_mm) {
   bool fallen = false;
   for (const ErrorPlace& place : places) {
-    if (!(place.error_mm > limit_mm)) {
+    if (!(place.error_mm > limit_mm) || place.early) {
       continue;
     }
     const double from = place.foot_mm - kSpare_mm;

@@ -15,6 +15,7 @@ struct ErrorPlace {
   double foot_mm = 0.0;      ///< original path length that the tool is at
   double progress_mm = 0.0;  ///< … and the command
   double error_mm = 0.0;     ///< magnitude
+  bool early = false;        ///< what comes before has left it: no feed here takes it away
 };
 
 /// Lower feeds where a changed path alone does not keep a limit.

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <expected>
+#include <utility>
+#include <vector>
 
 #include <steadyrest/contour/offline/predistort/corner_errors.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
@@ -11,17 +14,46 @@ namespace steadyrest::contour::offline {
 namespace {
 
 constexpr std::size_t kBetweenProgress = 4096;  ///< samples
+constexpr double kWake = 3.0;                   ///< in time constants of the softest axis
+constexpr double kPause = 10.5;                 ///< periods without a sample of a cut
+
+/// Notes where each block of the text begins and with what state of the axes.
+class Starts {
+ public:
+  void add(const ModelSample& sample, std::uint32_t line) {
+    if (line != last_line_) {
+      const auto& error = sample.axes.servo.error_mm;
+      last_.next_error_mm = {error[0], error[1], error[2]};
+      all_.push_back(last_);
+    }
+    last_line_ = line;
+    last_ = {.progress_mm = sample.progress_mm,
+             .foot_mm = sample.foot_mm,
+             .speed_mm_s = sample.command_mm_s,
+             .axes = sample.axes};
+  }
+  std::vector<BlockStart> take() { return std::move(all_); }
+
+ private:
+  std::vector<BlockStart> all_;
+  BlockStart last_;
+  std::uint32_t last_line_ = 0;
+};
 
 }  // namespace
 
 kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& changed,
                                             const std::vector<Corner>& corners) {
-  FollowedRun run{.figures = ErrorFigures(by.limit_mm, by.others.size()),
-                  .speed = {},
-                  .corner_mm = {},
-                  .errors = {},
-                  .over = {},
-                  .runs = RunErrors(by.runs, by.others.size())};
+  FollowedRun run{
+      .figures = ErrorFigures(by.limit_mm, by.others.size()),
+      .speed = {},
+      .corner_mm = {},
+      .errors = {},
+      .over = {},
+      .starts = {},
+      .runs = RunErrors(by.runs, by.others.size(),
+                        {.lasts_s = kWake / softest_gain_1_s(by.model),
+                         .pause_s = kPause * by.machine.control.interpolator_period_s})};
   CornerErrors corner_errors(corners);
   const auto& origin = changed.replaced.origin;
   const PathMap map{.start_mm = changed.start_mm, .end_mm = changed.end_mm};
@@ -37,10 +69,13 @@ kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& ch
   }
   const double whole_mm = std::max(1e-9, map.end_mm.empty() ? 0.0 : map.end_mm.back());
   std::size_t samples = 0;
+  Starts starts;
   const auto seconds = run_model(model, [&](const ModelSample& sample) {
     if (samples++ % kBetweenProgress == 0) {
       by.progress(sample.progress_mm / whole_mm);
     }
+    const std::uint32_t line = sample.line < origin.size() ? origin[sample.line] : sample.line;
+    starts.add(sample, line);
     run.speed.add(sample.progress_mm, sample.command_mm_s);
     corner_errors.add(sample);
     run.errors.push_back({.valid = sample.cuts && !sample.arriving,
@@ -48,13 +83,13 @@ kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& ch
                           .foot_mm = sample.foot_mm,
                           .off_mm = sample.off_mm});
     if (sample.cuts) {
-      const std::uint32_t line = sample.line < origin.size() ? origin[sample.line] : sample.line;
       run.figures.add(sample, line);
       run.runs.add(sample, line, by.original.segments);
       if (by.hold_mm > 0.0 && std::abs(sample.error_mm) > by.hold_mm) {
         run.over.push_back({.foot_mm = sample.foot_mm,
                             .progress_mm = sample.progress_mm,
-                            .error_mm = std::abs(sample.error_mm)});
+                            .error_mm = std::abs(sample.error_mm),
+                            .early = run.runs.early()});
       }
     }
   });
@@ -63,6 +98,7 @@ kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& ch
   }
   run.seconds = *seconds;
   run.corner_mm = corner_errors.take();
+  run.starts = starts.take();
   return run;
 }
 

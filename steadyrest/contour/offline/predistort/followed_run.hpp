@@ -16,6 +16,15 @@
 
 namespace steadyrest::contour::offline {
 
+/// The axes at the last sample before the command goes to another block of the original.
+struct BlockStart {
+  double progress_mm = 0.0;  ///< of that sample
+  double foot_mm = 0.0;
+  double speed_mm_s = 0.0;  ///< of the command
+  AxesState axes;
+  kernel::signal::Point next_error_mm{};  ///< behind the command, one sample later
+};
+
 /// A changed program on the servo model.
 struct FollowedRun {
   double seconds = 0.0;
@@ -24,6 +33,7 @@ struct FollowedRun {
   std::vector<double> corner_mm;    ///< largest error near each corner
   std::vector<ErrorSample> errors;  ///< what refinements are made from
   std::vector<ErrorPlace> over;     ///< above Judging::hold_mm, in order
+  std::vector<BlockStart> starts;   ///< in order
   RunErrors runs;
 };
 
@@ -32,7 +42,7 @@ struct Judging {
   const kernel::machine::Machine& machine;
   const nc::plan::PlannedPath& original;
   const ServoModels& model;
-  const std::vector<ServoModels>& others;
+  const OtherModels& others;
   const Learnt& learnt;  ///< what records have shown beyond the model
   const CutRuns& runs;
   double limit_mm = 0.01;

@@ -28,14 +28,17 @@ namespace steadyrest::contour::offline {
 ///
 /// Bounded: where the command would leave the path by more than `max_shift_mm` the block stays. The
 /// control plans what is written, so no axis exceeds its speed, acceleration or jerk. Robust: the
-/// error of the changed program is worked out for every model whose gains are all off by
-/// `gain_uncertainty`, each axis up or down; a block that any of them makes worse stays. Proved
-/// (nc/rewrite/tube/prove_made): where the proof or the control would refuse what is written, the
-/// blocks there stay.
+/// error of the changed program is worked out for every model whose gains and lags are all off by
+/// their uncertainty, each axis up or down; a block that comes out worse on any of them stays.
+/// Proved (nc/rewrite/tube/prove_made): where the proof or the control would refuse what is
+/// written, the blocks there stay.
 struct PredistortConfig {
   double limit_mm = 0.01;
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
+  /// Of the velocity loops' lags, in 1/k, 0 … 0.5. None: as ServoUncertainty::of() says; 0 where
+  /// parts teach.
+  std::optional<double> lag_uncertainty = std::nullopt;
   int rounds = 4;
   /// Of the program's own time; a slower round does not count, but is named if it wins much.
   double most_time = RoundScore::kUsualTime;
@@ -68,6 +71,9 @@ struct Predistorted : PredictedChange {
   double worst_after_mm = 0.0;
   double worst_rms_before_mm = 0.0;
   double worst_rms_after_mm = 0.0;
+  OtherModels others;                     ///< that judged it
+  double lag_uncertainty = 0.0;           ///< in 1/k: the largest of the axes that move
+  std::vector<std::string> unknown_lags;  ///< axes that move, whose lag the machine file lacks
   double largest_shift_mm = 0.0;
   std::optional<Slower> slower;
   std::vector<Remaining> remaining;  ///< the worst first

@@ -21,8 +21,8 @@ void add_report(Predistorted& done, double limit_mm) {
     }
     return most;
   };
-  const auto largest = [](const ErrorFigures::Of& of) { return of.max_mm; };
-  const auto rms = [](const ErrorFigures::Of& of) { return of.rms_mm(); };
+  const auto largest = [](const ErrorFigures::Whole& of) { return of.max_mm; };
+  const auto rms = [](const ErrorFigures::Whole& of) { return of.rms_mm(); };
   done.worst_before_mm = worst(done.before, largest);
   done.worst_after_mm = worst(done.after, largest);
   done.worst_rms_before_mm = worst(done.before, rms);

@@ -20,21 +20,28 @@ struct Slower {
 class RoundScore {
  public:
   /// `most_time`: of the program's own.
-  RoundScore(double most_time, double seconds_before, const ErrorFigures::Of& before)
-      : most_s_(most_time * seconds_before),
+  RoundScore(double most_time, double seconds_before, const ErrorFigures::Of& before,
+             double limit_mm)
+      : limit_mm_(limit_mm),
+        most_s_(most_time * seconds_before),
         refined_s_((most_time > kUsualTime ? most_time : kRefinedTime) * seconds_before),
         slowest_s_(2.0 * seconds_before),
         before_rms_mm_(before.rms_mm()),
         most_mm_(kLargestGrows * before.max_mm) {}
 
   /// The lower, the better. Any round that leaves the largest error alone is better than one that
-  /// does not.
-  [[nodiscard]] double of_mm(const ErrorFigures::Of& round) const noexcept {
+  /// does not. `blocks`: of the text, for each one of the original; the control must read them.
+  [[nodiscard]] double of_mm(const ErrorFigures::Of& round, double blocks) const noexcept {
     return round.rms_mm() + kShareOfLargest * round.max_mm +
+           limit_mm_ * std::clamp(kBlock * (blocks - 1.0), 0.0, kMostForBlocks) +
            (round.max_mm > most_mm_ ? before_rms_mm_ : 0.0);
   }
+  /// In terms of what is permitted.
+  [[nodiscard]] double time(double seconds, bool refined) const noexcept {
+    return seconds / (refined ? refined_s_ : most_s_);
+  }
   [[nodiscard]] bool in_time(double seconds, bool refined) const noexcept {
-    return seconds <= (refined ? refined_s_ : most_s_);
+    return time(seconds, refined) <= 1.0;
   }
   /// Keeps in mind the best round that takes longer than is permitted, up to twice the program's
   /// time.
@@ -55,7 +62,10 @@ class RoundScore {
  private:
   static constexpr double kRefinedTime = 1.005;
   static constexpr double kShareOfLargest = 0.05;
+  static constexpr double kBlock = 0.02;          ///< of the limit, for each …
+  static constexpr double kMostForBlocks = 0.05;  ///< … and for all
 
+  double limit_mm_;
   double most_s_;
   double refined_s_;
   double slowest_s_;

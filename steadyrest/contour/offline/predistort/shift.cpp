@@ -15,7 +15,9 @@ namespace geometry = math::geometry;
 using kernel::signal::PathSegment;
 using kernel::signal::Point;
 
-constexpr int kPoints = 4;  ///< parts of a piece
+constexpr double kBetween_mm = 0.5;
+constexpr int kPoints = 4;  ///< parts of a piece, or as many times that as …
+constexpr int kMostTimes = 16;
 constexpr double kReach = 4.0;
 constexpr double kLeastReach_mm = 1.0;
 constexpr double kFar_mm = 1e12;
@@ -98,17 +100,22 @@ Shift shift_of(const nc::plan::PlannedPath& path, const std::vector<Piece>& piec
   Shift out;
   Neighbours neighbours(path.segments);
   for (const Piece& piece : pieces) {
+    const int points =
+        kPoints * std::clamp(static_cast<int>(piece.segment.length_mm / (kPoints * kBetween_mm)), 1,
+                             kMostTimes);
     double largest = 0.0;
-    const double around = std::max(kLeastReach_mm, kReach * bound_mm) + piece.segment.length_mm;
-    neighbours.within(piece.progress_start_mm - around, piece.progress_end_mm + around);
-    for (int i = 0; i <= kPoints; ++i) {
-      const double along = static_cast<double>(i) / kPoints;
+    // Farther along, the path may come past again, as the next turn of a spiral does: being near
+    // that does not count.
+    const double around = std::max(kLeastReach_mm, kReach * bound_mm) +
+                          piece.segment.length_mm / static_cast<double>(points);
+    for (int i = 0; i <= points; ++i) {
+      const double along = static_cast<double>(i) / points;
+      const double place_mm = std::lerp(piece.progress_start_mm, piece.progress_end_mm, along);
+      neighbours.within(place_mm - around, place_mm + around);
       // What is nearer than the largest so far, and within the bound, changes nothing.
       largest = std::max(
-          largest,
-          neighbours.nearest_mm(geometry::point_at(piece.segment, along),
-                                std::lerp(piece.progress_start_mm, piece.progress_end_mm, along),
-                                std::min(bound_mm, std::max(largest, out.largest_mm))));
+          largest, neighbours.nearest_mm(geometry::point_at(piece.segment, along), place_mm,
+                                         std::min(bound_mm, std::max(largest, out.largest_mm))));
     }
     out.largest_mm = std::max(out.largest_mm, largest);
     if (largest > bound_mm && (out.too_far.empty() || out.too_far.back() != piece.segment.line)) {

@@ -1,20 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 
 namespace steadyrest::contour::offline {
+namespace {
 
-std::vector<ServoModels> uncertain(const ServoModels& model, double share) {
-  std::vector<ServoModels> out;
-  for (unsigned signs = 0; share > 0.0 && signs < 8U; ++signs) {
-    ServoModels other = model;
-    for (std::size_t i = 0; i < 3; ++i) {
-      other[i].gain_1_s *= (signs >> i & 1U) != 0U ? 1.0 + share : 1.0 - share;
+constexpr double kSquare = 1.0 - 1e-9;  ///< to the plane of an arc: it does not move the axis
+
+std::vector<online::AxisModel> corners(const online::AxisModel& model, double gain, double lag) {
+  const double more_s = lag / model.gain_1_s;
+  std::vector<online::AxisModel> out;
+  for (const double share : {1.0 - gain, 1.0 + gain}) {
+    for (const double lag_s :
+         {std::max(0.0, model.velocity_lag_s - more_s), model.velocity_lag_s + more_s}) {
+      out.push_back({.gain_1_s = share * model.gain_1_s,
+                     .feed_forward = model.feed_forward,
+                     .velocity_lag_s = lag_s});
+      if (lag == 0.0) {
+        break;
+      }
     }
-    out.push_back(other);
+    if (gain == 0.0) {
+      break;
+    }
   }
   return out;
+}
+
+}  // namespace
+
+bool moves(kernel::signal::PathView path, std::size_t axis) {
+  return std::ranges::any_of(path, [axis](const kernel::signal::PathSegment& segment) {
+    const bool arc = segment.geometry == kernel::signal::Geometry::arc;
+    return segment.start_mm[axis] != segment.end_mm[axis] ||
+           (arc && std::abs(segment.axis[axis]) < kSquare);
+  });
+}
+
+ServoUncertainty ServoUncertainty::of(std::span<const kernel::machine::Axis> axes, double gain,
+                                      std::optional<double> lag) {
+  ServoUncertainty out{.gain = gain};
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, axes.size()); ++i) {
+    out.lag[i] = lag.value_or(axes[i].velocity_lag_known ? 0.0 : kUnknownLag);
+  }
+  return out;
+}
+
+OtherModels uncertain(const ServoModels& model, const ServoUncertainty& by,
+                      kernel::signal::PathView path) {
+  OtherModels out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const bool at_rest = !moves(path, i);
+    out.axis[i] = corners(model[i], at_rest ? 0.0 : by.gain, at_rest ? 0.0 : by.lag[i]);
+  }
+  return out.size() == 1 ? OtherModels{} : out;
 }
 
 ServoModels cautious(const ServoModels& model, double share) {

@@ -11,10 +11,10 @@
 namespace steadyrest::contour::offline {
 namespace {
 
-ModelSample figured(double error_mm, std::span<const double> others_mm = {}) {
+ModelSample figured(double error_mm, std::span<const OtherError> others = {}) {
   ModelSample sample;
   sample.error_mm = error_mm;
-  sample.other_error_mm = others_mm;
+  sample.others = others;
   return sample;
 }
 
@@ -56,16 +56,16 @@ TEST(ErrorFigures, TellTheLargestOfEachLineInAnyOrder) {
 // Each of the other models has its figures.
 TEST(ErrorFigures, KeepTheModelsApart) {
   ErrorFigures figures(0.01, 2);
-  constexpr std::array kOne = {0.001, 0.020};
-  constexpr std::array kTwo = {0.007, 0.010};
+  constexpr std::array<OtherError, 2> kOne = {{{0.001, 0.001}, {0.020, 0.021}}};
+  constexpr std::array<OtherError, 2> kTwo = {{{0.007, 0.007}, {0.010, 0.010}}};
   figures.add(figured(0.002, kOne), 1);
   figures.add(figured(0.002, kTwo), 2);
   ASSERT_EQ(figures.others().size(), 2U);
   EXPECT_DOUBLE_EQ(figures.nominal().max_mm, 0.002);
   EXPECT_DOUBLE_EQ(figures.others()[0].max_mm, 0.007);
-  EXPECT_DOUBLE_EQ(figures.others()[1].max_mm, 0.020);
+  EXPECT_DOUBLE_EQ(figures.others()[1].max_mm, 0.021);
   EXPECT_NEAR(figures.others()[0].rms_mm(), 0.005, 1e-12);  // √((1 + 49)/2)
-  EXPECT_NEAR(figures.others()[1].line_mm(2), 0.010, 1e-9);
+  EXPECT_EQ(figures.others()[1].samples, 2U);
   EXPECT_EQ(figures.share_over(), 0.0) << "the others do not count";
 }
 

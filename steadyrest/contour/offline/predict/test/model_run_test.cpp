@@ -66,10 +66,9 @@ TEST(ModelRun, HasTheClosedFormsErrorOnACircle) {
 TEST(ModelRun, FollowsTheOtherModelsToo) {
   const Machine machine = ideal_mill();
   const PlannedPath path = test::planned_text(machine, circle(kRadius_mm, 4000.0));
-  std::vector<ServoModels> others(2, servo_models(machine.axes));
-  for (std::size_t i = 0; i < 3; ++i) {
-    others[0][i].gain_1_s = 47.5;
-    others[1][i].gain_1_s = 52.5;
+  OtherModels others;
+  for (auto& axis : others.axis) {
+    axis = {{.gain_1_s = 47.5}, {.gain_1_s = 52.5}};
   }
   bool seen = false;
   const auto done = run_model(
@@ -84,11 +83,11 @@ TEST(ModelRun, FollowsTheOtherModelsToo) {
           return;
         }
         seen = true;
-        ASSERT_EQ(sample.other_error_mm.size(), 2U);
-        for (std::size_t i = 0; i < 2; ++i) {
+        ASSERT_EQ(sample.others.size(), 8U);
+        for (const std::size_t i : {0U, 7U}) {
           const double k = others[i][0].gain_1_s;
           const auto expected = circle_errors({.gain_1_s = k}, kRadius_mm, kSpeed_mm_s).value();
-          EXPECT_NEAR(sample.other_error_mm[i], expected.contour_error_mm, 5e-4);
+          EXPECT_NEAR(sample.others[i].error_mm, expected.contour_error_mm, 5e-4);
         }
       });
   ASSERT_TRUE(done.has_value());

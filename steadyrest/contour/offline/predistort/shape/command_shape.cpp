@@ -71,6 +71,10 @@ CurvePoint CommandShape::led_point(std::size_t segment, const ToolState& at,
           .progress_mm = at.progress_mm};
 }
 
+bool CommandShape::is_smooth(const Point& in, const Point& out) const noexcept {
+  return geometry::distance(in, out) < config_.smooth;
+}
+
 CommandShape::End CommandShape::end_of(std::size_t segment) const {
   const PathSegment& of = path_.segments[segment];
   if (!goes_on(segment)) {
@@ -83,7 +87,9 @@ CommandShape::End CommandShape::end_of(std::size_t segment) const {
   const CurvePoint before = led_point(segment, at, of.length_mm);
   const CurvePoint after = led_point(segment + 1, at, 0.0);
   return {.point_mm = geometry::scale(geometry::add(before.point_mm, after.point_mm), 0.5),
-          .direction = before.direction,
+          .direction = is_smooth(before.direction, after.direction)
+                           ? geometry::unit(geometry::add(before.direction, after.direction))
+                           : before.direction,
           .progress_mm = at.progress_mm,
           .led = true};
 }
@@ -130,7 +136,7 @@ std::vector<CurvePoint> CommandShape::curve(std::size_t segment, const End& star
   if (start.led) {
     const CurvePoint own = led_point(segment, at_start, 0.0);
     off_start = geometry::subtract(start.point_mm, own.point_mm);
-    direction = own.direction;
+    direction = is_smooth(start.direction, own.direction) ? start.direction : own.direction;
   }
   if (end.led) {
     off_end = geometry::subtract(end.point_mm, led_point(segment, at_end, of.length_mm).point_mm);

@@ -25,6 +25,8 @@ struct ShapeConfig {
   /// Kinks of the command are rounded by arcs that take this share of the acceleration across the
   /// path that the axes have; pieces beside a kink are kept long enough for that.
   double across_mm_s2 = 2000.0;
+  /// |t′ − t| of the command up to which a joint has one direction, the mean of both.
+  double smooth = 0.0;
 };
 
 /// The curve that the command must run so that the tool runs on the path (ServoInverse at the
@@ -61,6 +63,8 @@ class CommandShape {
   [[nodiscard]] std::vector<CurvePoint> curve(std::size_t segment, const End& start,
                                               const End& end) const;
   [[nodiscard]] std::vector<CurvePoint> inner_points(std::size_t segment, const End& end) const;
+  [[nodiscard]] bool is_smooth(const kernel::signal::Point& in,
+                               const kernel::signal::Point& out) const noexcept;
   [[nodiscard]] double kink_room_mm(std::size_t segment, const kernel::signal::Point& in,
                                     const kernel::signal::Point& out, double speed) const;
 

@@ -41,6 +41,22 @@ AxisValues axis_values(const Point& p) noexcept {
   return out;
 }
 
+/// The control need not slow down at the joint of both.
+bool passes(const Piece& from, const Piece& to, const nc::plan::PathLimits& limits, double speed) {
+  const PathSegment& before = from.segment;
+  const PathSegment& after = to.segment;
+  const AxisValues in = axis_values(tangent_at(before, 1.0));
+  const AxisValues out = axis_values(tangent_at(after, 0.0));
+  if (limits.has_kinks()) {
+    const double ramp = after.geometry == Geometry::line ? limits.line(out).acceleration_mm_s2
+                                                         : limits.arc(after).acceleration_mm_s2;
+    const bool lines = before.geometry == Geometry::line && after.geometry == Geometry::line;
+    return kSpare * (lines ? 1.0 : nc::plan::kKinkOfArcs) * limits.kink(in, out, speed, ramp) <
+           limits.junction_share();
+  }
+  return limits.junction_mm_s(in, out, before.length_mm, after.length_mm) >= kSpare * speed;
+}
+
 /// The piece between both, if the control would slow down at their joint. An arc in space cannot be
 /// written.
 std::optional<nc::plan::CornerArc> rounding(const Piece& from, const Piece& to,
@@ -52,9 +68,7 @@ std::optional<nc::plan::CornerArc> rounding(const Piece& from, const Piece& to,
   const auto bend = nc::plan::bend_of(in, out);
   const double speed = std::min(before.feed_mm_s, after.feed_mm_s);
   const std::size_t normal = nc::interpret::axes_of(to.plane).normal;
-  if (!bend || std::abs(bend->axis[normal]) < kInPlaneArc ||
-      limits.junction_mm_s(axis_values(in), axis_values(out), before.length_mm, after.length_mm) >=
-          kSpare * speed) {
+  if (!bend || std::abs(bend->axis[normal]) < kInPlaneArc || passes(from, to, limits, speed)) {
     return std::nullopt;
   }
   const double across =

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,24 +24,6 @@ struct ServoRun {
 
 /// The parts of `runs` in motion, and 0.1 s after it, at least 20 samples long.
 [[nodiscard]] std::vector<ServoRun> in_motion(const ServoLog& log, std::span<const ServoRun> runs,
-                                              double period_s, int shift);
-
-/// One-cycle law: e⁺ = p·e + q·d + r.
-struct ServoStep {
-  double p = 0.0;
-  double q = 0.0;
-  double r = 0.0;
-};
-
-struct StepFit {
-  ServoStep step;
-  double variance[3][3] = {};  ///< of p, q, r
-  std::size_t samples = 0;
-  double left = 0.0;  ///< sum of the squares that a free simulation of these stretches leaves
-};
-
-/// Fits the law to these stretches (servo_fit.hpp); empty where they do not determine it.
-[[nodiscard]] std::optional<StepFit> fit_step(const ServoLog& log, std::span<const ServoRun> runs,
-                                              int shift);
+                                              double period_s);
 
 }  // namespace steadyrest::contour::offline

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include <steadyrest/contour/offline/predistort/polish/chain_link.hpp>
+#include <steadyrest/math/geometry/segment.hpp>
+
+namespace steadyrest::contour::offline {
+
+namespace geometry = math::geometry;
+using kernel::signal::Geometry;
+using kernel::signal::PathSegment;
+using kernel::signal::Point;
+
+namespace {
+
+constexpr double kLeastLink_mm = 1e-6;
+constexpr double kSameRadius_mm = 1e-6;
+constexpr double kSteep = 10.0;  ///< rise per way in the plane
+constexpr double kStraightArc_1_mm = 1.0 / 3000.0;
+
+}  // namespace
+
+std::optional<ChainPiece> flat(const Piece& from) {
+  const PathSegment& of = from.segment;
+  const auto axes = nc::interpret::axes_of(from.plane);
+  const Point& a = of.start_mm;
+  const Point tangent = geometry::station_at(of, 0.0).tangent;
+  ChainPiece out;
+  out.arc.start = {.x_mm = a[axes.first],
+                   .y_mm = a[axes.second],
+                   .angle_rad = std::atan2(tangent[axes.second], tangent[axes.first])};
+  out.height_mm = a[axes.normal];
+  out.feed_mm_s = of.feed_mm_s;
+  const double rise = of.end_mm[axes.normal] - a[axes.normal];
+  if (of.geometry == Geometry::line) {
+    out.arc.length_mm =
+        std::hypot(of.end_mm[axes.first] - a[axes.first], of.end_mm[axes.second] - a[axes.second]);
+  } else {
+    if (std::abs(of.radius_end_mm - of.radius_mm) > kSameRadius_mm ||
+        std::abs(std::abs(of.axis[axes.normal]) - 1.0) > 1e-9 || !(of.radius_mm > 0.0)) {
+      return std::nullopt;
+    }
+    out.arc.curvature_1_mm = (of.axis[axes.normal] > 0.0 ? 1.0 : -1.0) / of.radius_mm;
+    out.arc.length_mm = of.radius_mm * of.sweep_rad;
+  }
+  if (out.arc.length_mm < kLeastLink_mm) {
+    return std::nullopt;
+  }
+  out.slope = rise / out.arc.length_mm;
+  if (std::abs(out.slope) > kSteep) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+Piece in_space(const Link& link) {
+  Piece out = link.of;
+  const auto axes = nc::interpret::axes_of(out.plane);
+  const ChainPiece& piece = link.piece;
+  const auto point = [&](double distance) {
+    const Heading at = along(piece.arc, distance);
+    Point p{};
+    p[axes.first] = at.x_mm;
+    p[axes.second] = at.y_mm;
+    p[axes.normal] = piece.height_mm + piece.slope * distance;
+    return p;
+  };
+  PathSegment segment = line_segment(point(0.0), point(piece.arc.length_mm));
+  const double curvature = piece.arc.curvature_1_mm;
+  if (std::abs(curvature) > kStraightArc_1_mm) {
+    segment.geometry = Geometry::arc;
+    const double angle = piece.arc.start.angle_rad;
+    segment.centre_mm = segment.start_mm;
+    segment.centre_mm[axes.first] -= std::sin(angle) / curvature;
+    segment.centre_mm[axes.second] += std::cos(angle) / curvature;
+    const double side = curvature > 0.0 ? 1.0 : -1.0;
+    segment.axis[axes.normal] = side;
+    segment.radius_mm = segment.radius_end_mm = 1.0 / std::abs(curvature);
+    segment.sweep_rad = piece.arc.length_mm * std::abs(curvature);
+    segment.rise_mm = side * piece.slope * piece.arc.length_mm;
+    segment.length_mm = piece.arc.length_mm * std::hypot(1.0, piece.slope);
+  }
+  segment.line = out.segment.line;
+  segment.motion = out.segment.motion;
+  segment.feed_mm_s = piece.feed_mm_s;
+  out.segment = segment;
+  return out;
+}
+
+void level(std::span<ChainPiece> pieces, double tolerance_mm) {
+  const auto end_mm = [&](std::size_t i) {
+    return pieces[i].height_mm + pieces[i].slope * pieces[i].arc.length_mm;
+  };
+  // The pieces [first, last) have one slope; false where a joint is too far from it.
+  const auto is_straight = [&](std::size_t first, std::size_t last, double slope) {
+    double height = pieces[first].height_mm;
+    for (std::size_t i = first; i + 1 < last; ++i) {
+      height += slope * pieces[i].arc.length_mm;
+      if (std::abs(end_mm(i) - height) > tolerance_mm) {
+        return false;
+      }
+    }
+    return true;
+  };
+  for (std::size_t first = 0; first < pieces.size();) {
+    double slope = pieces[first].slope;
+    std::size_t last = first + 1;
+    for (double whole = pieces[first].arc.length_mm; last < pieces.size(); ++last) {
+      whole += pieces[last].arc.length_mm;
+      const double over = (end_mm(last) - pieces[first].height_mm) / whole;
+      if (!is_straight(first, last + 1, over)) {
+        break;
+      }
+      slope = over;
+    }
+    double height = pieces[first].height_mm;
+    for (; first < last; ++first) {
+      pieces[first].height_mm = height;
+      pieces[first].slope = slope;
+      height += slope * pieces[first].arc.length_mm;
+    }
+  }
+}
+
+void halve(Link& one, Link& two) {
+  two = one;
+  const double half = 0.5 * one.piece.arc.length_mm;
+  const double middle = 0.5 * (one.of.progress_start_mm + one.of.progress_end_mm);
+  two.piece.arc.start = along(one.piece.arc, half);
+  two.piece.arc.length_mm = one.piece.arc.length_mm = half;
+  two.piece.height_mm += two.piece.slope * half;
+  two.piece.smooth = true;
+  two.of.progress_start_mm = one.of.progress_end_mm = middle;
+  two.of.begins_run = false;
+  two.of.joined = true;
+}
+
+}  // namespace steadyrest::contour::offline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <steadyrest/contour/offline/predistort/polish/polish.hpp>
+#include <steadyrest/kernel/outcome/result.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// Pieces tried on the whole program.
+struct TriedPieces {
+  double score_mm = 0.0;  ///< the lower, the better
+  double time = 1.0;      ///< in terms of what is permitted
+};
+using TryPieces = std::function<kernel::outcome::Result<TriedPieces>(const std::vector<Piece>&)>;
+
+inline constexpr int kPolishRuns = 27;  ///< sweeps and pieces tried, at most
+
+/// Sweeps of windows (polished()) and, between them, stops led beyond (CornerLegs), as long as that
+/// helps. Where the program takes too long a second costs more in the next sweep. `starts` are
+/// those of the last run: each attempt changes them. Refused: what `attempt` refuses.
+[[nodiscard]] kernel::outcome::Result<void> polish_rounds(PolishTask task,
+                                                          std::vector<Piece> pieces,
+                                                          const std::vector<BlockStart>& starts,
+                                                          const TryPieces& attempt);
+
+}  // namespace steadyrest::contour::offline

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <steadyrest/contour/offline/predistort/command_pieces.hpp>
+#include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
+#include <steadyrest/contour/offline/predistort/predistortion.hpp>
+#include <steadyrest/contour/offline/predistort/refinement.hpp>
+#include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
+#include <steadyrest/contour/offline/predistort/uncertainty.hpp>
+#include <steadyrest/nc/rewrite/replace/at_worst.hpp>
+
+namespace steadyrest::contour::offline {
+namespace {
+
+using kernel::outcome::Result;
+
+constexpr double kTimeToHold = 1.0;  ///< price of a second where the limit comes first
+constexpr double kCoarse = 0.05;     ///< of the largest shift: the fit that windows begin with
+constexpr double kCoarsest = 10.0;   ///< of the limit
+constexpr double kSmoothJoint =
+    0.15;  ///< … and its joints that bend less have no bend where one would stop the control
+constexpr int kFewestRefinements = 2;  ///< … but not fewer than this
+constexpr double kRefinedTime_s = 120.0;
+constexpr double kLeastShare = 0.125;  ///< of what is left, in one refinement
+
+}  // namespace
+
+Judging Predistortion::judging(const ServoModels& model, const OtherModels& others) {
+  return {.machine = machine_,
+          .original = path_,
+          .model = model,
+          .others = others,
+          .learnt = learnt_,
+          .runs = *runs_,
+          .limit_mm = how_.limit_mm,
+          .hold_mm = how_.hold_mm,
+          .progress = [this](double share) { progress_.run(share); }};
+}
+
+Result<void> Predistortion::rounds(int count) {
+  for (int round = 0; round < count; ++round) {
+    auto changed =
+        nc::rewrite::at_worst_they_stay(blocks_, [this] { return write(pieces_within()); });
+    if (!changed) {
+      return std::unexpected(changed.error());
+    }
+    if (auto done = try_text(std::move(*changed)); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+std::vector<Piece> Predistortion::pieces_within() {
+  const CommandTask task{machine_, path_, inverse_, learnt_, *caps_, tolerance_mm_, smooth_};
+  std::vector<Piece> made = command_pieces(task, use(), speed_, corners_);
+  while (barred_->bar_beyond(made)) {
+    made = command_pieces(task, use(), speed_, corners_);
+  }
+  return made;
+}
+
+Result<Changed> Predistortion::write(const std::vector<Piece>& made) const {
+  return write_pieces({.file = file_,
+                       .config = config_,
+                       .machine = machine_,
+                       .blocks = blocks_,
+                       .path = path_,
+                       .told = how_.told},
+                      made);
+}
+
+Result<void> Predistortion::try_text(Changed changed) {
+  auto run = follow(judging(), changed, corners_);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  progress_.ran();
+  const auto& figures = run->figures.nominal();
+  // Who measures his parts wants the last micrometre: there a block costs nothing.
+  const double blocks =
+      learnt_.empty() ? static_cast<double>(changed.path.segments.size()) /
+                            static_cast<double>(std::max<std::size_t>(1, path_.segments.size()))
+                      : 1.0;
+  const double score_mm = score_->of_mm(figures, blocks);
+  // Holding a limit may begin from anything.
+  const bool in_time = holds_ || (how_.hold_mm > 0.0 && best_mm_ < 0.0) ||
+                       score_->in_time(run->seconds, learnt_.refinements() > 0);
+  last_ = {
+      .score_mm = score_mm,
+      .time = how_.hold_mm > 0.0 ? 1.0 : score_->time(run->seconds, learnt_.refinements() > 0)};
+  if (!in_time) {
+    score_->note_slower(run->seconds, figures);
+  }
+  const bool fewer = run->over.size() < best_over_.size() ||
+                     (run->over.size() == best_over_.size() && run->seconds < out_.seconds_after);
+  const bool better = holds_ ? fewer : best_mm_ < 0.0 || score_mm < best_mm_;
+  if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
+    best_mm_ = score_mm;
+    best_over_ = run->over;
+    runs_after_ = std::move(run->runs);
+    best_errors_ = std::move(run->errors);
+    best_speed_ = speed_;
+    best_ = std::move(changed);
+    out_.after = std::move(run->figures);
+    out_.seconds_after = run->seconds;
+    out_.largest_shift_mm = best_.lines.empty() ? 0.0 : barred_->largest_shift_mm();
+  }
+  over_ = std::move(run->over);
+  speed_ = std::move(run->speed);
+  corner_mm_ = std::move(run->corner_mm);
+  starts_ = std::move(run->starts);
+  return {};
+}
+
+// From the alternating arcs of a close fit the windows do not get away: they begin with a coarse
+// one.
+Result<void> Predistortion::polish() {
+  learnt_.unrefine(0);
+  caps_.emplace(path_, 1.0);
+  PolishTask task{.machine = machine_,
+                  .path = path_,
+                  .models = cautious(model_, how_.gain_uncertainty),
+                  .price = {.limit_mm = how_.limit_mm},
+                  .most_shift_mm = how_.max_shift_mm,
+                  .progress = [this](double share) {
+                    progress_.run(share);
+                    if (share >= 1.0) {
+                      progress_.ran();
+                    }
+                  }};
+  if (how_.hold_mm > 0.0) {
+    task.price.time = kTimeToHold;
+  }
+  if (!learnt_.empty()) {
+    task.unknown = [this](double foot_mm) { return learnt_.unknown_mm(foot_mm); };
+  }
+  tolerance_mm_ =
+      std::clamp(kCoarse * barred_->largest_shift_mm(), how_.limit_mm, kCoarsest * how_.limit_mm);
+  if (machine_.control.junction_share < 1.0) {
+    smooth_ = kSmoothJoint;
+  }
+  speed_ = best_mm_ < 0.0 ? first_speed_ : best_speed_;
+  auto done = polish_rounds(
+      task, pieces_within(), starts_, [&](const std::vector<Piece>& made) -> Result<TriedPieces> {
+        auto changed = write(made);
+        if (!changed) {
+          return std::unexpected(changed.error());
+        }
+        const auto tried = try_text(std::move(*changed));
+        return tried ? Result<TriedPieces>(last_) : std::unexpected(tried.error());
+      });
+  tolerance_mm_ = ShapeConfig{}.tolerance_mm;
+  smooth_ = ShapeConfig{}.smooth;
+  return done;
+}
+
+Result<void> Predistortion::try_corners() {
+  std::vector<Corner> best = corners_;
+  std::vector<double> best_mm = corner_mm_;
+  for (const double beyond : kBeyond) {
+    for (Corner& corner : corners_) {
+      corner.beyond = beyond;
+    }
+    speed_ = best_speed_;
+    if (auto done = rounds(1); !done) {
+      return done;
+    }
+    for (std::size_t i = 0; i < std::min(best.size(), corner_mm_.size()); ++i) {
+      if (corner_mm_[i] < best_mm[i]) {
+        best_mm[i] = corner_mm_[i];
+        best[i].beyond = beyond;
+      }
+    }
+  }
+  corners_ = std::move(best);
+  speed_ = best_speed_;
+  return rounds(kLastRounds);
+}
+
+Result<void> Predistortion::hold() {
+  if (how_.hold_mm <= 0.0 || best_mm_ < 0.0) {
+    return {};
+  }
+  progress_.phase("holding the limit", kMostHolds * kHoldRounds);
+  holds_ = true;
+  over_ = best_over_;
+  speed_ = best_speed_;
+  for (int i = 0; i < kMostHolds && caps_->tighten(over_, speed_, how_.hold_mm); ++i) {
+    if (auto done = rounds(kHoldRounds); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+Result<std::vector<ErrorSample>> Predistortion::left() {
+  const ServoModels sure = cautious(model_, how_.gain_uncertainty);
+  if (sure == model_) {
+    return best_errors_;
+  }
+  const OtherModels none;
+  auto run = follow(judging(sure, none), best_, corners_);
+  return run ? std::move(run->errors)
+             : Result<std::vector<ErrorSample>>(std::unexpected(run.error()));
+}
+
+Result<void> Predistortion::refine() {
+  const double of_all = kRefinedTime_s / std::max(kRefinedTime_s, out_.seconds_before);
+  const int most = std::max(kFewestRefinements, static_cast<int>(of_all * kRefinements));
+  double share = 0.5;
+  for (int i = 0; i < most && best_mm_ >= 0.0 && share >= kLeastShare; ++i) {
+    const double before_mm = best_mm_;
+    auto errors = left();
+    if (!errors) {
+      return std::unexpected(errors.error());
+    }
+    learnt_.refine(refinement(std::move(*errors), path_, use(), model_, share));
+    speed_ = best_speed_;
+    if (auto done = rounds(1); !done) {
+      return done;
+    }
+    if (best_mm_ >= before_mm) {
+      learnt_.unrefine(learnt_.refinements() - 1);
+      share *= 0.5;
+    }
+  }
+  return {};
+}
+
+}  // namespace steadyrest::contour::offline

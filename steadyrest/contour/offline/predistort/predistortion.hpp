@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <steadyrest/contour/offline/predistort/barred_lines.hpp>
+#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/followed_run.hpp>
+#include <steadyrest/contour/offline/predistort/phase_progress.hpp>
+#include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
+#include <steadyrest/contour/offline/predistort/round_score.hpp>
+#include <steadyrest/contour/offline/predistort/shape/joints.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// One program being predistorted: what was tried, and the best of it.
+class Predistortion {
+ public:
+  template <typename T>
+  using Result = kernel::outcome::Result<T>;
+
+  Predistortion(const std::string& file, const nc::interpret::Config& config,
+                const kernel::machine::Machine& machine, const PredistortConfig& how);
+
+  Result<Predistorted> run();
+
+ private:
+  /// Of a part of two minutes; longer parts get fewer.
+  static constexpr int kRefinements = 8;
+  static constexpr int kMostHolds = 16;
+  static constexpr int kHoldRounds = 2;
+  static constexpr int kLastRounds = 2;  ///< with the best share at each corner
+  /// Tried at corners in addition to the default; parts that take longer are left with the default.
+  static constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
+  static constexpr int kCornerRuns = static_cast<int>(kBeyond.size()) + kLastRounds;
+
+  /// The best text that the proof accepts.
+  Result<void> proved();
+
+  /// Attempts until no run gets worse.
+  Result<void> revise(int& revision);
+
+  /// Runs that are good as they are, and those that nothing can win without harm, stay.
+  void bar_hopeless();
+
+  /// Machines that differ by their lag differ by the whole of what is corrected; gains are known to
+  /// both sides of the file's.
+  [[nodiscard]] bool judged_by_each() const noexcept { return out_.lag_uncertainty > 0.0; }
+
+  /// Bars the runs that the best round makes worse. False where there are none.
+  bool bar_worse();
+
+  /// Back to the program as it is. False where no block may be changed.
+  bool begin();
+
+  /// Plain rounds until no run gets worse; the program as it is where that has no end. Where lags
+  /// are not known they tell most of the runs that must stay, at little cost.
+  Result<void> sift();
+
+  /// All rounds with the blocks that may be changed now.
+  Result<void> attempt(int revision);
+
+  /// The result is the program as it is, until a round is better.
+  void keep_original();
+
+  Result<void> read();
+
+  [[nodiscard]] std::vector<SegmentUse> use() const;
+
+  Result<void> learn_from_parts();
+
+  [[nodiscard]] Judging judging() { return judging(model_, out_.others); }
+  [[nodiscard]] Judging judging(const ServoModels& model, const OtherModels& others);
+
+  /// Rounds until the speeds agree; the best is kept.
+  Result<void> rounds(int count);
+
+  /// The pieces for the speed in hand; lines whose pieces would go too far are barred.
+  std::vector<Piece> pieces_within();
+
+  [[nodiscard]] Result<Changed> write(const std::vector<Piece>& made) const;
+
+  Result<void> try_text(Changed changed);
+
+  /// A command of few pieces, its windows made better and its stops led beyond.
+  Result<void> polish();
+
+  /// Tries other shares at all corners and keeps the best at each.
+  Result<void> try_corners();
+
+  /// Where the path alone does not keep the limit the feed falls.
+  Result<void> hold();
+
+  /// What the best round leaves on the model whose inverse is written (cautious()).
+  Result<std::vector<ErrorSample>> left();
+
+  /// Takes half of it away, like what a record has shown; less where that is too much.
+  Result<void> refine();
+
+  const std::string& file_;
+  const nc::interpret::Config& config_;
+  const kernel::machine::Machine& machine_;
+  const PredistortConfig& how_;
+  ServoModels model_;
+  ServoInverse inverse_;
+  PhaseProgress progress_;
+  Learnt learnt_;
+  nc::rewrite::CutBlocks blocks_;
+  nc::plan::PlannedPath path_;
+  nc::rewrite::Replaced original_;        ///< with nothing replaced
+  CommandSpeed first_speed_;              ///< of the program as it is
+  CommandSpeed speed_;                    ///< of the last run
+  CommandSpeed best_speed_;               ///< that the best round's pieces were made for
+  std::vector<BlockStart> first_starts_;  ///< of the program as it is
+  std::vector<BlockStart> starts_;        ///< of the last run
+  Changed best_;
+  std::vector<ErrorSample> best_errors_;
+  std::vector<ErrorPlace> best_over_;
+  std::vector<ErrorPlace> over_;  ///< of the last run
+  std::optional<FeedCaps> caps_;
+  double tolerance_mm_ = ShapeConfig{}.tolerance_mm;  ///< of the fit
+  double smooth_ = ShapeConfig{}.smooth;
+  bool holds_ = false;             ///< feeds may fall
+  std::vector<Corner> corners_;    ///< as led in the last pieces
+  std::vector<double> corner_mm_;  ///< their errors in the last run
+  std::optional<RoundScore> score_;
+  TriedPieces last_;  ///< the last run
+  double best_mm_ = -1.0;
+  std::optional<BarredLines> barred_;
+  std::optional<CutRuns> runs_;
+  std::optional<RunErrors> runs_before_;
+  std::optional<RunErrors> runs_after_;  ///< of the best round
+  Predistorted out_;
+};
+
+}  // namespace steadyrest::contour::offline
