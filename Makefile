@@ -9,7 +9,7 @@ MACHINE ?= examples/machines/vmc-840d.toml
 REPORT ?= out/$(basename $(notdir $(PROGRAM)))
 
 help:
-	@echo "make run     cut $(PROGRAM) on the simulated machine, without and with the layer"
+	@echo "make run     cut $(PROGRAM) on the simulated machine every way, and tell the best"
 	@echo "make demo    the page of a layer at work on the simulated machine"
 	@echo "              PORT=linuxcnc make demo: on LinuxCNC's simulator"
 	@echo "make fast    the fast tests (under two minutes once built)"

@@ -74,8 +74,9 @@ TEST(Cli, APortThatIsNotBuiltIsRefused) {
     std::string text = mill;
     text.replace(text.find("port = \"sim\""), 12, fmt::format("port = \"{}\"", port));
     const std::string machine = scratch.file("machine.toml", text);
-    for (const std::string& line : {"doctor --machine " + machine,
-                                    "cut examples/programs/circle-r10.ngc --machine " + machine}) {
+    for (const std::string& line :
+         {"doctor --machine " + machine,
+          "cut examples/programs/circle-r10.ngc --quick --machine " + machine}) {
       expect_refused(
           line, fmt::format("port = \"{}\" is unknown; allowed: one of sim, linuxcnc, lines, opcua",
                             port));

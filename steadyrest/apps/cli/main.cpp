@@ -64,7 +64,7 @@ struct Entry {
 /// verbs that people try next.
 constexpr Entry kVerbs[] = {
     {"cut",
-     "Cut a part twice on the simulated machine, without and with the layer, and compare",
+     "Cut a part on the simulated machine in every way that is possible, and tell the best",
      add_verb_cut,
      {"examples/programs/rib-pocket.mpf --machine examples/machines/vmc-840d.toml --report "
       "out/rib-pocket",

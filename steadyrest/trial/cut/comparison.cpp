@@ -38,6 +38,8 @@ TracePoint point_of(const Sample& sample) {
           .cutting = sample.motion == kernel::signal::Motion::feed};
 }
 
+}  // namespace
+
 // One side of the comparison: figures, trace, and the time for each reason.
 Run run_of(const Recorder& record) {
   Run run{.figures = record.figures(), .trace = {}, .reasons = {}};
@@ -53,8 +55,6 @@ Run run_of(const Recorder& record) {
   }
   return run;
 }
-
-}  // namespace
 
 // Includes the override table and the worst lines, so that a report explains itself.
 ReportData compare(const std::filesystem::path& program, const kernel::machine::Machine& machine,

@@ -15,4 +15,7 @@ namespace steadyrest::trial::cut {
                                  const kernel::machine::Machine& machine, const Recorder& without,
                                  const Recorder& with);
 
+/// One record as the report shows it.
+[[nodiscard]] Run run_of(const Recorder& record);
+
 }  // namespace steadyrest::trial::cut

@@ -131,7 +131,11 @@ struct OverrideStep {
 /// A way to cut the part.
 enum class Way : std::uint8_t {
   alone,          ///< the program, or the original of a changed one, without the layer
-  feed_override,  ///< the same with the layer, which has the feed override alone
+  setting,        ///< the same on the machine with one setting of its control changed
+  text,           ///< corrected in its text, in the same time
+  text_held,      ///< … with lower feeds where that does not hold the limit
+  text_feeds,     ///< lower feeds in its text alone
+  feed_override,  ///< the program with the layer, which has the feed override alone
   path_offsets,   ///< the same with the layer, which has offsets of the axes too
   changed,        ///< the changed program without the layer …
   changed_feed_override,
@@ -141,6 +145,24 @@ enum class Way : std::uint8_t {
 struct WayFigures {
   Way way = Way::alone;
   Figures figures;
+  // Designated initialisers may leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::string get = {};  ///< the command or the setting that gives it; empty: nothing to do
+};
+
+/// The best of the ways, and what is left of it.
+struct BestWays {
+  std::optional<WayFigures> same_time;  ///< in the program's own time; empty: as programmed
+  std::optional<WayFigures> any_time;   ///< where more time holds the limit better
+  std::optional<WayFigures> setting;    ///< the cheapest cure
+};
+
+/// A line that stays over the limit in the best way, and what would cure it.
+struct OverLimitLine {
+  std::uint32_t line = 0;
+  double error_um = 0.0;
+  std::string reason;
+  std::string cure;  ///< with its price; empty: none was found
 };
 
 /// The feed override alone, told to keep another limit. Samples over the limit are those over the
@@ -165,6 +187,9 @@ struct ReportData {
   std::string against;                 ///< the original of a changed program; empty: none
   std::vector<WayFigures> ways;        ///< empty: not compared
   std::vector<CurvePoint> curve;       ///< by rising limit; empty: not asked for
+  BestWays best;
+  Run best_run;                           ///< in the program's own time; no trace: as programmed
+  std::vector<OverLimitLine> over_limit;  ///< of that run, the worst first
 };
 
 }  // namespace steadyrest::trial::cut

@@ -21,7 +21,7 @@ using testing::StartsWith;
 
 const std::string kCircle = "examples/programs/circle-r10.mpf";
 const std::string kIdeal = " --machine examples/machines/ideal-k50.toml";
-const std::string kCut = "cut " + kCircle + kIdeal;
+const std::string kCut = "cut " + kCircle + " --quick" + kIdeal;
 
 // Ideal axes with 50 1/s and the arc of the reference table: R = 10 mm at 4000 mm/min.
 TEST(Cut, GivesBothCutsAsJson) {
@@ -46,7 +46,7 @@ TEST(Cut, SaysThatTheProgramLeavesTheTravelAndHowLongTheLayerWithdrew) {
   const Scratch scratch;
   const std::string far =
       scratch.file("far.ngc", "G21 G90 F4000\nM3 S1000\nG0 X1600 Y0\nG2 X1600 Y0 I10 J0\nM2\n");
-  const std::string line = "cut " + far + " --machine examples/machines/linuxcnc-mill.toml";
+  const std::string line = "cut " + far + " --quick --machine examples/machines/linuxcnc-mill.toml";
   const json answer = answer_of(line);
   ASSERT_EQ(answer["withdrawn"].size(), 1U);
   EXPECT_EQ(answer["withdrawn"][0]["reason"], "input_out_of_range");
@@ -68,7 +68,7 @@ TEST(Cut, SaysThatTheProgramLeavesTheTravelAndHowLongTheLayerWithdrew) {
 // hold for every sample (coverage 1).
 TEST(Cut, SaysWhatTheEstimatesOfTheMotionAreWorthOnEachAxis) {
   const json motion =
-      answer_of("cut " + kCircle + " --machine examples/machines/vmc-840d.toml")["motion"];
+      answer_of("cut " + kCircle + " --quick --machine examples/machines/vmc-840d.toml")["motion"];
   ASSERT_EQ(motion.size(), 3U);
   for (const json& axis : motion) {
     EXPECT_THAT(axis["axis"].get<std::string>(), testing::AnyOf("X", "Y", "Z"));
@@ -131,7 +131,7 @@ TEST(Cut, ShowsATableToPeople) {
 }
 
 TEST(Cut, ShowsPeopleALineForEachAxisWhoseMotionIsEstimated) {
-  const std::string line = "cut " + kCircle + " --machine examples/machines/vmc-840d.toml";
+  const std::string line = "cut " + kCircle + " --quick --machine examples/machines/vmc-840d.toml";
   const Finished finished = run_line(line);
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_THAT(finished.out, HasSubstr("motion estimate error, RMS"));
@@ -176,7 +176,7 @@ TEST(Cut, TwiceTheSameIsTheSameToTheByte) {
 TEST(Cut, NamesNoFeedAsHoldingThatIsFasterThanOneThatLeftTheLimit) {
   const Scratch scratch;
   answer_of(
-      "cut examples/programs/circle-r10.ngc --machine examples/machines/linuxcnc-mill.toml "
+      "cut examples/programs/circle-r10.ngc --quick --machine examples/machines/linuxcnc-mill.toml "
       "--report " +
       scratch.at("out"));
   const json page = json::parse(text_of_file(scratch.at("out/report.json")));

@@ -80,7 +80,7 @@ TEST(FromLinuxCnc, ConvertsEveryFigure) {
 
 TEST(FromLinuxCnc, SaysWhatIsAssumed) {
   const auto answer = answer_of("machine from-linuxcnc examples/linuxcnc/mill.ini -o machine.toml");
-  EXPECT_EQ(answer["from_ini"], 24);
+  EXPECT_EQ(answer["from_ini"], 25);
   ASSERT_EQ(answer["assumed"].size(), 12U);
   EXPECT_THAT(answer["assumed"][1].get<std::string>(),
               HasSubstr("axis X: servo_gain_1_s = 20 (`steadyrest machine from-log`"));
@@ -106,6 +106,8 @@ TEST(FromLinuxCnc, FindsThePlannerOfTheExampleMill) {
   EXPECT_EQ(a.merge_share, b.merge_share);
   EXPECT_EQ(a.corner_acceleration_share, b.corner_acceleration_share);
   EXPECT_EQ(a.stop_between_rapid_and_feed, b.stop_between_rapid_and_feed);
+  EXPECT_EQ(a.clips_programmed_feed, b.clips_programmed_feed);
+  EXPECT_EQ(a.rapid_mm_s, a.max_feed_mm_s);
 }
 
 /// A three-axis mill in mm; each part may add lines to a section.
@@ -122,6 +124,23 @@ std::string small_mill(const std::string& interpreter, const std::string& io = "
     ini += std::string("[") + section + "]\n" + limits;
   }
   return ini + "[JOINT_3]\nTYPE = ANGULAR\n[JOINT_0]\n" + joint;
+}
+
+// LinuxCNC 2.10, by its documentation and source: 2.9 does not know these keys.
+TEST(FromLinuxCnc, CarriesThePlannerWithLimitedJerk) {
+  const Scratch scratch;
+  const auto with = [&](const std::string& keys) {
+    std::string ini = small_mill("");
+    ini.insert(ini.find("COORDINATES"), keys);
+    return machine_of(scratch, ini).control;
+  };
+  using kernel::machine::LinuxCncPlanner;
+  const auto s_curve = with("PLANNER_TYPE = 1\nMAX_LINEAR_JERK = 20000\n");
+  EXPECT_EQ(s_curve.planner, LinuxCncPlanner::s_curve);
+  EXPECT_EQ(s_curve.max_path_jerk_mm_s3, 20000.0);
+  EXPECT_EQ(with("MAX_LINEAR_JERK = 20000\n").planner, LinuxCncPlanner::trapezoid);
+  // Below 1 LinuxCNC warns and takes the other.
+  EXPECT_EQ(with("PLANNER_TYPE = 1\nMAX_LINEAR_JERK = 0.5\n").planner, LinuxCncPlanner::trapezoid);
 }
 
 std::string list_of(const nlohmann::json& list) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -8,10 +10,12 @@
 #include "expectations.hpp"
 #include "program.hpp"
 #include "scratch.hpp"
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/file/testing/recorded.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::test {
@@ -102,6 +106,106 @@ TEST(MachineFromLog, FindsTheGainsOfAMachineWithFriction) {
   ASSERT_EQ(answer["axes"].size(), 3U);
   expect_gains(answer, 50.0, 0.01);
   EXPECT_THAT(text_of_file(scratch.at("fitted.toml")), HasSubstr("servo_gain_m_min_mm = "));
+}
+
+/// A machine with the axes that move in the recorded capture.
+std::string recorded_machine() {
+  std::string text =
+      "name = \"recorded\"\nport = \"sim\"\n[control]\ndialect = \"sinumerik\"\n"
+      "interpolator_period_ms = 2\nservo_period_ms = 2\n[override.feed]\n"
+      "percent = [0, 50, 100]\n";
+  for (const char axis : {'X', 'Y', 'Z', 'U'}) {
+    text += fmt::format(
+        "[[axis]]\nname = \"{}\"\nservo_gain_1_s = 50\nmax_feed_mm_min = 40000\n"
+        "max_acceleration_mm_s2 = 8000\nmin_mm = -2000\nmax_mm = 2000\n"
+        "encoder = {{ count_um = 0.1 }}\n",
+        axis);
+  }
+  return text;
+}
+
+// A real 840D sl, read as it was captured: feed-forward on, a delay of some milliseconds.
+TEST(MachineFromLog, FitsTheCaptureOfARealControl) {
+  const auto capture = kernel::file::testing::shared_data() / "edge/capture_840dsl.json.gz";
+  if (!std::filesystem::exists(capture)) {
+    GTEST_SKIP() << capture << " is not there";
+  }
+  const Scratch scratch;
+  const std::string command = "machine from-log " + capture.string() + " --machine " +
+                              scratch.file("m.toml", recorded_machine()) + " -o " +
+                              scratch.at("fitted.toml");
+  const json answer = answer_of(command + " --columns X=1,Y=2,Z=4,U=6");
+  ASSERT_EQ(answer["axes"].size(), 4U);
+  for (const json& axis : answer["axes"]) {
+    EXPECT_LT(axis["rms_um"].get<double>(), 3.0) << axis;
+    EXPECT_GT(axis["feed_forward"].get<double>(), 0.6) << axis;
+    EXPECT_NEAR(axis["delay_ms"].get<double>(), 4.5, 2.5) << axis;
+    // So little lag is left that the gain stays open: the machine file keeps its own.
+    EXPECT_FALSE(axis["determined"].get<bool>()) << axis;
+  }
+  EXPECT_THAT(answer["warnings"].dump(), HasSubstr("axis Z: the record leaves the gain open"));
+  EXPECT_TRUE(answer["proposals"].empty());
+  EXPECT_EQ(kernel::file::testing::text_of_file(scratch.at("fitted.toml")), recorded_machine());
+  expect_refused(command + " --columns X=1,Y=9", "no positions of machine axis 9");
+}
+
+/// A trace as SINUMERIK writes it: values at their changes alone.
+std::string trace_of(const std::vector<std::array<double, 3>>& rows) {
+  std::string out =
+      "<traceSession>\n<traceData>\n <dataFrame>\n"
+      "  <dataSignal interval=\"0.001\" id=\"f1\" name=\"/Nck/!SD/nckServoDataCmdPos2ndEnc64 [u1, "
+      "1]\"/>\n"
+      "  <dataSignal interval=\"0.001\" id=\"f2\" name=\"/Nck/!SD/nckServoDataFlwErr64 [u1, "
+      "1]\"/>\n";
+  std::array<double, 3> was{-1.0, 1e9, 1e9};
+  for (const auto& row : rows) {
+    std::string values = row[1] != was[1] ? fmt::format(" f1=\"{:.6f}\"", row[1]) : "";
+    values += row[2] != was[2] ? fmt::format(" f2=\"{:.6f}\"", row[2]) : "";
+    out += values.empty() ? "" : fmt::format("  <rec time=\"{:.6f}\"{}/>\n", row[0], values);
+    was = row;
+  }
+  return out + " </dataFrame>\n</traceData>\n</traceSession>\n";
+}
+
+// e⁺ = p·e + (1 − p)/(k·h)·d, the law's own solution, in four forms.
+TEST(MachineFromLog, ReadsEveryForm) {
+  const Scratch scratch;
+  std::vector<std::array<double, 3>> rows;
+  std::string cut = "t_s,x_cmd_mm,x_act_mm\n";
+  std::string inch = "time [ms];x_cmd [inch];x_err [inch]\n";
+  std::string sampler;
+  double error = 0.0;
+  double last = 0.0;
+  for (int n = 0; n < 3000; ++n) {
+    const double t = 0.001 * n;
+    const double c =
+        std::round(1e6 * (5.0 * (1.0 - std::cos(4.0 * t)) + 0.5 * (1.0 - std::cos(31.0 * t)))) /
+        1e6;
+    const double p = std::exp(-0.04);
+    error = p * error + (1.0 - p) / 0.04 * (c - last);
+    last = c;
+    const double e = std::round(1e6 * error) / 1e6;
+    rows.push_back({t, c, e});
+    cut += fmt::format("{:.3f},{:.6f},{:.6f}\n", t, c, c - e);
+    inch += fmt::format("{};{:.9f};{:.9f}\n", n, c / 25.4, e / 25.4);
+    sampler += fmt::format("{} {:.6f} {:.6f}\n", n, c, c - e);
+  }
+  const std::string mill = project_file("examples/machines/linuxcnc-mill.toml");
+  for (const std::string& record : {scratch.file("cut.csv", cut), scratch.file("inch.csv", inch),
+                                    scratch.file("sampler.txt", sampler) +
+                                        " --columns sample,x_cmd_mm,x_act_mm --sample-hz 1000",
+                                    scratch.file("trace.xml", trace_of(rows))}) {
+    const json answer = fitted(scratch, record, mill, "X");
+    EXPECT_NEAR(answer["axes"][0]["servo_gain_1_s"].get<double>(), 40.0, 0.4) << record;
+    EXPECT_NEAR(answer["cycle_ms"].get<double>(), 1.0, 1e-6);
+  }
+  const std::string to = " --machine " + mill + " --axes X -o " + scratch.at("none.toml");
+  expect_refused("machine from-log " + scratch.file("a.json", "{\"Header\": {}}") + to,
+                 "not a capture of SINUMERIK Edge");
+  expect_refused("machine from-log " + scratch.file("a.xml", "<a/>") + to,
+                 "not a trace of SINUMERIK");
+  expect_refused("machine from-log " + scratch.file("b.csv", "t_s,x_cmd_mm\n0,0\n") + to,
+                 "the column x_act_mm is missing");
 }
 
 TEST(MachineFromLog, RefusesByName) {

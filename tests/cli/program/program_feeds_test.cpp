@@ -37,7 +37,7 @@ TEST(ProgramFeeds, KeepsTheLimitFasterThanTheBestScheduleOfOverrideSteps) {
   EXPECT_NEAR(answer["seconds_before"].get<double>(), 110.86, 0.1);
   EXPECT_LT(answer["seconds_after"].get<double>(), 0.92 * kBestSteps_s);
   EXPECT_LT(answer["share_over_limit"].get<double>(), 0.001);
-  const auto cut = answer_of("cut " + changed + kOnVmc)["without"];
+  const auto cut = answer_of("cut " + changed + " --quick" + kOnVmc)["without"];
   EXPECT_LE(cut["samples_over_limit"].get<double>(), 0.001 * cut["samples"].get<double>());
   EXPECT_NEAR(cut["cycle_time_s"].get<double>(), answer["seconds_after"].get<double>(), 0.1);
   // What remains is two right angles.
@@ -59,7 +59,7 @@ TEST(ProgramFeeds, HoldsOnASlowServoToo) {
                                 within_mm(0.010) + " -o " + changed);
   // The governor, on line with 201 steps, takes 362.7 s.
   EXPECT_LT(answer["seconds_after"].get<double>(), 345.0);
-  const auto cut = answer_of("cut " + changed + kOnSlowMill)["without"];
+  const auto cut = answer_of("cut " + changed + " --quick" + kOnSlowMill)["without"];
   EXPECT_LE(cut["samples_over_limit"].get<double>(), 0.007 * cut["samples"].get<double>());
   // Beyond the feed's reach: rapids whose lag lasts into the cut; sharp corners.
   for (const auto& one : answer["remaining"]) {

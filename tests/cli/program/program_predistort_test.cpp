@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "examples.hpp"
@@ -78,6 +79,30 @@ TEST(ProgramPredistort, MakesNoCornerWorseAtTheEnd) {
   }
 }
 
+// A lag of half of 1 / servo gain leaves no error on an arc: where the file does not exclude it,
+// arcs stay, and the answer says why and what to do.
+TEST(ProgramPredistort, LeavesArcsWhereALagIsNotKnown) {
+  const Scratch scratch;
+  const std::string machine =
+      scratch.file("machine.toml",
+                   std::regex_replace(text_of_file(project_file("examples/machines/vmc-840d.toml")),
+                                      std::regex("velocity_lag_ms = 0\n"), ""));
+  const std::string command = "program predistort " + kPredistortPart + " --machine " + machine +
+                              " -o " + scratch.at("changed.mpf");
+  const auto answer = answer_of(command);
+  EXPECT_TRUE(answer["unchanged"].get<bool>());
+  EXPECT_EQ(answer["uncertain"]["lag_percent"], 50.0);
+  EXPECT_EQ(answer["uncertain"]["lag_unknown"], nlohmann::json({"X", "Y", "Z"}));
+  EXPECT_GE(answer["not_better"].size(), 1U);
+  const Finished finished = run_line(command);
+  EXPECT_THAT(finished.out, HasSubstr("the lag of the velocity loop of X, Y, Z is not known"));
+  EXPECT_THAT(finished.out, HasSubstr("machine from-log fits it"));
+  const auto daring = answer_of(command + " --lag-uncertainty-percent 0");
+  EXPECT_FALSE(daring["unchanged"].get<bool>());
+  EXPECT_EQ(daring["uncertain"]["lag_unknown"], nlohmann::json({"X", "Y", "Z"}));
+  EXPECT_THAT(text_of_file(scratch.at("changed.mpf")), HasSubstr("--lag-uncertainty-percent 0"));
+}
+
 TEST(ProgramPredistort, RefusesWhatItCannotDo) {
   const Scratch scratch;
   const std::string to = " -o " + scratch.at("changed.mpf");
@@ -90,6 +115,7 @@ TEST(ProgramPredistort, RefusesWhatItCannotDo) {
        "program predistort " + kPredistortPart + kOnVmc + to + " --max-shift-mm 9",
        "program predistort " + kPredistortPart + kOnVmc + to + " --max-error-mm 0",
        "program predistort " + kPredistortPart + kOnVmc + to + " --gain-uncertainty-percent 50",
+       "program predistort " + kPredistortPart + kOnVmc + to + " --lag-uncertainty-percent 51",
        "program predistort examples/programs/slot.toml" + kOnVmc + to});
 }
 

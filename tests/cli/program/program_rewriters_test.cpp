@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <steadyrest/kernel/testing/cases.hpp>
+
 namespace steadyrest::test {
 namespace {
 
@@ -50,10 +52,11 @@ TEST(ProgramRewriters, WriteNothingThatVerifyRejectsAfterARotationUnderAShift) {
   }
   const std::string known = kOnMill + " --variables " + scratch.file("mill.var", offsets);
   for (const char* const shift :
-       {"G52 Y3", "G92 Y2", "G92 X9 Y1\nG92.2\nG92.3", "G55\nG52 X1 Y3"}) {
-    for (const char* const turn :
-         {"G10 L2 P0 X2 R71", "G10 L2 P0 R-30", "G10 L2 P0 R20\nG10 L2 P0 R71",
-          "G10 L2 P0 R71\nG43.1 Z1", "G10 L2 P0 R71\nG10 L20 P0 X3"}) {
+       kernel::testing::cases({"G52 Y3", "G92 Y2", "G92 X9 Y1\nG92.2\nG92.3", "G55\nG52 X1 Y3"})) {
+    for (const char* const turn : kernel::testing::cases(
+             {"G10 L2 P0 X2 R71", "G10 L2 P0 R-30", "G10 L2 P0 R20\nG10 L2 P0 R71",
+              "G10 L2 P0 R71\nG43.1 Z1", "G10 L2 P0 R71\nG10 L20 P0 X3"},
+             2)) {
       const auto replaced = written_and_proved(
           std::string("G21 G90 G17 G54\nS1000 M3\nG0 X10 Y5 Z1\n") + shift + "\n" + turn +
               "\nG1 Y20 F2000\nG1 X30\nG1 Y40\nG3 X40 Y50 I10 J0\nG1 X80\nG0 Z5\nM2\n",
@@ -65,10 +68,11 @@ TEST(ProgramRewriters, WriteNothingThatVerifyRejectsAfterARotationUnderAShift) {
 
 // A block with another G word leans on the motion in force before it.
 TEST(ProgramRewriters, PutTheMotionWordBackBeforeABlockThatLeansOnIt) {
-  for (const char* const next :
-       {"G91 X-5\nG90", "G90 X145", "G40 X145", "G64 P0.01 X145", "G54 X145", "G9 X145", "G53 X145",
-        "G43.1 Z0 X145", "G61 X145\nG64 P0.01", "M8\nX145", "G91 X0\nG90\nX145", "X145 M8",
-        "M70\nG91\nM72\nX145", "G4 P1\nX145"}) {
+  for (const char* const next : kernel::testing::cases(
+           {"G91 X-5\nG90", "G90 X145", "G40 X145", "G64 P0.01 X145", "G54 X145", "G9 X145",
+            "G53 X145", "G43.1 Z0 X145", "G61 X145\nG64 P0.01", "M8\nX145", "G91 X0\nG90\nX145",
+            "X145 M8", "M70\nG91\nM72\nX145", "G4 P1\nX145"},
+           4)) {
     const std::string text = std::string("G21 G90 G17 G54 G64 P0.01\nS1000 M3\nG0 X100 Y100 Z5\n") +
                              "G1 Z0 F2000\nX150\nG3 X160 Y110 I0 J10\nG1 Y150\n" + next +
                              "\nG0 Z5\nM2\n";

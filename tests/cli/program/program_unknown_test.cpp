@@ -29,7 +29,7 @@ TEST(ProgramUnknown, EachPlanningVerbNamesWhatItAssumed) {
   for (const std::string& line :
        {"program check " + program + " --dialect linuxcnc", "program time " + program + kWithMill,
         "program moves " + program + " --dialect linuxcnc -o " + scratch.at("moves.csv"),
-        "cut " + program + kWithMill}) {
+        "cut " + program + kWithMill + " --quick"}) {
     const json answer = answer_of(line);
     ASSERT_EQ(answer["assumed"].size(), 1U) << line;
     EXPECT_EQ(answer["assumed"][0]["line"], 5) << line;

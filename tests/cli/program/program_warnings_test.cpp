@@ -75,7 +75,7 @@ TEST(ProgramWarnings, AreThoseOfEachVerbThatHasTheMachine) {
                                            "G53 G0 X501 Y0\n"
                                            "G53 G0 X490 Y0\n"
                                            "M2\n");
-  for (const std::string verb : {"program check ", "program time ", "cut "}) {
+  for (const std::string verb : {"program check ", "program time ", "cut --quick "}) {
     SCOPED_TRACE(verb);
     const std::string line = verb + program + " --machine " + kMill;
     EXPECT_THAT(
@@ -107,7 +107,7 @@ TEST(ProgramWarnings, OfInchesAreTheSame) {
                                            "G53 G0 X19.6\n"
                                            "G53 G0 X19.7\n"
                                            "M2\n");
-  for (const std::string verb : {"program check ", "program time ", "cut "}) {
+  for (const std::string verb : {"program check ", "program time ", "cut --quick "}) {
     SCOPED_TRACE(verb);
     EXPECT_THAT(warned(answer_of(verb + program + " --machine " + kMill)),
                 ElementsAre(HasSubstr("5: the feed of 12700 mm/min is more than the axes"),
@@ -126,7 +126,7 @@ TEST(ProgramWarnings, CutSaysWhenTheOverrideHasNoEffect) {
     const std::string program = scratch.file(
         "fast.ngc",
         fmt::format("G21 G90 G17\nS1000 M3\nG0 X0 Y0\nG1 X200 F{}\nX10\nM2\n", feed_mm_min));
-    return warned(answer_of("cut " + program + " --machine " + machine));
+    return warned(answer_of("cut " + program + " --quick --machine " + machine));
   };
   EXPECT_THAT(cut(60000, unclipped),
               ElementsAre(HasSubstr("4: the next step of the feed override, 99.5 %, "

@@ -122,10 +122,30 @@ export interface OverrideStep {
 }
 
 /** A way to cut the part; `changed…`: by the changed program, the others by its original or the only program. */
-export type WayName = 'alone' | 'feed_override' | 'path_offsets' | 'changed' | 'changed_feed_override' | 'changed_path_offsets';
+export type WayName = 'alone' | 'setting' | 'text' | 'text_held' | 'text_feeds' | 'feed_override' | 'path_offsets' | 'changed' | 'changed_feed_override' | 'changed_path_offsets';
 
 export interface WayFigures extends Figures {
   way: WayName;
+  /** The command or the setting that gives it. */
+  get?: string;
+}
+
+/** The best of the ways; null where nothing is better. */
+export interface BestWays {
+  /** In the program's own time. */
+  same_time: WayFigures | null;
+  any_time: WayFigures | null;
+  /** The cheapest cure: a setting of the control. */
+  setting: WayFigures | null;
+}
+
+/** A line that stays over the limit in the best way of the same time. */
+export interface OverLimitLine {
+  line: number;
+  error_um: number;
+  reason: string;
+  /** With its price; null: none was found. */
+  cure: string | null;
 }
 
 /** The feed override alone, told to keep another limit. */
@@ -151,6 +171,11 @@ export interface Report extends Head {
   ways: WayFigures[];
   /** By rising limit; empty if not asked for. */
   curve: CurvePoint[];
+  /** Only where the plain question was asked: what is the best that this part can be? */
+  best?: BestWays;
+  over_limit?: OverLimitLine[];
+  /** The cut in the best way of the same time. */
+  best_run?: Run;
   /** The first few, and how many there are in all. */
   warnings?: Warning[];
   warning_count?: number;

@@ -13,10 +13,18 @@ import { lowerBound, nearestIndex } from '../plot/thin';
 import { RUNS, type Report, type RunName, type Trace } from './data';
 import { NOT_CUTTING, NearestSample, type Plane, boundingBox, columns, polylinesByClass } from './path';
 import { type ErrorClass, classOf } from './scale';
+import { WAYS } from './way_names';
 
 export type Abscissa = 'path_mm' | 'time_s';
 
-const NAMES: Record<RunName, string> = { without: 'without the layer', with: 'with the layer' };
+/** On curves and pictures; where the best way is shown in place of the layer, its name. */
+export function runName(report: Report, run: RunName): string {
+  const best = report.best_run === undefined ? undefined : report.best?.same_time;
+  if (!best) {
+    return run === 'with' ? 'with the layer' : 'without the layer';
+  }
+  return run === 'with' ? WAYS[best.way].name : WAYS.alone.name;
+}
 /** Beyond this many samples, those too close to be seen apart are merged. */
 const MOST_SAMPLES = 20_000;
 const PATH_PX = 4000;
@@ -52,9 +60,9 @@ export function pathPlot(report: Report, run: RunName, plane: Plane, classes: re
   let nearest: NearestSample | undefined;
   const [h, v] = columns(trace, plane);
   return {
-    title: `Path ${NAMES[run]}, coloured by contour error`,
+    title: `Path ${runName(report, run)}, coloured by contour error`,
     x: { name: `${horizontal} in mm`, min: box.left, max: box.right },
-    y: { name: `${NAMES[run]}, ${vertical} in mm`, min: box.bottom, max: box.top },
+    y: { name: `${runName(report, run)}, ${vertical} in mm`, min: box.bottom, max: box.top },
     equal: true,
     plane: true,
     group: 'paths',
@@ -119,7 +127,7 @@ function courseReading(report: Report, of: Abscissa, x: number): string {
   const at = RUNS.map((r) => nearestIndex(report[r].trace[of], x));
   const lines = RUNS.map((r, k) => String(report[r].trace.line[at[k] ?? -1] ?? '–'));
   const quantities = COURSES.map((c) => ({ name: c.name, values: RUNS.map((r, k) => fixed(c.column(report[r].trace)[at[k] ?? -1], c.decimals)) }));
-  return readingTable(of === 'path_mm' ? measure(x, 2, 'mm') : measure(x, 3, 's'), RUNS, [{ name: 'line', values: lines }, ...quantities]);
+  return readingTable(of === 'path_mm' ? measure(x, 2, 'mm') : measure(x, 3, 's'), RUNS.map((r) => runName(report, r)), [{ name: 'line', values: lines }, ...quantities]);
 }
 
 export function coursePlot(report: Report, course: Quantity, of: Abscissa, theme: Theme): Plot {
@@ -134,7 +142,7 @@ export function coursePlot(report: Report, course: Quantity, of: Abscissa, theme
       ...(course.id === 'course-error' ? [limits] : []),
       ...RUNS.map((run): Layer => ({
         kind: 'line',
-        name: NAMES[run],
+        name: runName(report, run),
         x: report[run].trace[of],
         y: course.column(report[run].trace),
         colour: theme.run[run],
@@ -169,7 +177,7 @@ export function vibrationPlot(report: Report, what: (typeof VIBRATIONS)[number],
   const layers = RUNS.flatMap((run): Layer[] => {
     const course = report[run].vibration?.course;
     const x = course && (of === 'time_s' ? course.time_s : pathAt(report[run].trace, course.time_s));
-    return course && x ? [{ kind: 'line', name: NAMES[run], x, y: course[what.key], colour: theme.run[run], width: run === 'with' ? 1.5 : 1.2 }] : [];
+    return course && x ? [{ kind: 'line', name: runName(report, run), x, y: course[what.key], colour: theme.run[run], width: run === 'with' ? 1.5 : 1.2 }] : [];
   });
   const top = Math.max(...layers.map((l) => (l.kind === 'line' ? most(l.y) : 0)), 1e-3);
   return {

@@ -11,7 +11,8 @@ import { type FigureRow, figureRows, micrometres, motionRows, seconds, verdict, 
 import type { Plane } from './path';
 import { type Abscissa, COURSES, VIBRATIONS, coursePlot, pathPlot, vibrationPlot } from './plots';
 import { errorClasses } from './scale';
-import { WAYS_TERM, WAY_PLOTS, comparesWays, wayPlot, waysSection } from './ways';
+import { WAYS } from './way_names';
+import { WAYS_TERM, WAY_PLOTS, bestSection, comparesWays, overSection, wayPlot, waysSection } from './ways';
 
 function headline(key: string, label: string, before: number, after: number, show: (v: number) => string): string {
   return `<div class="worth" data-key="${key}"><h3>${label}</h3>
@@ -152,36 +153,50 @@ function compared(report: Report): [Figures, Figures] {
   return original ? [original, report.without.figures] : [report.without.figures, report.with.figures];
 }
 
+/** The report with the best way where the layer is, for pictures and curves. */
+function withBest(report: Report): Report {
+  return report.best_run === undefined ? report : { ...report, with: report.best_run };
+}
+
+/** What the second of two cuts is, at the start of a sentence. */
+function how(report: Report): string {
+  const best = report.best_run === undefined ? undefined : report.best?.same_time;
+  return best ? `With ${WAYS[best.way].name}` : report.against === undefined ? 'With the layer' : 'With the changed program';
+}
+
 function body(report: Report): string {
   const { without, with: layer } = report;
   const [a, b] = [without.figures, layer.figures];
-  const [before, after] = compared(report);
+  const [before, after] = compared(withBest(report));
   return `<div class="worths">${headline('contour_error_max_mm', 'Contour error, max', before.contour_error_max_mm, after.contour_error_max_mm, micrometres)}
       ${headline('contour_error_rms_mm', 'Contour error, RMS', before.contour_error_rms_mm, after.contour_error_rms_mm, micrometres)}
       ${headline('cycle_time_s', 'Cycle time', before.cycle_time_s, after.cycle_time_s, seconds)}</div>
-    ${warnings(report)}
+    ${bestSection(report)}
     ${waysSection(report)}
+    ${overSection(report)}
+    ${warnings(report)}
     ${section('Path, coloured by contour error', panels(RUNS.map((run) => `path-${run}`), 'square'), '<span class="on-screen">Point at the path to read its line and values.</span>', buttons('plane', 'View', [['xy', 'XY'], ['xz', 'XZ'], ['yz', 'YZ']], 'xy'))}
     ${section('Along the program', `${host('course-error')}${host('course-override', 'low')}${host('course-feed', 'low')}`, '', buttons('abscissa', 'Horizontal axis', [['path_mm', 'Path length'], ['time_s', 'Time']], 'path_mm'))}
-    ${section('Worst lines', worstTable(report), '<span class="on-screen">Click a column head to sort.</span>')}
-    <div class="two">${section('Figures', comparison('figures', figureRows(a, b)))}${section('Override reasons', reasonsTable(layer.reasons) + steps(report))}</div>
+    ${section(report.best ? 'Worst lines, without and with the layer' : 'Worst lines', worstTable(report), '<span class="on-screen">Click a column head to sort.</span>')}
+    <div class="two">${section(report.best ? 'Figures, without and with the layer' : 'Figures', comparison('figures', figureRows(a, b)))}${section('Override reasons', reasonsTable(layer.reasons) + steps(report))}</div>
     ${vibrationSection(report)}${probeSection(report)}${section('Axis motion', motionTable(report))}`;
 }
 
 export function cutView(report: Report): View {
-  const largest_um = largestError(report);
+  const shown = withBest(report);
+  const largest_um = largestError(shown);
   const state = { plane: 'xy' as Plane, abscissa: 'path_mm' as Abscissa };
   return {
     product: 'Steadyrest cut',
     title: report.program,
     facts: `Machine <b>${escapeHtml(report.machine)}</b> · strategy <b>${escapeHtml(report.strategy)}</b> · contour limit <b>${um(report.limit_um)}</b>${report.against === undefined ? '' : ` · against <b>${escapeHtml(report.against)}</b>`}`,
-    verdict: [verdict(...compared(report), report.limit_um, report.against === undefined ? 'With the layer' : 'With the changed program'), vibrationVerdict(report.without.vibration?.figures, report.with.vibration?.figures)].filter(Boolean).join(' '),
+    verdict: [verdict(...compared(shown), report.limit_um, how(report)), vibrationVerdict(report.without.vibration?.figures, report.with.vibration?.figures)].filter(Boolean).join(' '),
     body: body(report),
     explanation: explanation(report),
     draw: (theme) => {
       const classes = errorClasses(report.limit_um, largest_um, theme.scheme);
-      RUNS.forEach((run) => plot(`path-${run}`, pathPlot(report, run, state.plane, classes, theme), theme));
-      COURSES.forEach((course) => plot(course.id, coursePlot(report, course, state.abscissa, theme), theme));
+      RUNS.forEach((run) => plot(`path-${run}`, pathPlot(shown, run, state.plane, classes, theme), theme));
+      COURSES.forEach((course) => plot(course.id, coursePlot(shown, course, state.abscissa, theme), theme));
       if (comparesWays(report)) {
         WAY_PLOTS.forEach((id, i) => plot(id, wayPlot(report, i, theme), theme));
       }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every way to cut the part side by side: as a table, and as error over cycle time.
-import { capital, section } from '../frame/html';
-import { change, percent, plain, um } from '../frame/numbers';
+import { capital, escapeHtml, section } from '../frame/html';
+import { change, fixed, percent, plain, um } from '../frame/numbers';
 import { type Cell, numeric, table } from '../frame/table';
 import { type Theme, curveColour } from '../frame/theme';
 import type { Term } from '../frame/view';
@@ -13,16 +13,7 @@ import { type Plot, panels } from '../plot/plot';
 import { reading } from '../plot/reading';
 import type { CurvePoint, Figures, Report, WayFigures, WayName } from './data';
 import { micrometres, overLimitShare, seconds } from './figures';
-
-/** On a plot, in a table, and its colour of the palette. */
-const WAYS: Record<WayName, { label: string; name: string; colour: number }> = {
-  alone: { label: 'alone', name: 'alone', colour: 2 },
-  feed_override: { label: 'override', name: 'with feed override', colour: 0 },
-  path_offsets: { label: 'offsets', name: 'with path offsets', colour: 3 },
-  changed: { label: 'changed', name: 'alone', colour: 4 },
-  changed_feed_override: { label: 'changed + override', name: 'with feed override', colour: 6 },
-  changed_path_offsets: { label: 'changed + offsets', name: 'with path offsets', colour: 5 },
-};
+import { WAYS } from './way_names';
 
 function nameOf(way: WayName, report: Report): string {
   const program = report.against === undefined ? '' : way.startsWith('changed') ? 'changed program, ' : 'original, ';
@@ -36,6 +27,28 @@ const QUANTITIES = [
   { id: 'ways-rms', name: 'contour error, RMS, in µm', value: (f: Figures) => 1000 * f.contour_error_rms_mm },
 ] as const;
 export const WAY_PLOTS = QUANTITIES.map((q) => q.id);
+
+/** What to do for the best; empty where nothing is better. */
+export function bestSection(report: Report): string {
+  const { best } = report;
+  if (!best) {
+    return '';
+  }
+  const row = (head: string, way: WayFigures | null): Cell[][] =>
+    way ? [[head, capital(WAYS[way.way].name), seconds(way.cycle_time_s), micrometres(way.contour_error_max_mm), micrometres(way.contour_error_rms_mm), percent(overLimitShare(way), 2), { html: escapeHtml(way.get ?? ''), look: 'code' }]] : [];
+  const rows = [...row('In the same time', best.same_time), ...row('In more time', best.any_time), ...row('Cheapest first', best.setting)];
+  const columns = [{ head: '' }, { head: 'Way' }, numeric('Cycle time'), numeric('Error, max'), numeric('Error, RMS'), numeric(`Over ${um(report.limit_um)}`), { head: 'Command or setting' }];
+  return rows.length === 0 ? '' : section('The best, and how to get it', table({ id: 'best', columns, rows }));
+}
+
+/** Which lines stay over the limit in the best way, and why; empty without. */
+export function overSection(report: Report): string {
+  const over = report.over_limit ?? [];
+  const rows = over.map((o): Cell[] => [String(o.line), { html: fixed(o.error_um, 1), look: 'over' }, o.reason, o.cure ?? '']);
+  const columns = [numeric('Line'), numeric('Error, µm'), { head: 'Reason' }, { head: 'Cheapest cure: its price' }];
+  return rows.length === 0 ? '' : section('What is left over the limit', table({ id: 'over-limit', columns, rows: rows.slice(0, MOST_OVER) }), over.length > MOST_OVER ? `The worst ${MOST_OVER} of ${over.length} lines.` : '');
+}
+const MOST_OVER = 20;
 
 export const comparesWays = (report: Report) => report.ways.length > 1;
 
@@ -131,5 +144,5 @@ export function wayPlot(report: Report, index: number, theme: Theme): Plot {
 
 export const WAYS_TERM: Term = [
   'Ways',
-  'The same part, cut alone, with the layer acting through the feed override only, and with the layer moving the axes off the path where the machine file permits it (the feed then falls only for what the offsets leave). A changed program is judged by the path of its original. “Feed override for 5 µm” is the layer told to hold 5 µm; its share over the limit still refers to the limit of the report. Down and to the left is better.',
+  'The same part, cut as programmed, with one setting of the control changed, with a corrected text (in the same time, with lower feeds where that does not hold the limit, by lower feeds alone), with the layer acting through the feed override only, and with the layer moving the axes off the path where the machine file permits it (the feed then falls only for what the offsets leave). A changed program is judged by the path of its original. “Feed override for 5 µm” is the layer told to hold 5 µm; its share over the limit still refers to the limit of the report. Down and to the left is better.',
 ];

@@ -98,7 +98,7 @@ describe('a report with data', () => {
   it('compares the ways as a table, in the order of the report', async () => {
     const rows = await open.page.locator('#ways tbody tr').allTextContents();
     expect(rows).toHaveLength(report.ways.length + report.curve.length);
-    for (const [i, name] of ['Alone', 'With feed override', 'With path offsets', 'Feed override for 5 µm'].entries()) {
+    for (const [i, name] of ['As programmed', 'Feed override', 'Path offsets', 'Feed override for 5 µm'].entries()) {
       expect(rows[i]?.startsWith(name), rows[i]).toBe(true);
     }
     expect(rows[2]).toContain(micrometres(report.ways[2]?.contour_error_max_mm ?? 0));

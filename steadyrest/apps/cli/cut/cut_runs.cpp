@@ -8,7 +8,7 @@ kernel::outcome::Result<trial::cut::Recorder> CutRuns::run(const Asked& asked) {
     return (static_cast<double>(done_) + of_this) / static_cast<double>(count_);
   };
   auto record = trial::cut::run(
-      {.machine = setup_.machine,
+      {.machine = asked.machine ? *asked.machine : setup_.machine,
        .path = asked.path,
        .with_layer = asked.with_layer,
        .believed = asked.believed ? asked.believed : setup_.believed,

@@ -31,6 +31,8 @@ struct Asked {
   std::shared_ptr<const trial::cut::Original> against = nullptr;  ///< empty: the path itself
   /// A machine file for the layer of this run alone.
   std::optional<kernel::machine::Machine> believed = std::nullopt;
+  /// The machine of this run alone.
+  std::optional<kernel::machine::Machine> machine = std::nullopt;
   std::function<void(const kernel::signal::Frame&)> on_frame = [](const auto&) {};
 };
 

@@ -27,7 +27,15 @@ constexpr std::array kCurveLimits_um = {5.0, 10.0, 20.0, 50.0};
 const char* words_of(Way way) {
   switch (way) {
     case Way::alone:
-      return "alone";
+      return "as programmed";
+    case Way::setting:
+      return "setting of the control";
+    case Way::text:
+      return "corrected text";
+    case Way::text_held:
+      return "corrected text, limit held";
+    case Way::text_feeds:
+      return "lower feeds in the text";
     case Way::feed_override:
       return "feed override";
     case Way::path_offsets:
@@ -66,10 +74,16 @@ std::vector<std::string> row_of(const std::string& name, const Figures& figures)
 }  // namespace
 
 void add_ways_options(Verb& verb, WaysOptions& options) {
+  CLI::Option* const quick =
+      verb.add_flag("--quick", options.quick,
+                    "Cut the part twice alone, without and with the layer: no corrected text, no "
+                    "other setting of the control");
+  verb.add_flag("--all", options.all,
+                "Work out every way for programs of over 15 minutes or 20000 blocks, too")
+      ->excludes(quick);
   verb.add_flag("--ways", options.ways,
-                "Compare every way to cut the part: alone, with feed override, with path offsets "
-                "where the machine file permits them, changed. A report does so by itself with "
-                "--against or path offsets");
+                "Compare the ways where that is not done by itself: of a changed program, with "
+                "--process, --batch or --record");
   verb.add_flag(
       "--curve", options.curve,
       "With the ways, the feed override at limits of 5, 10, 20 and 50 µm as well as at the "
@@ -88,6 +102,8 @@ std::vector<Further> further_runs(const Setup& setup, const PathPointer& path, b
                        std::optional<Machine> believed) {
     out.push_back({.way = way,
                    .curve_limit_um = curve_limit_um,
+                   .get = way == Way::feed_override ? "the layer, by feed override"
+                                                    : "the layer, by path offsets",
                    .asked = {.what = std::move(what),
                              .path = path,
                              .with_layer = true,

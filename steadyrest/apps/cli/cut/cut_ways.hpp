@@ -8,10 +8,12 @@
 #include <steadyrest/apps/cli/shared/session.hpp>
 #include <steadyrest/trial/cut/report_data.hpp>
 
-/// `--ways` and `--curve`: every way to cut the part, side by side.
+/// Every way to cut the part, side by side.
 namespace steadyrest::apps::cli::cut {
 
 struct WaysOptions {
+  bool quick = false;
+  bool all = false;
   bool ways = false;
   bool curve = false;
 };
@@ -26,6 +28,7 @@ void add_ways_options(Verb& verb, WaysOptions& options);
 struct Further {
   trial::cut::Way way = trial::cut::Way::feed_override;
   double curve_limit_um = 0.0;  ///< > 0: a point of the curve instead
+  std::string get;              ///< what gives it
   Asked asked;
 };
 

@@ -12,7 +12,9 @@
 #include <steadyrest/apps/cli/cut/cut_against.hpp>
 #include <steadyrest/apps/cli/cut/cut_answer.hpp>
 #include <steadyrest/apps/cli/cut/cut_batch.hpp>
+#include <steadyrest/apps/cli/cut/cut_best.hpp>
 #include <steadyrest/apps/cli/cut/cut_chatter.hpp>
+#include <steadyrest/apps/cli/cut/cut_every.hpp>
 #include <steadyrest/apps/cli/cut/cut_plan.hpp>
 #include <steadyrest/apps/cli/cut/cut_runs.hpp>
 #include <steadyrest/apps/cli/cut/cut_ways.hpp>
@@ -50,6 +52,13 @@ struct Options {
   WaysOptions ways;
   CutChatterOptions chatter;
   CutBatchOptions batch;
+  const CLI::App* verb = nullptr;
+
+  /// The plain question: what is the best that this part can be?
+  [[nodiscard]] bool asks_best() const {
+    return !ways.quick && against.file.empty() && believed.empty() && record.empty() &&
+           chatter.process.empty() && batch.parts == 0;
+  }
 };
 
 const std::map<std::string, ContourStrategy> kStrategies = {
@@ -101,6 +110,7 @@ struct Cuts {
   Recorder without;
   Recorder with;
   Ways ways;  ///< empty where they are not compared
+  std::optional<EveryWay> every;
 };
 
 /// The cuts that are made anyway are ways too.
@@ -115,15 +125,17 @@ void add_ways(Cuts& cuts, const Setup& setup) {
         {offsets ? Way::changed_path_offsets : Way::changed_feed_override, cuts.with.figures()});
   } else {
     ways.push_back({Way::alone, cuts.without.figures()});
-    ways.push_back({offsets ? Way::path_offsets : Way::feed_override, cuts.with.figures()});
+    ways.push_back({offsets ? Way::path_offsets : Way::feed_override, cuts.with.figures(),
+                    offsets ? "the layer, by path offsets" : "the layer, by feed override"});
   }
   cuts.ways.sort();
 }
 
-/// A report compares the ways by itself where there is more than one to choose from.
+/// Compared by themselves for a plain program, and in a report where there are several.
 bool wants_ways(const Options& options, const Setup& setup, bool changed) {
   const bool worth = changed || permits_offsets(setup);
-  return options.ways.ways || options.ways.curve || (!options.report.empty() && worth);
+  return options.asks_best() || options.ways.ways || options.ways.curve ||
+         (!options.report.empty() && worth);
 }
 
 /// The cut without the layer, recorded where that is wanted.
@@ -152,7 +164,8 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
   if (wants_ways(options, setup, against != nullptr)) {
     further = further_runs(setup, against ? against->path : path, against != nullptr, options.ways);
   }
-  CutRuns runs(setup, progress, (against ? 3 : 2) + further.size());
+  const bool best = options.asks_best() && !against;
+  CutRuns runs(setup, progress, (against ? 3 : 2) + further.size() + (best ? kMostEvery : 0));
   std::optional<Recorder> original;
   if (against) {
     auto cut = runs.run({.what = "cutting the original", .path = against->path});
@@ -171,7 +184,7 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
   if (!with) {
     return std::unexpected(with.error());
   }
-  Cuts cuts{std::move(original), std::move(*without), std::move(*with), {}};
+  Cuts cuts{std::move(original), std::move(*without), std::move(*with), {}, {}};
   for (const Further& one : further) {
     const auto cut = runs.run(one.asked);
     if (!cut) {
@@ -180,11 +193,25 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
     if (one.curve_limit_um > 0.0) {
       cuts.ways.curve.push_back({one.curve_limit_um, cut->figures()});
     } else {
-      cuts.ways.ways.push_back({one.way, cut->figures()});
+      cuts.ways.ways.push_back({one.way, cut->figures(), one.get});
     }
   }
   if (wants_ways(options, setup, against != nullptr)) {
     add_ways(cuts, setup);
+  }
+  if (best && (options.ways.all || !is_long(*path, cuts.without.figures()))) {
+    auto every = cut_every(setup,
+                           {.program = options.program,
+                            .machine_file = options.machine,
+                            .machine = setup.machine,
+                            .verb = *options.verb,
+                            .error_mm = cuts.without.figures().contour_error_max_mm},
+                           path, cuts.with, runs, cuts.ways.ways, progress);
+    if (!every) {
+      return std::unexpected(every.error());
+    }
+    cuts.every = std::move(*every);
+    cuts.ways.sort();
   }
   return cuts;
 }
@@ -204,8 +231,18 @@ void put_cuts(Answer& answer, const Cuts& cuts, const Machine& machine) {
   answer.json["motion"] = json_of(cuts.with.motion());
   answer.json["probes"] = json_of(cuts.with.probes());
   const double limit_mm = machine.contour.limit_mm;
-  answer.text += text_of(columns, limit_mm) + put_ways(answer, cuts.ways, limit_mm) +
-                 text_of(cuts.with.motion(), machine) + text_of(cuts.with.probes()) +
+  if (cuts.every) {
+    answer.text += put_best(answer, cuts.every->best, cuts.without.figures(), limit_mm);
+  }
+  answer.text += text_of(columns, limit_mm) + put_ways(answer, cuts.ways, limit_mm);
+  if (cuts.every) {
+    answer.text += put_over(answer, cuts.every->over_limit);
+    answer.json["not_possible"] = cuts.every->not_possible;
+    for (const std::string& why : cuts.every->not_possible) {
+      answer.notes += "not possible: " + why + "\n";
+    }
+  }
+  answer.text += text_of(cuts.with.motion(), machine) + text_of(cuts.with.probes()) +
                  put_withdrawn(answer, cuts.with);
 }
 
@@ -218,6 +255,11 @@ void put_page(Answer& answer, const Options& options, const Machine& machine, co
                      : std::filesystem::path(options.against.file).filename().string();
   data.ways = cuts.ways.ways;
   data.curve = cuts.ways.curve;
+  if (cuts.every) {
+    data.best = cuts.every->best;
+    data.best_run = cuts.every->best_run;
+    data.over_limit = cuts.every->over_limit;
+  }
   page::Json page = page::to_page(data);
   // The page shows the warnings too; they are not part of the comparison.
   page["warnings"] = answer.json["warnings"];
@@ -289,6 +331,7 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_cut(Session& session, Verb& verb) {
   auto options = std::make_shared<cut::Options>();
+  options->verb = &verb;
   add_machine_program_options(verb, options->program);
   add_machine_option(verb, options->machine);
   cut::add_against_options(verb, options->against);

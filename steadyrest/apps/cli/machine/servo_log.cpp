@@ -5,17 +5,19 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
+#include <sstream>
 #include <string_view>
-#include <utility>
 
 #include <fmt/core.h>
 
+#include <steadyrest/apps/cli/machine/servo_capture.hpp>
 #include <steadyrest/apps/cli/machine/servo_log.hpp>
+#include <steadyrest/apps/cli/machine/servo_table.hpp>
+#include <steadyrest/kernel/file/memory_file.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 #include <steadyrest/record/record_reader.hpp>
-#include <steadyrest/table/row_reader.hpp>
+#include <steadyrest/table/packed_file.hpp>
 
 namespace steadyrest::apps::cli {
 namespace servo_log {
@@ -25,7 +27,6 @@ using contour::offline::ServoLog;
 using kernel::machine::Machine;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
-using table::Fault;
 
 constexpr const char* kOtherMachine = "give the machine file of the machine that was recorded";
 
@@ -68,8 +69,10 @@ Result<void> same_count(const std::string& file, std::size_t count, const Machin
   return {};
 }
 
-Result<RecordedServos> from_record(const std::string& file, const Machine& machine,
-                                   const std::vector<std::size_t>& places, Progress& progress) {
+Result<RecordedServos> from_record(const std::string& file, const ServoSource& source,
+                                   Progress& progress) {
+  const Machine& machine = source.machine;
+  const std::vector<std::size_t>& places = source.places;
   auto reader = record::RecordReader::open(file);
   if (!reader) {
     return std::unexpected(reader.error());
@@ -105,98 +108,6 @@ Result<RecordedServos> from_record(const std::string& file, const Machine& machi
   }
 }
 
-class ServoSink final : public table::Sink {
- public:
-  ServoSink(const Machine& machine, const std::vector<std::size_t>& places)
-      : machine_(machine), places_(places), logs_(places.size()) {}
-
-  std::optional<Fault> head(const table::Head& head) override {
-    if (auto fault = place(head, "time_s", time_)) {
-      return fault;
-    }
-    axes_ = head.place("axis_count");
-    for (const std::size_t axis : places_) {
-      auto& columns = columns_.emplace_back();
-      if (auto fault = place(head, fmt::format("axis.command_mm.{}", axis), columns[0])) {
-        return fault;
-      }
-      if (auto fault = place(head, fmt::format("axis.actual_mm.{}", axis), columns[1])) {
-        return fault;
-      }
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Fault> row(const table::Row& row) override {
-    const auto time_s = row.number(time_);
-    if (!time_s) {
-      return time_s.error();
-    }
-    const auto axes = axes_ ? row.number(*axes_) : std::expected<double, Fault>(0.0);
-    if (!axes) {
-      return axes.error();
-    }
-    if (axes_ && *axes != static_cast<double>(machine_.axes.size())) {
-      return Fault{row.line(),
-                   fmt::format("has {} axes, the machine file has {}", *axes, machine_.axes.size()),
-                   kOtherMachine};
-    }
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      const auto command = row.number(columns_[i][0]);
-      const auto actual = row.number(columns_[i][1]);
-      if (!command || !actual) {
-        return !command ? command.error() : actual.error();
-      }
-      add(logs_[i], *time_s, *command, *actual);
-    }
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::vector<ServoLog> take() { return std::move(logs_); }
-
- private:
-  static std::optional<Fault> place(const table::Head& head, const std::string& name,
-                                    std::size_t& out) {
-    const auto found = head.place(name);
-    if (!found) {
-      return Fault{head.line, fmt::format("the column {} is missing in the header", name),
-                   "give a record of a run, or the table that `record export` makes of one"};
-    }
-    out = *found;
-    return head.twice(name);
-  }
-
-  const Machine& machine_;
-  const std::vector<std::size_t>& places_;
-  std::vector<ServoLog> logs_;
-  std::size_t time_ = 0;
-  std::optional<std::size_t> axes_;
-  std::vector<std::array<std::size_t, 2>> columns_;
-};
-
-/// Line by line: a table of a run is large, and most of its columns are of no use here.
-Result<RecordedServos> from_table(const std::string& file, const Machine& machine,
-                                  const std::vector<std::size_t>& places) {
-  ServoSink sink(machine, places);
-  table::RowReader rows({}, sink);
-  std::ifstream in(file, std::ios::binary);
-  std::string line;
-  std::optional<Fault> fault;
-  while (!fault && std::getline(in, line)) {
-    fault = rows.line(line);
-  }
-  if (in.bad()) {
-    return refuse(file, "cannot be read to its end", "check the disk, or copy the file again");
-  }
-  if (!fault) {
-    fault = rows.finish();
-  }
-  if (fault) {
-    return refuse(file, fault->line, fault->what, fault->to_do);
-  }
-  return RecordedServos{sink.take(), {}};
-}
-
 /// Time must rise, and every position must be a number.
 Result<void> fit_for_use(const std::string& file, const RecordedServos& servos) {
   for (const ServoLog& log : servos.logs) {
@@ -218,26 +129,59 @@ Result<void> fit_for_use(const std::string& file, const RecordedServos& servos) 
 }
 
 /// What cannot be read, and what calls itself a record, the reader of records refuses by name.
-bool is_table(const std::string& file) {
+bool is_record(const std::string& file) {
   std::error_code none;
   if (file.ends_with(".sqlite") || !std::filesystem::is_regular_file(file, none)) {
-    return false;
+    return true;
   }
   std::ifstream in(file, std::ios::binary);
   std::array<char, 15> first{};
   in.read(first.data(), first.size());
-  return std::string_view(first.data(), first.size()) != "SQLite format 3";
+  return std::string_view(first.data(), first.size()) == "SQLite format 3";
+}
+
+/// By the first character that is not blank; a byte order mark counts as blank.
+char first_of(std::istream& in) {
+  char out = ' ';
+  while (in.get(out) &&
+         (std::string_view(" \t\r\n\xEF\xBB\xBF").find(out) != std::string_view::npos)) {
+  }
+  in.clear();
+  in.seekg(0);
+  return out;
+}
+
+Result<RecordedServos> from_text(const std::string& file, const ServoSource& source,
+                                 Progress& progress) {
+  std::ifstream plain(file, std::ios::binary);
+  const char first = first_of(plain);
+  const bool packed = first == '\x1F';
+  if (!packed && first != '{' && first != '<') {
+    return servo_table(file, plain, source);
+  }
+  const auto text = table::read_packed(file);
+  if (!text) {
+    return std::unexpected(text.error());
+  }
+  if (text->starts_with("SQLite format 3")) {
+    const auto unpacked = kernel::file::MemoryFile::make(*text);
+    return unpacked ? from_record(unpacked->path(), source, progress)
+                    : std::unexpected(unpacked.error());
+  }
+  std::istringstream in(*text);
+  const char kind = packed ? first_of(in) : first;
+  return kind == '{'   ? servo_capture(file, *text, source)
+         : kind == '<' ? servo_trace(file, *text, source)
+                       : servo_table(file, in, source);
 }
 
 }  // namespace
 }  // namespace servo_log
 
 kernel::outcome::Result<RecordedServos> read_servos(const std::string& file,
-                                                    const kernel::machine::Machine& machine,
-                                                    const std::vector<std::size_t>& places,
-                                                    Progress& progress) {
-  auto out = servo_log::is_table(file) ? servo_log::from_table(file, machine, places)
-                                       : servo_log::from_record(file, machine, places, progress);
+                                                    const ServoSource& source, Progress& progress) {
+  auto out = servo_log::is_record(file) ? servo_log::from_record(file, source, progress)
+                                        : servo_log::from_text(file, source, progress);
   if (out) {
     if (auto fit = servo_log::fit_for_use(file, *out); !fit) {
       return std::unexpected(fit.error());

@@ -7,12 +7,14 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/machine/servo_log.hpp>
 #include <steadyrest/apps/cli/machine/verb_machine_from_log.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/contour/offline/identify/servo_fit.hpp>
+#include <steadyrest/contour/offline/identify/servo_proposal.hpp>
 #include <steadyrest/kernel/file/output_file.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/passport/edit/servo_edit.hpp>
@@ -34,11 +36,18 @@ struct Options {
   std::string machine;
   std::string output;
   std::vector<std::string> axes;
+  LogOptions log;
 };
 
 constexpr double kSurely = 3.0;       // standard deviations of the lost motion
 constexpr double kLeastLost = 0.001;  // mm
 constexpr double kHardRatio = 3.0;
+constexpr double kOpenLag = 0.05;  // k·τ beyond the fitted one
+
+/// The record allows a lag well beyond the fitted one.
+bool is_open(const ServoFit& fit) {
+  return fit.most_lag_s > kOpenLag / fit.gain_1_s + fit.lag_s;
+}
 
 /// Places in the machine of the axes to fit.
 Result<std::vector<std::size_t>> places_of(const Machine& machine, const Options& options) {
@@ -90,30 +99,89 @@ std::vector<std::string> warnings_of(const ServoFits& fits, const std::vector<Ax
     if (fit.hard_rms > kHardRatio * fit.calm_rms && fit.hard_rms > least) {
       out.push_back(fmt::format(
           "axis {}: {} off (RMS) where it accelerates hardest, {} elsewhere: the drive is at its "
-          "limit, or its velocity loop lags; record at lower accelerations",
+          "limit; record at lower accelerations",
           fit.axis, with_unit(fit, fit.hard_rms), with_unit(fit, fit.calm_rms)));
     }
-    if (axes[i].velocity_lag_s > 0.0) {
+    if (is_open(fit)) {
       out.push_back(fmt::format(
-          "axis {}: velocity_lag_ms = {:.3g} stays in the machine file, but the fit knows none: "
-          "set it to 0, or keep the old gain",
-          fit.axis, 1000.0 * axes[i].velocity_lag_s));
+          "axis {}: the record allows a velocity loop's lag from {:.2g} to {:.2g} ms; record "
+          "harder accelerations to tell it from the gain",
+          fit.axis, 1000.0 * fit.least_lag_s, 1000.0 * fit.most_lag_s));
+    }
+    if (!fit.determined) {
+      out.push_back(fmt::format(
+          "axis {}: the record leaves the gain open by {:.2g} % and feed-forward by {:.2g} (one "
+          "standard deviation): the machine file keeps its own values; record harder "
+          "accelerations, with feed-forward off",
+          fit.axis, 100.0 * fit.gain_sd_1_s / fit.gain_1_s, fit.feed_forward_sd));
+    }
+    if (fit.mode_hz > 0.0) {
+      out.push_back(fmt::format(
+          "axis {}: the encoder sees a structural mode at {:.3g} Hz, damping {:.2g} %; it is in "
+          "the fit, not in the machine file",
+          fit.axis, fit.mode_hz, 100.0 * fit.mode_damping));
     }
   }
   if (!fits.shift_certain && !fits.axes.empty()) {
+    const ServoFit& fit = fits.axes[0];
     out.push_back(fmt::format(
-        "whether the command is a cycle ahead cannot be seen: taken as {}; the other way the "
-        "feed-forward is {} by gain × cycle ({:.2g})",
-        fits.axes[0].shift_cycles, fits.axes[0].shift_cycles == 0 ? "higher" : "lower",
-        fits.axes[0].gain_1_s * fits.period_s));
+        "the delay of the axes cannot be told from feed-forward to half a cycle: taken as {:.3g} ± "
+        "{:.2g} ms; a cycle more would be {:.2g} of feed-forward",
+        1000.0 * fit.delay_s, 1000.0 * fit.delay_sd_s, fit.gain_1_s * fits.period_s));
   }
   return out;
 }
 
-Answer answer_of(const ServoFits& fits, const std::vector<Axis>& axes) {
+/// The settings that would take most of the error away, one line for each axis.
+Json proposals_of(const ServoFits& fits, const std::vector<Axis>& axes,
+                  kernel::machine::Dialect dialect, std::string& text) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < fits.axes.size(); ++i) {
+    const ServoFit& fit = fits.axes[i];
+    const auto found =
+        fit.determined ? contour::offline::propose(fit, axes[i], dialect) : std::nullopt;
+    if (!found) {
+      continue;
+    }
+    Json settings = Json::array();
+    std::vector<std::string> words;
+    for (const auto& one : found->settings) {
+      settings.push_back({{"parameter", one.parameter}, {"value", one.value}, {"unit", one.unit}});
+      words.push_back(fmt::format("{} = {:.4g}{}{}", one.parameter, one.value,
+                                  one.unit.empty() ? "" : " ", one.unit));
+    }
+    const std::string unit = fit.rotary ? "_deg" : "_um";
+    out.push_back(
+        {{"axis", fit.axis},
+         {"settings", settings},
+         {fit.rotary ? "radius_deg" : "radius_mm",
+          fit.rotary ? kernel::units::deg_from_rad(found->radius) : found->radius},
+         {fit.rotary ? "speed_deg_s" : "feed_mm_min",
+          fit.rotary ? kernel::units::deg_from_rad(found->speed_au_s) : 60.0 * found->speed_au_s},
+         {"radius_error_before" + unit, shown_length(fit, found->before.radius_error)},
+         {"radius_error_after" + unit, shown_length(fit, found->after.radius_error)},
+         {"following_error_before" + unit, shown_length(fit, found->before.following_error)},
+         {"following_error_after" + unit, shown_length(fit, found->after.following_error)}});
+    text += fmt::format(
+        "axis {}: set {}: on a circle of radius {:.3g}{} at {:.4g}{} the radius is off by {} "
+        "instead of {}, the following error {} instead of {} (RMS); try it in the air\n",
+        fit.axis, fmt::join(words, ", "),
+        fit.rotary ? kernel::units::deg_from_rad(found->radius) : found->radius,
+        fit.rotary ? "°" : " mm",
+        fit.rotary ? kernel::units::deg_from_rad(found->speed_au_s) : 60.0 * found->speed_au_s,
+        fit.rotary ? "°/s" : " mm/min", with_unit(fit, found->after.radius_error),
+        with_unit(fit, found->before.radius_error), with_unit(fit, found->after.following_error),
+        with_unit(fit, found->before.following_error));
+  }
+  return out;
+}
+
+Answer answer_of(const ServoFits& fits, const std::vector<Axis>& axes,
+                 kernel::machine::Dialect dialect) {
   Answer answer;
   Json& list = answer.json["axes"] = Json::array();
-  Table table({"axis", "gain 1/s", "sd", "feed-forward", "sd", "RMS", "largest", "samples"});
+  Table table({"axis", "gain 1/s", "sd", "feed-forward", "sd", "lag ms", "sd", "delay ms", "RMS",
+               "largest", "samples"});
   for (const ServoFit& fit : fits.axes) {
     const std::string unit = fit.rotary ? "_deg" : "_um";
     list.push_back({{"name", fit.axis},
@@ -121,26 +189,34 @@ Answer answer_of(const ServoFits& fits, const std::vector<Axis>& axes) {
                     {"servo_gain_sd_1_s", fit.gain_sd_1_s},
                     {"feed_forward", fit.feed_forward},
                     {"feed_forward_sd", fit.feed_forward_sd},
+                    {"velocity_lag_ms", 1000.0 * fit.lag_s},
+                    {"velocity_lag_sd_ms", 1000.0 * fit.lag_sd_s},
+                    {"velocity_lag_least_ms", 1000.0 * fit.least_lag_s},
+                    {"velocity_lag_most_ms", 1000.0 * fit.most_lag_s},
+                    {"second_order", fit.second_order},
+                    {"delay_ms", 1000.0 * fit.delay_s},
+                    {"delay_sd_ms", 1000.0 * fit.delay_sd_s},
+                    {"mode_hz", fit.mode_hz > 0.0 ? Json(fit.mode_hz) : Json()},
                     {"rms" + unit, shown_length(fit, fit.rms)},
                     {"largest" + unit, shown_length(fit, fit.largest)},
                     {"lost_motion" + unit, shown_length(fit, fit.lost_motion)},
                     {"reversals", fit.reversals},
                     {"shift_cycles", fit.shift_cycles},
+                    {"determined", fit.determined},
                     {"samples", fit.samples}});
     table.row({fit.axis, fmt::format("{:.4g}", fit.gain_1_s),
                fmt::format("{:.2g}", fit.gain_sd_1_s), fmt::format("{:.4f}", fit.feed_forward),
-               fmt::format("{:.2g}", fit.feed_forward_sd), with_unit(fit, fit.rms),
-               with_unit(fit, fit.largest), fmt::format("{}", fit.samples)});
+               fmt::format("{:.2g}", fit.feed_forward_sd), fmt::format("{:.3g}", 1e3 * fit.lag_s),
+               fmt::format("{:.2g}", 1e3 * fit.lag_sd_s), fmt::format("{:.3g}", 1e3 * fit.delay_s),
+               with_unit(fit, fit.rms), with_unit(fit, fit.largest),
+               fmt::format("{}", fit.samples)});
   }
   answer.json["cycle_ms"] = 1000.0 * fits.period_s;
   answer.json["shift_certain"] = fits.shift_certain;
   answer.json["warnings"] = warnings_of(fits, axes);
   answer.text = table.text();
-  answer.text += fmt::format(
-      "RMS, largest: actual less simulated position over the whole record.\nThe actual position "
-      "belongs to {}.\n",
-      !fits.axes.empty() && fits.axes[0].shift_cycles == 1 ? "the command of the cycle before"
-                                                           : "the command of its own cycle");
+  answer.text += "RMS, largest: actual less simulated position over the whole record.\n";
+  answer.json["proposals"] = proposals_of(fits, axes, dialect, answer.text);
   for (const auto& warning : answer.json["warnings"]) {
     answer.text += "warning: " + warning.get<std::string>() + "\n";
   }
@@ -148,16 +224,30 @@ Answer answer_of(const ServoFits& fits, const std::vector<Axis>& axes) {
 }
 
 /// The comments behind the values.
-std::vector<passport::ServoValues> values_of(const ServoFits& fits, const Options& options,
-                                             const std::string& date) {
+std::vector<passport::ServoValues> values_of(const ServoFits& fits, const std::vector<Axis>& axes,
+                                             const Options& options, const std::string& date) {
   const std::string from =
       std::filesystem::path(options.record).filename().string() + (date.empty() ? "" : ", " + date);
   std::vector<passport::ServoValues> out;
   out.reserve(fits.axes.size());
-  for (const ServoFit& fit : fits.axes) {
-    out.push_back({fit.axis, fit.gain_1_s, fit.feed_forward,
-                   fmt::format("fitted: sd {:.2g} 1/s, from {}", fit.gain_sd_1_s, from),
-                   fmt::format("fitted: sd {:.2g}, from {}", fit.feed_forward_sd, from)});
+  for (std::size_t i = 0; i < fits.axes.size(); ++i) {
+    const ServoFit& fit = fits.axes[i];
+    const Axis& own = axes[i];
+    if (!fit.determined) {
+      continue;
+    }
+    passport::ServoValues& values = out.emplace_back(passport::ServoValues{
+        fit.axis, fit.gain_1_s, fit.feed_forward,
+        fmt::format("fitted: sd {:.2g} 1/s, from {}", fit.gain_sd_1_s, from),
+        fmt::format("fitted: sd {:.2g}, from {}", fit.feed_forward_sd, from)});
+    // None fitted, and yet some may be there: what the file says stays, if it may be so.
+    if (fit.lag_s > 0.0 || !is_open(fit) || own.velocity_lag_s > fit.most_lag_s) {
+      values.velocity_lag_s = fit.lag_s;
+      values.velocity_lag_comment =
+          fit.lag_s > 0.0
+              ? fmt::format("fitted: sd {:.2g} ms, from {}", 1e3 * fit.lag_sd_s, from)
+              : fmt::format("fitted: at most {:.2g} ms, from {}", 1e3 * fit.most_lag_s, from);
+    }
   }
   return out;
 }
@@ -175,7 +265,7 @@ Outcome run(const Options& options, Progress& progress) {
   if (!places) {
     return refused(places.error());
   }
-  const auto read = read_servos(options.record, *machine, *places, progress);
+  const auto read = read_servos(options.record, {*machine, *places, options.log}, progress);
   if (!read) {
     return refused(read.error());
   }
@@ -189,14 +279,14 @@ Outcome run(const Options& options, Progress& progress) {
     return refused(fits.error());
   }
   const auto with =
-      passport::with_servo(*text, options.machine, values_of(*fits, options, read->date));
+      passport::with_servo(*text, options.machine, values_of(*fits, axes, options, read->date));
   if (!with) {
     return refused(with.error());
   }
   if (const auto written = kernel::file::write_file(options.output, *with); !written) {
     return refused(written.error());
   }
-  return answer_of(*fits, axes);
+  return answer_of(*fits, axes, machine->control.dialect);
 }
 
 }  // namespace
@@ -204,16 +294,23 @@ Outcome run(const Options& options, Progress& progress) {
 
 void add_verb_machine_from_log(Session& session, Verb& verb) {
   auto options = std::make_shared<machine_from_log::Options>();
-  verb.reads("record", options->record,
-             "Record of a run (.sqlite), or the table that record export makes of it (.csv)")
+  verb.reads(
+          "record", options->record,
+          "Record of a run, or the table that record export makes of it; a table with x_cmd_mm and "
+          "x_act_mm, a capture of SINUMERIK Edge (JSON), a trace of SINUMERIK (XML); also packed "
+          "with gzip")
       ->required();
   add_machine_option(verb, options->machine);
   verb.writes("-o,--output", options->output,
-              "Write the machine file with servo gain and feed-forward of these axes put in",
+              "Write the machine file with servo gain, feed-forward and velocity lag of the axes "
+              "that the record determines put in",
               machine_content())
       ->required();
   verb.add_option("--axes", options->axes, "Axes to fit: X,Y; default: all of the machine file")
       ->delimiter(',');
+  add_log_options(verb, options->log,
+                  "t_s,x_cmd_mm,x_act_mm (x_err_mm: following error; um, m, inch, deg); the axes "
+                  "of a capture or trace: X=1,Y=2,Z=4");
   session.on(verb,
              [options](Progress& progress) { return machine_from_log::run(*options, progress); });
 }

@@ -12,8 +12,8 @@
 #include <fmt/core.h>
 
 #include <steadyrest/apps/cli/program/ahead/changed_program.hpp>
+#include <steadyrest/apps/cli/program/ahead/corrected_path.hpp>
 #include <steadyrest/apps/cli/program/ahead/inserted.hpp>
-#include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
 #include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/apps/cli/program/ahead/speeds_ahead.hpp>
@@ -105,16 +105,18 @@ std::expected<NewLines, Refusals> new_lines(const Options& options, const Source
   if (!file) {
     return refused(file.error());
   }
-  const auto path = path_ahead(options.path, program, file->path(), told, progress);
+  PathOptions how = options.path;
+  how.staged = options.asks_speeds();
+  const auto path = corrected_path(how, program, file->path(), told, progress);
   if (!path) {
     return std::unexpected(of_original(path.error(), file->path(), *stage, options.file()));
   }
   Answer part;
-  answer.text += put_path(part, *path, options.path);
+  answer.text += put_corrected(part, *path, options.path);
   answer.text += put_kept(part, program.blocks, Rewrites::path);
   answer.notes += part.notes;
   answer.json["path"] = std::move(part.json);
-  return nc::rewrite::composed(lines, *stage, path->lines);
+  return nc::rewrite::composed(lines, *stage, path->done.lines);
 }
 
 /// The text with its blocks replaced, proved against the original.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
+#include <steadyrest/apps/cli/program/ahead/corrected_path.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
 #include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/apps/cli/program/verb_program_predistort.hpp>
@@ -36,17 +36,16 @@ Outcome run(const Options& options, Progress& progress) {
   if (!told) {
     return std::unexpected(told.error());
   }
-  const auto done =
-      path_ahead(options.path, *program, options.program.file, std::move(*told), progress);
+  const auto done = corrected_path(options.path, *program, options.program.file, *told, progress);
   if (!done) {
     return refused(done.error());
   }
-  if (auto written = kernel::file::write_file(options.output, done->replaced.text); !written) {
+  if (auto written = kernel::file::write_file(options.output, done->done.replaced.text); !written) {
     return refused(written.error());
   }
   Answer answer;
-  answer.text = put_path(answer, *done, options.path);
-  put_replaced(answer, done->replaced);
+  answer.text = put_corrected(answer, *done, options.path);
+  put_replaced(answer, done->done.replaced);
   answer.text += put_kept(answer, program->blocks, Rewrites::path);
   return answer;
 }

@@ -184,6 +184,14 @@ std::string_view name_of(Way way) {
   switch (way) {
     case Way::alone:
       return "alone";
+    case Way::setting:
+      return "setting";
+    case Way::text:
+      return "text";
+    case Way::text_held:
+      return "text_held";
+    case Way::text_feeds:
+      return "text_feeds";
     case Way::feed_override:
       return "feed_override";
     case Way::path_offsets:
@@ -203,7 +211,24 @@ std::string_view name_of(Way way) {
 Json to_object(const WayFigures& way) {
   Json out = {{"way", name_of(way.way)}};
   out.update(to_object(way.figures));
+  if (!way.get.empty()) {
+    out["get"] = way.get;
+  }
   return out;
+}
+
+Json to_object(const trial::cut::BestWays& best) {
+  const auto or_null = [](const auto& way) { return way ? to_object(*way) : Json(nullptr); };
+  return {{"same_time", or_null(best.same_time)},
+          {"any_time", or_null(best.any_time)},
+          {"setting", or_null(best.setting)}};
+}
+
+Json to_object(const trial::cut::OverLimitLine& over) {
+  return {{"line", over.line},
+          {"error_um", rounded(over.error_um, 1e2)},
+          {"reason", over.reason},
+          {"cure", over.cure.empty() ? Json(nullptr) : Json(over.cure)}};
 }
 
 Json to_object(const CurvePoint& point) {
@@ -253,6 +278,13 @@ Json to_page(const ReportData& data) {
                {"probes", list(data.probes)},
                {"ways", list(data.ways)},
                {"curve", list(data.curve)}});
+  if (data.best.same_time || data.best.setting) {
+    page["best"] = to_object(data.best);
+    page["over_limit"] = list(data.over_limit);
+  }
+  if (!data.best_run.trace.empty()) {
+    page["best_run"] = to_object(data.best_run);
+  }
   if (!data.against.empty()) {
     page["against"] = data.against;
   }

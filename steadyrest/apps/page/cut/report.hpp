@@ -14,6 +14,8 @@ namespace steadyrest::apps::page {
 [[nodiscard]] Json to_page(const trial::cut::ReportData& data);
 [[nodiscard]] Json to_object(const trial::cut::MotionFigures& figures);
 [[nodiscard]] Json to_object(const trial::cut::WayFigures& way);
+[[nodiscard]] Json to_object(const trial::cut::BestWays& best);
+[[nodiscard]] Json to_object(const trial::cut::OverLimitLine& over);
 [[nodiscard]] Json to_object(const trial::cut::CurvePoint& point);
 /// One object as text; null where there is no number.
 [[nodiscard]] std::string to_json(const trial::cut::VibrationFigures& vibration);

@@ -112,8 +112,8 @@ class Writer {
     for (const FeedPart& part : plan.parts()) {
       stretches_.push_back({part.segment, part.from_mm, part.to_mm, part.ratio});
     }
-    const auto lines = nc::rewrite::feed_lines(file_, program_.config.dialect, planned,
-                                               program_.blocks, stretches_);
+    auto lines = nc::rewrite::feed_lines(file_, program_.config.dialect, planned, program_.blocks,
+                                         stretches_);
     if (!lines) {
       return std::unexpected(lines.error());
     }
@@ -132,6 +132,7 @@ class Writer {
     if (!predicted) {
       return std::unexpected(predicted.error());
     }
+    out.lines = std::move(*lines);
     out.changed = std::move(*changed);
     out.seconds_after = predicted->seconds;
     out.after = std::move(predicted->figures);

@@ -31,6 +31,7 @@ struct OverLimit {
 };
 
 struct FeedsAhead : contour::offline::PredictedChange {
+  nc::rewrite::NewLines lines;    ///< in place of the program's
   nc::rewrite::Replaced changed;  ///< the program itself when nothing had to change
   std::vector<OverLimit> over;    ///< in order of lines
 };

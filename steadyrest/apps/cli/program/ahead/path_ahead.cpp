@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/program/ahead/feeds_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
@@ -22,17 +23,13 @@ void put_figures(Answer& answer, const Predistorted& done, const PathOptions& op
   put_prediction(answer, done, options.max_error_mm);
   Json& json = answer.json;
   json["uncertain"] = {{"gain_percent", options.gain_uncertainty_percent},
+                       {"lag_percent", kPercent * done.lag_uncertainty},
+                       {"lag_unknown", done.unknown_lags},
                        {"error_max_before_mm", done.worst_before_mm},
                        {"error_max_mm", done.worst_after_mm},
                        {"error_rms_before_mm", done.worst_rms_before_mm},
                        {"error_rms_mm", done.worst_rms_after_mm}};
   json["largest_shift_mm"] = done.largest_shift_mm;
-  json["remaining"] = Json::array();
-  for (const auto& one : done.remaining) {
-    json["remaining"].push_back({{"line", one.line},
-                                 {"predicted_error_before_mm", one.before_mm},
-                                 {"predicted_error_mm", one.after_mm}});
-  }
   json["too_far"] = done.too_far;
   json["past_travel"] = done.past_travel;
   json["not_better"] = done.worse;
@@ -55,26 +52,46 @@ std::string slower_text(const Predistorted& done) {
       std::ceil(percent));
 }
 
+/// Which lags the machine file lacks, and what that keeps from being corrected.
+std::string unknown_text(const Predistorted& done) {
+  if (done.unknown_lags.empty()) {
+    return {};
+  }
+  const std::string names = fmt::format("{}", fmt::join(done.unknown_lags, ", "));
+  if (done.lag_uncertainty == 0.0) {
+    return fmt::format(
+        "the lag of the velocity loop of {} is not known: where it is more than a quarter of "
+        "1 / servo gain, the part can come out worse\n",
+        names);
+  }
+  return fmt::format(
+      "the lag of the velocity loop of {} is not known: blocks change only where the part gets no "
+      "worse with any up to {:g} % of 1 / servo gain. machine from-log fits it, velocity_lag_ms in "
+      "the machine file says it; --lag-uncertainty-percent 0 takes the risk\n",
+      names, kPercent * done.lag_uncertainty);
+}
+
 std::string text_of(const Predistorted& done, const PathOptions& options) {
+  std::string off = fmt::format("gains up to {:g} % off", options.gain_uncertainty_percent);
+  if (done.lag_uncertainty > 0.0) {
+    off += fmt::format(", lags up to {:g} % of 1/k", kPercent * done.lag_uncertainty);
+  }
   std::string text =
       prediction_table(done, options.max_error_mm)
-          .row({fmt::format("largest, gains up to {:g} % off", options.gain_uncertainty_percent),
-                in_um(done.worst_before_mm), in_um(done.worst_after_mm)})
-          .row({fmt::format("RMS, gains up to {:g} % off", options.gain_uncertainty_percent),
-                in_um(done.worst_rms_before_mm), in_um(done.worst_rms_after_mm)})
+          .row({"largest, " + off, in_um(done.worst_before_mm), in_um(done.worst_after_mm)})
+          .row({"RMS, " + off, in_um(done.worst_rms_before_mm), in_um(done.worst_rms_after_mm)})
           .text();
   text += done.replaced.replaced == 0
-              ? fmt::format("nothing can be won in {:g} % more time; the program is unchanged\n",
-                            options.max_time_percent)
+              ? options.hold
+                    ? std::string("nothing can be won, at any feed; the program is unchanged\n")
+                    : fmt::format(
+                          "nothing can be won in {:g} % more time; the program is "
+                          "unchanged\n",
+                          options.max_time_percent)
               : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
                             done.replaced.replaced, done.replaced.new_lines,
                             in_um(done.largest_shift_mm));
-  text += slower_text(done);
-  text += first_of(done.remaining.size(), [&](std::size_t i) {
-    const auto& one = done.remaining[i];
-    return fmt::format("line {}: {} remain of {}\n", one.line, in_um(one.after_mm),
-                       in_um(one.before_mm));
-  });
+  text += unknown_text(done) + slower_text(done);
   if (!done.past_travel.empty()) {
     text +=
         fmt::format("unchanged, because an axis would leave its travel: {} blocks, line {} first\n",
@@ -117,9 +134,14 @@ void add_path_options(Verb& verb, PathOptions& options) {
           "How far each servo gain may be off the machine file; blocks are changed only where the "
           "worst such machine does not get worse")
       ->check(within(0.0, 30.0));
+  verb.add_option("--lag-uncertainty-percent", options.lag_uncertainty_percent,
+                  "The same for the lag of each axis' velocity loop, in percent of 1 / servo gain; "
+                  "default: 50 where the machine file has no velocity_lag_ms, 0 where it has")
+      ->check(within(0.0, 50.0));
   verb.add_option("--max-time-percent", options.max_time_percent,
-                  "How much longer the program may take; sharp corners need more than the default "
-                  "2 %, and what that would win is said")
+                  "How much longer the program may take at the feeds that it has; sharp corners "
+                  "need more than the default 2 %, and what that would win is said. Does not bound "
+                  "--hold-limit")
       ->check(within(0.0, 100.0));
   verb.add_flag(
       "--hold-limit", options.hold,
@@ -133,9 +155,15 @@ std::string changes_of(const PathOptions& options) {
 }
 
 std::vector<nc::rewrite::Told> told_of(const PathOptions& options) {
-  return {{"max-error-mm", fmt::format("{:g}", options.max_error_mm)},
-          {"tube-mm", fmt::format("{:g}", options.max_shift_mm)},
-          {"gain-uncertainty-percent", fmt::format("{:g}", options.gain_uncertainty_percent)}};
+  std::vector<nc::rewrite::Told> told = {
+      {"max-error-mm", fmt::format("{:g}", options.max_error_mm)},
+      {"tube-mm", fmt::format("{:g}", options.max_shift_mm)},
+      {"gain-uncertainty-percent", fmt::format("{:g}", options.gain_uncertainty_percent)}};
+  if (options.lag_uncertainty_percent) {
+    told.push_back(
+        {"lag-uncertainty-percent", fmt::format("{:g}", *options.lag_uncertainty_percent)});
+  }
+  return told;
 }
 
 Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram& program,
@@ -150,6 +178,8 @@ Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram&
       {.limit_mm = options.max_error_mm,
        .max_shift_mm = options.max_shift_mm,
        .gain_uncertainty = options.gain_uncertainty_percent / kPercent,
+       .lag_uncertainty = options.lag_uncertainty_percent.transform(
+           [](double percent) { return percent / kPercent; }),
        .most_time = 1.0 + options.max_time_percent / kPercent,
        .hold_mm = hold_mm(options, program.machine),
        .parts = std::move(*parts),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +17,16 @@ struct PathOptions {
   double max_error_mm = 0.01;
   double max_shift_mm = 0.5;
   double gain_uncertainty_percent = 5.0;
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<double> lag_uncertainty_percent = std::nullopt;
   double max_time_percent = 2.0;
   bool hold = false;
+  bool staged = false;  ///< other lines have been replaced before: feeds are theirs
   LearningOptions learning;
 };
 
-/// Adds --max-error-mm, --max-shift-mm, --gain-uncertainty-percent, --max-time-percent,
-/// --hold-limit, --from-record and
-/// --cut-program.
+/// Adds --max-error-mm, --max-shift-mm, --gain-uncertainty-percent, --lag-uncertainty-percent,
+/// --max-time-percent, --hold-limit, --from-record and --cut-program.
 void add_path_options(Verb& verb, PathOptions& options);
 
 /// For the mark in the program, and what it says of `changes`.
@@ -35,8 +38,8 @@ void add_path_options(Verb& verb, PathOptions& options);
     const PathOptions& options, const SourceProgram& program, const std::string& file,
     std::vector<nc::rewrite::Told> told, Progress& progress);
 
-/// The keys of the prediction, `uncertain`, `largest_shift_mm`, `remaining[]`, `too_far[]`,
-/// `past_travel[]`, `not_better[]`, `slower` and `learnt[]`, and the same for people.
+/// The keys of the prediction, `uncertain`, `largest_shift_mm`, `too_far[]`, `past_travel[]`,
+/// `not_better[]`, `slower` and `learnt[]`, and the same for people.
 [[nodiscard]] std::string put_path(Answer& answer, const contour::offline::Predistorted& done,
                                    const PathOptions& options);
 

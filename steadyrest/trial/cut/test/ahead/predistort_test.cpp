@@ -2,79 +2,31 @@
 // Programs with the inverse of the servos written in, judged by the true tool of the simulated
 // machine against the original path: its friction, backlash, noise and encoders are in no model.
 #include <cstdlib>
-#include <fstream>
-#include <memory>
 #include <random>
 #include <ranges>
 #include <string>
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include <steadyrest/contour/offline/predistort/predistort.hpp>
-#include <steadyrest/kernel/file/testing/own_folder.hpp>
 #include <steadyrest/kernel/testing/cases.hpp>
-#include <steadyrest/nc/interpret/program.hpp>
-#include <steadyrest/nc/plan/path/path_builder.hpp>
-#include <steadyrest/trial/cut/cut_job.hpp>
+#include <steadyrest/trial/cut/test/ahead/judged.hpp>
 #include <steadyrest/trial/test/examples.hpp>
 
 namespace steadyrest::trial::cut {
 namespace {
 
-using contour::offline::PredistortConfig;
-using contour::offline::Predistorted;
 using kernel::machine::Machine;
-using nc::plan::PlannedPath;
+using test::Judged;
+using test::judged;
 using trial::test::kExamples;
 using trial::test::machine_of;
 
-nc::interpret::Config reading(const Machine& machine) {
-  nc::interpret::Config config;
-  config.dialect = machine.control.dialect;
-  config.axes = "XYZ";
-  return config;
-}
-
-std::shared_ptr<const PlannedPath> planned(const std::string& text, const Machine& machine) {
-  nc::plan::PathBuilder builder(machine);
-  const auto report = nc::interpret::run_text(text, reading(machine), builder).value();
-  EXPECT_TRUE(report.refused.empty());
-  return std::make_shared<const PlannedPath>(builder.take().value());
-}
-
-struct Judged {
-  Predistorted predicted;
-  Figures original;
-  Figures changed;
-
-  [[nodiscard]] double time_ratio() const { return changed.cycle_time_s / original.cycle_time_s; }
-};
-
-/// The program predistorted for `believed` and cut on `machine`, without any layer.
-Judged judged(const std::string& program, const Machine& machine, const Machine& believed,
-              PredistortConfig how = {}) {
-  how.told = {{"changes", "predistort"}, {"tube-mm", fmt::format("{:g}", how.max_shift_mm)}};
-  const std::string file = kExamples + "programs/" + program;
-  Judged out;
-  out.predicted = contour::offline::predistort(file, reading(believed), believed, how).value();
-  std::ifstream in(file);
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const auto original = planned(text, machine);
-  const auto changed = planned(out.predicted.replaced.text, machine);
-  out.original = run({.machine = machine, .path = original}).value().figures();
-  constexpr double kTube_mm = 4.0;
-  Job job{.machine = machine, .path = changed};
-  job.against =
-      std::make_shared<const Original>(Original::make(*changed, original, kTube_mm).value());
-  out.changed = run(job).value().figures();
-  return out;
-}
+const std::string kPrograms = kExamples + "programs/";
 
 // By offsets on line 1.25 µm RMS; the text is made for the machine file and knows no friction.
 TEST(Predistorted, ThePocketTakesTheSameTime) {
   const Machine mill = machine_of("vmc-840d.toml");
-  const Judged pocket = judged("rib-pocket.mpf", mill, mill);
+  const Judged pocket = judged(kPrograms + "rib-pocket.mpf", mill, mill);
   EXPECT_LE(pocket.time_ratio(), 1.005);
   EXPECT_LT(pocket.changed.contour_error_max_mm, 0.030);
   EXPECT_LT(pocket.changed.contour_error_rms_mm, 0.0025);
@@ -85,7 +37,7 @@ TEST(Predistorted, ThePocketTakesTheSameTime) {
 
 TEST(Predistorted, TheCircleOfASlowServoToo) {
   const Machine mill = machine_of("linuxcnc-mill.toml");
-  const Judged circle = judged("circle-r10.ngc", mill, mill, {.max_shift_mm = 2.0});
+  const Judged circle = judged(kPrograms + "circle-r10.ngc", mill, mill, {.max_shift_mm = 2.0});
   EXPECT_LE(circle.time_ratio(), 1.005);
   EXPECT_GT(circle.original.contour_error_rms_mm, 0.4);
   EXPECT_LT(circle.changed.contour_error_rms_mm, 0.001);
@@ -123,7 +75,7 @@ TEST(Predistorted, IsNeverWorseThanWithoutOnAnyMachine) {
       machine.axes[a].backlash_au = within(0.0, 0.004);
       machine.axes[a].friction.coulomb_au_s2 = within(0.0, 300.0);
     }
-    const Judged slot = judged("slot.mpf", machine, believed, {.max_shift_mm = 3.0});
+    const Judged slot = judged(kPrograms + "slot.mpf", machine, believed, {.max_shift_mm = 3.0});
     const double without_mm = slot.original.contour_error_rms_mm;
     const double allowed_mm = without_mm > kNothingToWin_mm ? without_mm : without_mm + kMore_mm;
     EXPECT_LE(slot.changed.contour_error_rms_mm, allowed_mm) << i << ", k = " << gain_1_s;
