@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -206,6 +207,23 @@ TEST(MachineFromLog, ReadsEveryForm) {
                  "not a trace of SINUMERIK");
   expect_refused("machine from-log " + scratch.file("b.csv", "t_s,x_cmd_mm\n0,0\n") + to,
                  "the column x_act_mm is missing");
+}
+
+// The servo test in the plane: Z stands, and X and Y are fitted all the same.
+TEST(MachineFromLog, LeavesAxesThatStandAlone) {
+  const Scratch scratch;
+  const std::string servo_test = text_of_file(project_file("examples/programs/servo-test.ngc"));
+  const std::string part =
+      scratch.file("flat.ngc", std::regex_replace(servo_test, std::regex("(G1 )?Z-?[0-9]+"), ""));
+  const std::string mill = " --machine " + project_file("examples/machines/linuxcnc-mill.toml");
+  answer_of("cut " + part + mill + " --record " + scratch.at("flat.csv"));
+  const std::string line = "machine from-log " + scratch.at("flat.csv") + mill;
+  const json answer = answer_of(line + " -o " + scratch.at("fitted.toml"));
+  ASSERT_EQ(answer["axes"].size(), 2U);
+  EXPECT_NEAR(answer["axes"][1]["servo_gain_1_s"].get<double>(), 20.0, 0.4);
+  EXPECT_NE(answer["warnings"].dump().find("axis Z: does not move in the record"),
+            std::string::npos);
+  expect_refused(line + " --axes X,Y,Z -o " + scratch.at("all.toml"), "axis Z: 0 samples");
 }
 
 TEST(MachineFromLog, RefusesByName) {

@@ -39,6 +39,7 @@ struct Options {
   LogOptions log;
 };
 
+constexpr double kStands = 1e-3;      // mm or rad: an axis that moves no farther
 constexpr double kSurely = 3.0;       // standard deviations of the lost motion
 constexpr double kLeastLost = 0.001;  // mm
 constexpr double kHardRatio = 3.0;
@@ -252,6 +253,31 @@ std::vector<passport::ServoValues> values_of(const ServoFits& fits, const std::v
   return out;
 }
 
+/// Takes the axes that stand still out of the record and out of the places, unless all do. Their
+/// names.
+std::vector<std::string> leave_out_standing(const Machine& machine,
+                                            std::vector<std::size_t>& places,
+                                            std::vector<contour::offline::ServoLog>& logs) {
+  std::vector<std::string> out;
+  std::vector<std::size_t> moving;
+  std::vector<contour::offline::ServoLog> of_moving;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [least, most] = std::ranges::minmax(logs[i].command);
+    if (most - least < kStands) {
+      out.push_back(machine.axes[places[i]].name);
+    } else {
+      moving.push_back(places[i]);
+      of_moving.push_back(std::move(logs[i]));
+    }
+  }
+  if (moving.empty()) {
+    return {};
+  }
+  places = std::move(moving);
+  logs = std::move(of_moving);
+  return out;
+}
+
 Outcome run(const Options& options, Progress& progress) {
   const auto text = passport::read_text(options.machine);
   if (!text) {
@@ -261,14 +287,16 @@ Outcome run(const Options& options, Progress& progress) {
   if (!machine) {
     return std::unexpected(machine.error());
   }
-  const auto places = places_of(*machine, options);
+  auto places = places_of(*machine, options);
   if (!places) {
     return refused(places.error());
   }
-  const auto read = read_servos(options.record, {*machine, *places, options.log}, progress);
+  auto read = read_servos(options.record, {*machine, *places, options.log}, progress);
   if (!read) {
     return refused(read.error());
   }
+  const auto standing = options.axes.empty() ? leave_out_standing(*machine, *places, read->logs)
+                                             : std::vector<std::string>{};
   std::vector<Axis> axes;
   for (const std::size_t place : *places) {
     axes.push_back(machine->axes[place]);
@@ -286,7 +314,14 @@ Outcome run(const Options& options, Progress& progress) {
   if (const auto written = kernel::file::write_file(options.output, *with); !written) {
     return refused(written.error());
   }
-  return answer_of(*fits, axes, machine->control.dialect);
+  Answer answer = answer_of(*fits, axes, machine->control.dialect);
+  for (const std::string& name : standing) {
+    const std::string warning = fmt::format(
+        "axis {}: does not move in the record: the machine file keeps its own values", name);
+    answer.json["warnings"].push_back(warning);
+    answer.text += "warning: " + warning + "\n";
+  }
+  return answer;
 }
 
 }  // namespace
