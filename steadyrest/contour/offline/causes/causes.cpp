@@ -106,7 +106,8 @@ Result<std::vector<Peak>> peaks_over(const OverTask& task) {
                                   .map = task.map,
                                   .model = model,
                                   .others = {},
-                                  .backlash_mm = backlash_mm(task.machine.axes)},
+                                  .backlash_mm = backlash_mm(task.machine.axes),
+                                  .unknown = task.unknown},
                                  [&](const ModelSample& sample) {
                                    const bool feed =
                                        task.path.segments[sample.segment].motion == Motion::feed;

@@ -30,6 +30,8 @@ struct OverTask {
   std::function<std::uint32_t(std::uint32_t line)> origin = [](std::uint32_t line) { return line; };
   /// Why a line of the original could not be corrected; empty: it could.
   std::function<std::string(std::uint32_t line)> kept = [](std::uint32_t) { return std::string{}; };
+  /// ModelRun::unknown
+  std::function<kernel::signal::Point(double foot_mm)> unknown = nullptr;
 };
 
 /// What brings the error at one place within the limit, and what it costs.

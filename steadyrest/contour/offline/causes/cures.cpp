@@ -108,7 +108,8 @@ class Trial {
          .map = window_.map,
          .model = servo_models(task_.machine.axes),
          .others = {},
-         .backlash_mm = backlash_mm(task_.machine.axes)},
+         .backlash_mm = backlash_mm(task_.machine.axes),
+         .unknown = task_.unknown},
         [&](const ModelSample& sample) {
           if (sample.cuts && sample.foot_mm >= from_mm_ && sample.foot_mm <= to_mm_) {
             out.error_mm = std::max(out.error_mm, std::abs(sample.error_mm) + sample.more_mm);

@@ -29,7 +29,8 @@ kernel::outcome::Result<std::map<std::uint32_t, LineRun>> line_runs(const OverTa
                  .map = task.map,
                  .model = servo_models(task.machine.axes),
                  .others = {},
-                 .backlash_mm = backlash_mm(task.machine.axes)},
+                 .backlash_mm = backlash_mm(task.machine.axes),
+                 .unknown = task.unknown},
                 [&](const ModelSample& sample) {
                   LineRun& run = runs[task.origin(sample.line)];
                   run.seconds += sample.time_s - last_s;

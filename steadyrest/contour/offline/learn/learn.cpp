@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,6 +16,7 @@
 #include <steadyrest/contour/offline/learn/swapped_columns.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/math/geometry/moves.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -32,7 +34,10 @@ using kernel::signal::Point;
 
 constexpr double kCutOffLags = 2.0;  ///< cut-off in terms of the softest axis's k/2π
 constexpr double kSamplesOfGain = 2.0;
-constexpr double kLeast_s = 1.0;  ///< in force
+constexpr double kNever_s = -1e9;
+constexpr double kLeast_s = 1.0;    ///< in force
+constexpr double kForget = 5.0;     ///< lags of an axis, after which it is at rest …
+constexpr double kRestFades = 3.0;  ///< … and in which what it shows fades
 
 class Learner {
  public:
@@ -113,6 +118,7 @@ class Learner {
     for (std::size_t i = 0; i < lesson_.record.size(); ++i) {
       Use& use = judged_.use[i];
       Sample sample;
+      note_motion(i);
       if (use == Use::off_path) {
         contour->reset();
       } else {
@@ -125,6 +131,7 @@ class Learner {
           sample.foot_mm = error.foot_position_mm;
           sample.off_mm = geometry::subtract(error.foot_mm, lesson_.record.actual_mm[i]);
           sample.unknown_mm = geometry::subtract(sample.off_mm, plan_.off_mm(sample.foot_mm));
+          leave_out_rest(lesson_.record.time_s[i], sample.unknown_mm);
           if (use == Use::learns && geometry::norm(sample.unknown_mm) > config_.most_mm) {
             use = Use::too_large;
           }
@@ -135,14 +142,42 @@ class Learner {
     return {};
   }
 
+  /// Which axes the original moves where the command is.
+  void note_motion(std::size_t i) {
+    const auto& segments = lesson_.original.segments;
+    const std::size_t at =
+        geometry::segment_at(segments, pairing_.original_mm(judged_.position_mm[i]));
+    for (std::size_t axis = 0; axis < moved_s_.size(); ++axis) {
+      if (geometry::moves(segments[at], axis)) {
+        moved_s_[axis] = lesson_.record.time_s[i];
+      }
+    }
+  }
+
+  /// What an axis at rest shows is noise: corrected, it would move an axis that has none to take.
+  void leave_out_rest(double time_s, Point& unknown_mm) const {
+    for (std::size_t axis = 0; axis < moved_s_.size(); ++axis) {
+      const online::AxisModel& model = lesson_.model[axis];
+      const double lag_s = 1.0 / model.gain_1_s + model.velocity_lag_s;
+      const double rests = (time_s - moved_s_[axis]) / lag_s - kForget;
+      unknown_mm[axis] *= std::clamp(1.0 - rests / kRestFades, 0.0, 1.0);
+    }
+  }
+
   void figures() {
     std::size_t cut = 0;
     std::size_t learns = 0;
     double measured = 0.0;
     double unknown = 0.0;
+    double misfit = 0.0;
+    std::size_t told = 0;
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const Use use = judged_.use[i];
       cut += use != Use::no_cut && use != Use::off_path ? 1U : 0U;
+      if (use == Use::learns || use == Use::too_large) {
+        ++told;
+        misfit += geometry::norm_squared(samples_[i].unknown_mm);
+      }
       if (use == Use::learns) {
         ++learns;
         measured += geometry::norm_squared(samples_[i].off_mm);
@@ -156,6 +191,7 @@ class Learner {
     out_.learns_s = static_cast<double>(learns) * lesson_.record.period_s;
     out_.measured_rms_mm = std::sqrt(measured / count);
     out_.unknown_rms_mm = std::sqrt(unknown / count);
+    out_.misfit_rms_mm = std::sqrt(misfit / std::max<double>(1.0, static_cast<double>(told)));
   }
 
   void leave_out(std::size_t i) {
@@ -212,6 +248,7 @@ class Learner {
   PathPairing pairing_;
   PlannedMotion plan_;
   Judged judged_;
+  std::array<double, 3> moved_s_ = {kNever_s, kNever_s, kNever_s};  ///< each axis, at last
   std::vector<Sample> samples_;
   LearningFigures out_;
 };

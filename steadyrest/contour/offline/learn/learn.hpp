@@ -48,6 +48,8 @@ struct LearningFigures {
   /// Contour error by the encoders while it learns; and that beyond the model's.
   double measured_rms_mm = 0.0;
   double unknown_rms_mm = 0.0;
+  /// That beyond the model's, where it is too large to learn from as well.
+  double misfit_rms_mm = 0.0;
   double cut_off_hz = 0.0;
   double convergence = 0.0;  ///< the largest factor by which an unknown error shrinks
   std::vector<LeftOut> left_out;

@@ -35,6 +35,8 @@ class Learnt {
   void unrefine(std::size_t keep) { refinements_.resize(keep); }
 
   [[nodiscard]] bool empty() const noexcept { return parts_.empty(); }
+  /// A record has shown what the tool does there.
+  [[nodiscard]] bool covers(double at_mm) const noexcept { return mean(at_mm).weight > 0.0; }
   /// 0 where nothing was learnt; of several records the mean by their weights.
   [[nodiscard]] kernel::signal::Point shift_mm(double at_mm) const noexcept;
   [[nodiscard]] kernel::signal::Point unknown_mm(double at_mm) const noexcept;

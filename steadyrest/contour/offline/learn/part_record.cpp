@@ -8,8 +8,8 @@
 
 #include <steadyrest/contour/offline/learn/part_record.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/passport/text/text_file.hpp>
 #include <steadyrest/table/clock.hpp>
+#include <steadyrest/table/packed_file.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
 namespace steadyrest::contour::offline {
@@ -121,7 +121,7 @@ Result<PartRecord> parse_part_record(std::string_view text, const std::string& f
 }
 
 Result<PartRecord> read_part_record(const std::string& file) {
-  const auto text = passport::read_text(file);
+  const auto text = table::read_packed(file);
   if (!text) {
     return std::unexpected(text.error());
   }

@@ -28,6 +28,7 @@ struct PartRecord {
 ///
 /// Refused: a file that cannot be read, a column that is missing or there twice, a field that is no
 /// finite number, a time that does not rise, fewer than 100 rows.
+/// The file may be packed with gzip.
 [[nodiscard]] kernel::outcome::Result<PartRecord> read_part_record(const std::string& file);
 [[nodiscard]] kernel::outcome::Result<PartRecord> parse_part_record(std::string_view text,
                                                                     const std::string& file);

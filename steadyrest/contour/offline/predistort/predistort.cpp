@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <steadyrest/contour/offline/predistort/best_part.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 #include <steadyrest/contour/offline/predistort/predistortion.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
@@ -25,19 +26,22 @@ constexpr double kLeastFeed = 0.25;   ///< of the programmed one, where feeds fa
 constexpr double kWorthwhile = 0.25;  ///< of the limit: a run whose error is less stays
 constexpr double kHopeless = 0.25;    ///< of its RMS: a run that could win no more stays
 constexpr double kLongestTried_s = 1200.0;
+constexpr double kFittedGain = 0.002;  ///< to which a record shows the gains
 
 }  // namespace
 
 Predistortion::Predistortion(const std::string& file, const nc::interpret::Config& config,
-                             const Machine& machine, const PredistortConfig& how)
+                             const Machine& machine, const PredistortConfig& how,
+                             double gain_uncertainty)
     : file_(file),
       config_(config),
       machine_(machine),
       how_(how),
+      gain_uncertainty_(gain_uncertainty),
       // What is learnt is beyond the model whose inverse is written.
       model_(how.parts.empty() ? servo_models(machine.axes)
-                               : cautious(servo_models(machine.axes), how.gain_uncertainty)),
-      inverse_(cautious(model_, how.gain_uncertainty), backlash_mm(machine.axes)),
+                               : cautious(servo_models(machine.axes), gain_uncertainty)),
+      inverse_(cautious(model_, gain_uncertainty), backlash_mm(machine.axes)),
       progress_(how.progress, 1 + how.rounds + kCornerRuns + kPolishRuns + kRefinements +
                                   (how.hold_mm > 0.0 ? kMostHolds * kHoldRounds : 0)) {}
 
@@ -74,6 +78,9 @@ Result<Predistorted> Predistortion::run() {
   if (auto done = proved(); !done) {
     return std::unexpected(done.error());
   }
+  if (auto done = keep_best_part(); !done) {
+    return std::unexpected(done.error());
+  }
   out_.lines = std::move(best_.lines);
   out_.replaced = std::move(best_.replaced);
   out_.too_far = std::move(barred_->too_far);
@@ -82,7 +89,37 @@ Result<Predistorted> Predistortion::run() {
   out_.unproved = blocks_.lines_that_stay(nc::rewrite::Stays::unproved);
   out_.slower = score_->slower(out_.after.nominal());
   add_report(out_, how_.limit_mm);
+  learnt_.unrefine(0);
+  out_.taught = std::move(learnt_);
+  out_.axes = std::move(machine_.axes);
+  out_.gain_uncertainty = gain_uncertainty_;
   return std::move(out_);
+}
+
+Result<void> Predistortion::keep_best_part() {
+  if (how_.parts.empty()) {
+    return {};
+  }
+  const Lessons same = lessons();
+  auto better =
+      better_part({.file = file_, .lessons = same, .parts = how_.parts, .told = how_.told}, best_);
+  if (!better) {
+    return std::unexpected(better.error());
+  }
+  if (!*better || !nc::rewrite::prove_made(file_, (*better)->program.replaced, config_, machine_)) {
+    return {};
+  }
+  out_.kept_part = (*better)->part;
+  out_.largest_shift_mm = (*better)->largest_shift_mm;
+  best_ = std::move((*better)->program);
+  learnt_.unrefine(0);
+  auto run = follow(judging(), best_, corners_);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  out_.after = std::move(run->figures);
+  out_.seconds_after = run->seconds;
+  return {};
 }
 
 void Predistortion::bar_hopeless() {
@@ -208,8 +245,8 @@ Result<void> Predistortion::read() {
   }
   path_ = std::move(*path);
   // What the lags do is part of what records show.
-  const auto lag = how_.parts.empty() ? how_.lag_uncertainty : how_.lag_uncertainty.value_or(0.0);
-  const auto by = ServoUncertainty::of(machine_.axes, how_.gain_uncertainty, lag);
+  const auto lag = how_.parts.empty() ? how_.lag_uncertainty : 0.0;
+  const auto by = ServoUncertainty::of(machine_.axes, gain_uncertainty_, lag);
   out_.others = uncertain(model_, by, path_.segments);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine_.axes.size()); ++i) {
     if (moves(path_.segments, i)) {
@@ -226,12 +263,16 @@ std::vector<SegmentUse> Predistortion::use() const {
   return segment_use(path_, blocks_, barred_->lines());
 }
 
+Lessons Predistortion::lessons() const {
+  return {.machine = machine_,
+          .config = config_,
+          .original = path_,
+          .model = model_,
+          .gain_uncertainty = gain_uncertainty_};
+}
+
 Result<void> Predistortion::learn_from_parts() {
-  auto learnt = learn_from(how_.parts, {.machine = machine_,
-                                        .config = config_,
-                                        .original = path_,
-                                        .model = model_,
-                                        .gain_uncertainty = how_.gain_uncertainty});
+  auto learnt = learn_from(how_.parts, lessons());
   if (!learnt) {
     return std::unexpected(learnt.error());
   }
@@ -242,7 +283,31 @@ Result<void> Predistortion::learn_from_parts() {
 
 Result<Predistorted> predistort(const std::string& program, const nc::interpret::Config& config,
                                 const Machine& machine, const PredistortConfig& how) {
-  return Predistortion(program, config, machine, how).run();
+  if (how.parts.empty()) {
+    return Predistortion(program, config, machine, how, how.gain_uncertainty).run();
+  }
+  const auto path = shaped_path(program, config, machine);
+  if (!path) {
+    return std::unexpected(path.error());
+  }
+  Machine shown = machine;
+  auto fitted = fit_axes(how.parts,
+                         {.machine = machine,
+                          .config = config,
+                          .original = *path,
+                          .model = servo_models(machine.axes),
+                          .gain_uncertainty = how.gain_uncertainty},
+                         shown.axes);
+  if (!fitted) {
+    return std::unexpected(fitted.error());
+  }
+  const double gain_uncertainty =
+      fitted->empty() ? how.gain_uncertainty : std::min(how.gain_uncertainty, kFittedGain);
+  auto out = Predistortion(program, config, shown, how, gain_uncertainty).run();
+  if (out) {
+    out->fitted = std::move(*fitted);
+  }
+  return out;
 }
 
 }  // namespace steadyrest::contour::offline

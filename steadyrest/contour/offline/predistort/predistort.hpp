@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <steadyrest/contour/offline/learn/fitted_axes.hpp>
 #include <steadyrest/contour/offline/learn/learn_from.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predistort/changed_text.hpp>
@@ -36,8 +37,8 @@ struct PredistortConfig {
   double limit_mm = 0.01;
   double max_shift_mm = 0.5;
   double gain_uncertainty = 0.05;  ///< of each axis's servo gain, 0 … 0.3
-  /// Of the velocity loops' lags, in 1/k, 0 … 0.5. None: as ServoUncertainty::of() says; 0 where
-  /// parts teach.
+  /// Of the velocity loops' lags, in 1/k, 0 … 0.5. None: as ServoUncertainty::of() says. Where
+  /// parts teach it bounds what may come after the best of them, not the blocks.
   std::optional<double> lag_uncertainty = std::nullopt;
   int rounds = 4;
   /// Of the program's own time; a slower round does not count, but is named if it wins much.
@@ -45,7 +46,9 @@ struct PredistortConfig {
   /// Feeds fall where the predicted error stays above this (FeedCaps), and the program takes
   /// longer; 0: all feeds stay.
   double hold_mm = 0.0;
-  /// Parts cut before, to learn from (learn/).
+  /// Parts cut before, to learn from (learn/). They say what the servos are, where they determine
+  /// it (fit_axes()), and the best of their programs stays where the new one is not surely better
+  /// (better_part()).
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<CutPart> parts = {};
   /// For the mark in the program; its tube bounds the shift too.
@@ -66,12 +69,17 @@ struct Predistorted : PredictedChange {
   nc::rewrite::NewLines lines;  ///< in place of the program's
   nc::rewrite::Replaced replaced;
   std::vector<LearningFigures> learnt;  ///< from each part
+  std::vector<FittedAxis> fitted;       ///< axes that parts have shown to be other than the file's
+  std::vector<kernel::machine::Axis> axes;  ///< that it was made for
+  Learnt taught;                            ///< what parts have shown beyond these axes
+  std::optional<std::size_t> kept_part;     ///< whose program it is, since none was surely better
   /// Over all models within the uncertainty.
   double worst_before_mm = 0.0;
   double worst_after_mm = 0.0;
   double worst_rms_before_mm = 0.0;
   double worst_rms_after_mm = 0.0;
   OtherModels others;                     ///< that judged it
+  double gain_uncertainty = 0.0;          ///< of the gains; less where parts have shown them
   double lag_uncertainty = 0.0;           ///< in 1/k: the largest of the axes that move
   std::vector<std::string> unknown_lags;  ///< axes that move, whose lag the machine file lacks
   double largest_shift_mm = 0.0;

@@ -122,7 +122,7 @@ Result<void> Predistortion::polish() {
   caps_.emplace(path_, 1.0);
   PolishTask task{.machine = machine_,
                   .path = path_,
-                  .models = cautious(model_, how_.gain_uncertainty),
+                  .models = cautious(model_, gain_uncertainty_),
                   .price = {.limit_mm = how_.limit_mm},
                   .most_shift_mm = how_.max_shift_mm,
                   .progress = [this](double share) {
@@ -197,7 +197,7 @@ Result<void> Predistortion::hold() {
 }
 
 Result<std::vector<ErrorSample>> Predistortion::left() {
-  const ServoModels sure = cautious(model_, how_.gain_uncertainty);
+  const ServoModels sure = cautious(model_, gain_uncertainty_);
   if (sure == model_) {
     return best_errors_;
   }

@@ -24,7 +24,8 @@ class Predistortion {
   using Result = kernel::outcome::Result<T>;
 
   Predistortion(const std::string& file, const nc::interpret::Config& config,
-                const kernel::machine::Machine& machine, const PredistortConfig& how);
+                const kernel::machine::Machine& machine, const PredistortConfig& how,
+                double gain_uncertainty);
 
   Result<Predistorted> run();
 
@@ -40,6 +41,9 @@ class Predistortion {
 
   /// The best text that the proof accepts.
   Result<void> proved();
+
+  /// The program of the best part so far, where what was made is not surely better.
+  Result<void> keep_best_part();
 
   /// Attempts until no run gets worse.
   Result<void> revise(int& revision);
@@ -72,6 +76,7 @@ class Predistortion {
   [[nodiscard]] std::vector<SegmentUse> use() const;
 
   Result<void> learn_from_parts();
+  [[nodiscard]] Lessons lessons() const;
 
   [[nodiscard]] Judging judging() { return judging(model_, out_.others); }
   [[nodiscard]] Judging judging(const ServoModels& model, const OtherModels& others);
@@ -103,8 +108,9 @@ class Predistortion {
 
   const std::string& file_;
   const nc::interpret::Config& config_;
-  const kernel::machine::Machine& machine_;
+  kernel::machine::Machine machine_;  ///< as parts have shown it
   const PredistortConfig& how_;
+  double gain_uncertainty_;
   ServoModels model_;
   ServoInverse inverse_;
   PhaseProgress progress_;

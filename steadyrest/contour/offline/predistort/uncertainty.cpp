@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
+#include <steadyrest/math/geometry/moves.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
-
-constexpr double kSquare = 1.0 - 1e-9;  ///< to the plane of an arc: it does not move the axis
 
 std::vector<online::AxisModel> corners(const online::AxisModel& model, double gain, double lag) {
   const double more_s = lag / model.gain_1_s;
@@ -34,9 +32,7 @@ std::vector<online::AxisModel> corners(const online::AxisModel& model, double ga
 
 bool moves(kernel::signal::PathView path, std::size_t axis) {
   return std::ranges::any_of(path, [axis](const kernel::signal::PathSegment& segment) {
-    const bool arc = segment.geometry == kernel::signal::Geometry::arc;
-    return segment.start_mm[axis] != segment.end_mm[axis] ||
-           (arc && std::abs(segment.axis[axis]) < kSquare);
+    return math::geometry::moves(segment, axis);
   });
 }
 

@@ -19,6 +19,7 @@ kernel::outcome::Result<PutBack> put_back(const std::string& changed) {
   std::string& out = back.text;
   std::string held;          // of the group: its original line
   std::size_t expected = 0;  // new lines that must still follow
+  std::uint32_t number = 0;  // of the line in `out`
   const auto refuse = [&](std::string what) {
     return kernel::outcome::refuse(changed, source->number(), std::move(what),
                                    "undo what was changed by hand in the lines marked STEADYREST, "
@@ -33,12 +34,14 @@ kernel::outcome::Result<PutBack> put_back(const std::string& changed) {
     }
     if (fresh) {
       ++back.removed;
+      back.lines[number].emplace_back(new_code(line));
       if (--expected == 0) {
         out += held;
         out += source->ending();
       }
     } else if (auto was = read_was(line)) {
       ++back.restored;
+      back.lines[++number];
       held = std::move(was->line);
       expected = was->new_lines;
       if (expected == 0) {
@@ -50,6 +53,7 @@ kernel::outcome::Result<PutBack> put_back(const std::string& changed) {
     } else if (was_replacing(line)) {
       return refuse("its comment was changed");
     } else {
+      ++number;
       out += line;
       out += source->ending();
     }

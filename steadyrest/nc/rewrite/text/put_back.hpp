@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -12,6 +15,9 @@ struct PutBack {
   std::string text;         ///< the program without replaced blocks
   std::size_t removed = 0;  ///< new lines and lines of the mark taken out
   std::size_t restored = 0;
+  /// What replaced lines of `text`, by their number, without marks: replace() with them makes
+  /// `changed` again.
+  std::map<std::uint32_t, std::vector<std::string>> lines;
 };
 
 /// Puts replaced lines back and takes their mark out (replaced_text.hpp); all other bytes stay,

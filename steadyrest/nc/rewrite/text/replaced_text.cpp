@@ -116,6 +116,11 @@ bool is_new(std::string_view line) noexcept {
   return line.ends_with(kNew) && line.substr(0, line.size() - kNew.size()).ends_with(';');
 }
 
+std::string_view new_code(std::string_view line) noexcept {
+  line.remove_suffix(kNew.size() + (line.ends_with(')') ? 3U : 2U));
+  return line;
+}
+
 std::string changed_mark(std::string_view line) {
   constexpr std::string_view kLetters = "STEADYREST";
   std::string plain;

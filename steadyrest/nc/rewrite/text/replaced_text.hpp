@@ -34,6 +34,8 @@ struct Was {
 /// Nothing when the line is not such a comment.
 [[nodiscard]] std::optional<Was> read_was(std::string_view line);
 [[nodiscard]] bool is_new(std::string_view line) noexcept;
+/// What new_text() made such a line of.
+[[nodiscard]] std::string_view new_code(std::string_view line) noexcept;
 
 /// A comment that begins with the tag, as a control or an editor may have changed it: what follows
 /// the tag, in capitals and without blanks. Empty: the line has none.

@@ -219,14 +219,18 @@ Result<void> explain(const PathOptions& options, const SourceProgram& program, c
   if (!planned) {
     return std::unexpected(planned.error());
   }
-  const RunPath run = judge.run_path(*planned, out.done.replaced.origin);
-  auto over = over_lines(program.machine, program.blocks, run, nullptr, options.max_error_mm);
+  RunPath run = judge.run_path(*planned, out.done.replaced.origin);
+  if (!out.done.taught.empty()) {
+    run.unknown = [&](double foot_mm) { return out.done.taught.unknown_mm(foot_mm); };
+  }
+  kernel::machine::Machine machine = program.machine;
+  machine.axes = out.done.axes;
+  auto over = over_lines(machine, program.blocks, run, nullptr, options.max_error_mm);
   if (!over) {
     return std::unexpected(over.error());
   }
   out.over = std::move(*over);
-  auto settings =
-      contour::offline::cheapest_settings(program.machine, program.path, options.max_error_mm);
+  auto settings = contour::offline::cheapest_settings(machine, program.path, options.max_error_mm);
   if (!settings) {
     return std::unexpected(settings.error());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <expected>
+#include <optional>
 #include <utility>
 
 #include <fmt/core.h>
@@ -13,8 +14,10 @@ namespace steadyrest::apps::cli {
 namespace {
 
 using contour::offline::CutPart;
+using contour::offline::FittedAxis;
 using contour::offline::LearningFigures;
 using contour::offline::LeftOut;
+using contour::online::AxisModel;
 using kernel::outcome::Result;
 
 Json json_of(const LearningFigures& figures) {
@@ -35,13 +38,52 @@ Json json_of(const LearningFigures& figures) {
           {"left_out", std::move(left_out)}};
 }
 
+Json json_of(const AxisModel& axis) {
+  return {{"servo_gain_1_s", axis.gain_1_s},
+          {"feed_forward", axis.feed_forward},
+          {"velocity_lag_ms", 1000.0 * axis.velocity_lag_s}};
+}
+
+std::string words_of(const AxisModel& axis) {
+  return fmt::format("gain {:.4g} 1/s, feed-forward {:.3g}, lag {:.3g} ms", axis.gain_1_s,
+                     axis.feed_forward, 1000.0 * axis.velocity_lag_s);
+}
+
+/// What the records say of the axes, where the machine file says something else.
+std::string put_fitted(Answer& answer, const std::vector<FittedAxis>& fitted) {
+  answer.json["fitted"] = Json::array();
+  std::string text;
+  for (const FittedAxis& one : fitted) {
+    answer.json["fitted"].push_back({{"axis", one.name},
+                                     {"record", json_of(one.is)},
+                                     {"machine_file", json_of(one.was)},
+                                     {"lag_was_known", one.lag_was_known}});
+    text +=
+        fmt::format("axis {}: {} by the record, {}{} by the machine file\n", one.name,
+                    words_of(one.is), words_of(one.was), one.lag_was_known ? "" : " (not known)");
+  }
+  return text.empty() ? text
+                      : text +
+                            "the text is made for the axes of the record; machine from-log puts "
+                            "them into the machine file\n";
+}
+
+std::string put_kept_part(Answer& answer, const LearningOptions& options,
+                          const std::optional<std::size_t>& part) {
+  answer.json["kept_part"] = part ? Json(options.records[*part]) : Json();
+  return part ? fmt::format("no text is surely better than that of the part of {}: it stays\n",
+                            options.records[*part])
+              : std::string{};
+}
+
 }  // namespace
 
 void add_learning_options(Verb& verb, LearningOptions& options) {
   CLI::Option* const records =
       verb.reads("--from-record", options.records,
                  "Learn from a part that was cut before: a CSV of its commanded and measured "
-                 "positions (`cut --record`); may be given again for further parts");
+                 "positions (`cut --record`), packed with gzip or not; may be given again for "
+                 "further parts");
   verb.reads("--cut-program", options.programs,
              "The program that the part of each --from-record was cut with, in the same order; "
              "default: FILE itself")
@@ -69,7 +111,10 @@ Result<std::vector<CutPart>> read_parts(const LearningOptions& options,
 }
 
 std::string put_learnt(Answer& answer, const LearningOptions& options,
-                       const std::vector<LearningFigures>& learnt, bool changed) {
+                       const contour::offline::Predistorted& done) {
+  const std::vector<LearningFigures>& learnt = done.learnt;
+  // What the next part has is said of a new program alone.
+  const bool changed = done.replaced.replaced > 0 && !done.kept_part;
   std::string text;
   answer.json["learnt"] = Json::array();
   for (std::size_t i = 0; i < learnt.size(); ++i) {
@@ -91,7 +136,7 @@ std::string put_learnt(Answer& answer, const LearningOptions& options,
                          contour::offline::reason_of(left.why));
     });
   }
-  return text;
+  return text + put_fitted(answer, done.fitted) + put_kept_part(answer, options, done.kept_part);
 }
 
 }  // namespace steadyrest::apps::cli

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <steadyrest/apps/cli/shared/session.hpp>
-#include <steadyrest/contour/offline/learn/learn_from.hpp>
+#include <steadyrest/contour/offline/predistort/predistort.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 /// Parts cut before, whose records a verb learns from.
@@ -24,10 +24,9 @@ void add_learning_options(Verb& verb, LearningOptions& options);
 [[nodiscard]] kernel::outcome::Result<std::vector<contour::offline::CutPart>> read_parts(
     const LearningOptions& options, const std::string& program);
 
-/// The key `learnt[]`, and its text for people; empty without records. What the next part has
-/// is said of a program that has `changed` alone.
+/// The keys `learnt[]`, `fitted[]` and `kept_part`, and their text for people; empty without
+/// records.
 [[nodiscard]] std::string put_learnt(Answer& answer, const LearningOptions& options,
-                                     const std::vector<contour::offline::LearningFigures>& learnt,
-                                     bool changed);
+                                     const contour::offline::Predistorted& done);
 
 }  // namespace steadyrest::apps::cli

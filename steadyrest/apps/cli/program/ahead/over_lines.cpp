@@ -27,7 +27,8 @@ OverTask task_of(const kernel::machine::Machine& machine, const nc::rewrite::Cut
             return block == nullptr || block->stays == nc::rewrite::Stays::free
                        ? std::string{}
                        : std::string(nc::rewrite::sentence(block->stays));
-          }};
+          },
+      .unknown = run.unknown};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct RunPath {
   const nc::plan::PlannedPath& original;
   contour::offline::PathMap map;
   const std::vector<std::uint32_t>& origin;  ///< the original's line, by line; empty: the same
+  /// ModelRun::unknown
+  std::function<kernel::signal::Point(double foot_mm)> unknown = nullptr;
 };
 
 /// What stays over the limit. `held`: a text that holds it better, whose feeds are a cure; null:

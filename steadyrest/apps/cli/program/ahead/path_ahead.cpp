@@ -22,7 +22,7 @@ constexpr double kPercent = 100.0;
 void put_figures(Answer& answer, const Predistorted& done, const PathOptions& options) {
   put_prediction(answer, done, options.max_error_mm);
   Json& json = answer.json;
-  json["uncertain"] = {{"gain_percent", options.gain_uncertainty_percent},
+  json["uncertain"] = {{"gain_percent", kPercent * done.gain_uncertainty},
                        {"lag_percent", kPercent * done.lag_uncertainty},
                        {"lag_unknown", done.unknown_lags},
                        {"error_max_before_mm", done.worst_before_mm},
@@ -72,7 +72,7 @@ std::string unknown_text(const Predistorted& done) {
 }
 
 std::string text_of(const Predistorted& done, const PathOptions& options) {
-  std::string off = fmt::format("gains up to {:g} % off", options.gain_uncertainty_percent);
+  std::string off = fmt::format("gains up to {:g} % off", kPercent * done.gain_uncertainty);
   if (done.lag_uncertainty > 0.0) {
     off += fmt::format(", lags up to {:g} % of 1/k", kPercent * done.lag_uncertainty);
   }
@@ -189,8 +189,7 @@ Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram&
 
 std::string put_path(Answer& answer, const Predistorted& done, const PathOptions& options) {
   put_figures(answer, done, options);
-  return put_learnt(answer, options.learning, done.learnt, done.replaced.replaced > 0) +
-         text_of(done, options);
+  return put_learnt(answer, options.learning, done) + text_of(done, options);
 }
 
 }  // namespace steadyrest::apps::cli

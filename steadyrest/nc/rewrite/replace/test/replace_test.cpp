@@ -74,12 +74,13 @@ RC_GTEST_PROP(Replace, IsUndoneToTheByte, ()) {
           std::vector<std::string>(static_cast<std::size_t>(*rc::gen::inRange(0, 4)), "G1 X1.0");
     }
   }
-  changed(shop, program, fresh, dialect);
+  const std::string text = changed(shop, program, fresh, dialect);
   const auto back = put_back(shop.changed());
   RC_ASSERT(back.has_value());
   RC_ASSERT(back->text == program);
   RC_ASSERT(strip(shop.changed(), shop.original()).has_value());
   RC_ASSERT(text_of_file(shop.original()) == program);
+  RC_ASSERT(changed(shop, program, back->lines, dialect) == text);
 }
 
 TEST(PutBack, RefusesAGroupChangedByHandWithItsLine) {
