@@ -38,10 +38,13 @@ class RecordedSlot {
 
  private:
   [[nodiscard]] Lessons lessons() const {
-    return {
-        .machine = machine_, .config = {}, .original = path_, .model = servo_models(machine_.axes)};
+    return {.machine = machine_,
+            .config = config_,
+            .original = path_,
+            .model = servo_models(machine_.axes)};
   }
 
+  nc::interpret::Config config_;
   kernel::file::testing::OwnFolder folder_;
   kernel::machine::Machine machine_;
   nc::plan::PlannedPath path_;
