@@ -14,21 +14,24 @@ constexpr double kAim = 0.95;          ///< of the limit
 constexpr double kMostFall = 0.6;      ///< in one step
 constexpr double kLeastPart_mm = 0.1;  ///< a part shorter than this keeps its piece whole
 constexpr double kFalls = 0.999;
+constexpr double kArcStep = 0.99;
 
 double length_of(const nc::plan::PlannedPath& path) noexcept {
   return path.segments.empty() ? 0.0
                                : path.segments.back().position_mm + path.segments.back().length_mm;
 }
 
-/// The lowest speed of the command between two places.
-double lowest_mm_s(const CommandSpeed& speed, double from_mm, double to_mm) noexcept {
+/// The lowest or highest speed of the command between two places.
+double speed_mm_s(const CommandSpeed& speed, double from_mm, double to_mm,
+                  FeedCaps::Speed which) noexcept {
   auto at = static_cast<std::size_t>(std::ranges::lower_bound(speed.progress_mm, from_mm) -
                                      speed.progress_mm.begin());
-  double lowest = at < speed.speed_mm_s.size() ? speed.speed_mm_s[at] : 0.0;
+  double out = at < speed.speed_mm_s.size() ? speed.speed_mm_s[at] : 0.0;
   for (; at < speed.progress_mm.size() && speed.progress_mm[at] <= to_mm; ++at) {
-    lowest = std::min(lowest, speed.speed_mm_s[at]);
+    out = which == FeedCaps::Speed::lowest ? std::min(out, speed.speed_mm_s[at])
+                                           : std::max(out, speed.speed_mm_s[at]);
   }
-  return lowest;
+  return out;
 }
 
 }  // namespace
@@ -46,8 +49,35 @@ double FeedCaps::feed_mm_s(double at_mm) const noexcept {
   return path_.segments[math::geometry::segment_at(path_.segments, at_mm)].feed_mm_s;
 }
 
+void FeedCaps::lower_arcs(const nc::plan::PathLimits& limits, double lag_s, double share) {
+  for (const auto& arc : path_.segments) {
+    if (arc.geometry != kernel::signal::Geometry::arc || !(arc.radius_mm > 0.0) ||
+        arc.motion != kernel::signal::Motion::feed) {
+      continue;
+    }
+    const auto plane = limits.plane(arc.axis);
+    const auto is_possible = [&](double feed_mm_s) {
+      const double longer = std::hypot(1.0, feed_mm_s * lag_s / arc.radius_mm);
+      return feed_mm_s * longer <= share * limits.circle(arc.radius_mm * longer, plane).speed_mm_s;
+    };
+    double ratio = 1.0;
+    while (ratio > least_ratio_ && !is_possible(ratio * arc.feed_mm_s)) {
+      ratio = std::max(least_ratio_, kArcStep * ratio);
+    }
+    if (ratio < 1.0) {
+      for (std::size_t i = cell(arc.position_mm); i <= cell(arc.position_mm + arc.length_mm); ++i) {
+        ratio_[i] = std::min(ratio_[i], ratio);
+      }
+    }
+  }
+  unite();
+}
+
 bool FeedCaps::tighten(const std::vector<ErrorPlace>& places, const CommandSpeed& speed,
-                       double limit_mm) {
+                       double limit_mm, Speed which) {
+  const bool highest = which == Speed::highest;
+  const double spare_mm = highest ? kSpare_mm : 0.0;
+  const std::vector<double> before = ratio_;
   bool fallen = false;
   for (const ErrorPlace& place : places) {
     if (!(place.error_mm > limit_mm) || place.early) {
@@ -56,10 +86,13 @@ bool FeedCaps::tighten(const std::vector<ErrorPlace>& places, const CommandSpeed
     const double from = place.foot_mm - kSpare_mm;
     const double to = std::max(place.foot_mm, place.progress_mm) + kSpare_mm;
     const double fall = std::max(kMostFall, std::sqrt(kAim * limit_mm / place.error_mm));
-    const double lowest = fall * lowest_mm_s(speed, place.foot_mm, place.progress_mm);
+    const double most =
+        fall * speed_mm_s(speed, place.foot_mm - spare_mm, place.progress_mm + spare_mm, which);
     for (std::size_t i = cell(from); i <= cell(to); ++i) {
       const double feed = feed_mm_s((static_cast<double>(i) + 0.5) * kCell_mm);
-      const double ratio = std::max(least_ratio_, feed > 0.0 ? lowest / feed : 1.0);
+      // On an arc the command is faster than its feed.
+      const double now = highest ? fall * before[i] : 1.0;
+      const double ratio = std::max(least_ratio_, feed > 0.0 ? std::min(now, most / feed) : 1.0);
       if (ratio < kFalls * ratio_[i]) {
         ratio_[i] = ratio;
         fallen = true;

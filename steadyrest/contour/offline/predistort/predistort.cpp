@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <steadyrest/contour/offline/predistort/best_part.hpp>
@@ -43,7 +44,7 @@ Predistortion::Predistortion(const std::string& file, const nc::interpret::Confi
                                : cautious(servo_models(machine.axes), gain_uncertainty)),
       inverse_(cautious(model_, gain_uncertainty), backlash_mm(machine.axes)),
       progress_(how.progress, 1 + how.rounds + kCornerRuns + kPolishRuns + kRefinements +
-                                  (how.hold_mm > 0.0 ? kMostHolds * kHoldRounds : 0)) {}
+                                  (how.hold_mm > 0.0 ? kHoldRuns + kMostHolds * kHoldRounds : 0)) {}
 
 Result<Predistorted> Predistortion::run() {
   progress_.phase("predicting the error", 1);
@@ -175,13 +176,21 @@ bool Predistortion::bar_worse() {
                             *runs_);
 }
 
+void Predistortion::begin_caps() {
+  caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
+}
+
 bool Predistortion::begin() {
   best_mm_ = -1.0;
   keep_original();
   speed_ = best_speed_ = first_speed_;
   starts_ = first_starts_;
-  caps_.emplace(path_, std::max(kLeastFeed, machine_.contour.min_ratio));
+  begin_caps();
   holds_ = false;
+  if (how_.hold_mm > 0.0) {
+    held_.emplace(path_, use(), how_.hold_mm);
+    best_cost_s_ = std::numeric_limits<double>::infinity();
+  }
   learnt_.unrefine(0);
   return std::ranges::any_of(use(), &SegmentUse::free);
 }
@@ -218,8 +227,8 @@ Result<void> Predistortion::attempt(int revision) {
   if (auto done = refine(); !done) {
     return done;
   }
-  if (auto done = hold(); !done) {
-    return done;
+  if (how_.hold_mm > 0.0) {
+    return hold();
   }
   progress_.phase("polishing the path", kPolishRuns);
   return polish();

@@ -16,9 +16,8 @@ namespace {
 
 using kernel::outcome::Result;
 
-constexpr double kTimeToHold = 1.0;  ///< price of a second where the limit comes first
-constexpr double kCoarse = 0.05;     ///< of the largest shift: the fit that windows begin with
-constexpr double kCoarsest = 10.0;   ///< of the limit
+constexpr double kCoarse = 0.05;    ///< of the largest shift: the fit that windows begin with
+constexpr double kCoarsest = 10.0;  ///< of the limit
 constexpr double kSmoothJoint =
     0.15;  ///< … and its joints that bend less have no bend where one would stop the control
 constexpr int kFewestRefinements = 2;  ///< … but not fewer than this
@@ -41,8 +40,10 @@ Judging Predistortion::judging(const ServoModels& model, const OtherModels& othe
 
 Result<void> Predistortion::rounds(int count) {
   for (int round = 0; round < count; ++round) {
-    auto changed =
-        nc::rewrite::at_worst_they_stay(blocks_, [this] { return write(pieces_within()); });
+    auto changed = nc::rewrite::at_worst_they_stay(blocks_, [this] {
+      made_ = pieces_within();
+      return write(made_);
+    });
     if (!changed) {
       return std::unexpected(changed.error());
     }
@@ -72,8 +73,24 @@ Result<Changed> Predistortion::write(const std::vector<Piece>& made) const {
                       made);
 }
 
+std::vector<double> Predistortion::harmed_mm(const RunErrors& after) const {
+  std::vector<double> out;
+  for (const std::size_t run : worse_runs(*runs_, *runs_before_, after, barred_->lines(),
+                                          judged_by_each() ? Guard::by_each : Guard::by_worst)) {
+    for (const auto& segment : path_.segments) {
+      if (runs_->of(segment.line) == run) {
+        out.push_back(segment.position_mm + 0.5 * segment.length_mm);
+      }
+    }
+  }
+  return out;
+}
+
 Result<void> Predistortion::try_text(Changed changed) {
-  auto run = follow(judging(), changed, corners_);
+  // Windows are judged by the model alone, the stretches taken from them by all machines.
+  const OtherModels none;
+  const bool sketch = holds_ && by_ == HeldStretches::By::windows;
+  auto run = follow(sketch ? judging(model_, none) : judging(), changed, corners_);
   if (!run) {
     return std::unexpected(run.error());
   }
@@ -94,11 +111,15 @@ Result<void> Predistortion::try_text(Changed changed) {
   if (!in_time) {
     score_->note_slower(run->seconds, figures);
   }
-  const bool fewer = run->over.size() < best_over_.size() ||
-                     (run->over.size() == best_over_.size() && run->seconds < out_.seconds_after);
-  const bool better = holds_ ? fewer : best_mm_ < 0.0 || score_mm < best_mm_;
-  if (in_time && better && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
+  if (held_) {
+    held_->note(made_, *run, sketch ? std::vector<double>{} : harmed_mm(run->runs), by_);
+    last_.score_mm = by_ == HeldStretches::By::windows ? held_->open_cost_s() : score_mm;
+  }
+  const double cost_s = held_ ? held_->cost_s(*run) : 0.0;
+  const bool better = holds_ ? cost_s < best_cost_s_ : best_mm_ < 0.0 || score_mm < best_mm_;
+  if (in_time && better && !sketch && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
     best_mm_ = score_mm;
+    best_cost_s_ = cost_s;
     best_over_ = run->over;
     runs_after_ = std::move(run->runs);
     best_errors_ = std::move(run->errors);
@@ -115,11 +136,7 @@ Result<void> Predistortion::try_text(Changed changed) {
   return {};
 }
 
-// From the alternating arcs of a close fit the windows do not get away: they begin with a coarse
-// one.
-Result<void> Predistortion::polish() {
-  learnt_.unrefine(0);
-  caps_.emplace(path_, 1.0);
+PolishTask Predistortion::polish_task() {
   PolishTask task{.machine = machine_,
                   .path = path_,
                   .models = cautious(model_, gain_uncertainty_),
@@ -131,30 +148,54 @@ Result<void> Predistortion::polish() {
                       progress_.ran();
                     }
                   }};
-  if (how_.hold_mm > 0.0) {
-    task.price.time = kTimeToHold;
-  }
   if (!learnt_.empty()) {
     task.unknown = [this](double foot_mm) { return learnt_.unknown_mm(foot_mm); };
   }
+  return task;
+}
+
+void Predistortion::be_coarse() {
   tolerance_mm_ =
       std::clamp(kCoarse * barred_->largest_shift_mm(), how_.limit_mm, kCoarsest * how_.limit_mm);
   if (machine_.control.junction_share < 1.0) {
     smooth_ = kSmoothJoint;
   }
-  speed_ = best_mm_ < 0.0 ? first_speed_ : best_speed_;
-  auto done = polish_rounds(
-      task, pieces_within(), starts_, [&](const std::vector<Piece>& made) -> Result<TriedPieces> {
-        auto changed = write(made);
-        if (!changed) {
-          return std::unexpected(changed.error());
-        }
-        const auto tried = try_text(std::move(*changed));
-        return tried ? Result<TriedPieces>(last_) : std::unexpected(tried.error());
-      });
+}
+
+void Predistortion::be_fine() {
   tolerance_mm_ = ShapeConfig{}.tolerance_mm;
   smooth_ = ShapeConfig{}.smooth;
-  return done;
+}
+
+std::vector<Piece> Predistortion::coarse_pieces() {
+  be_coarse();
+  auto out = pieces_within();
+  be_fine();
+  return out;
+}
+
+Result<TriedPieces> Predistortion::try_pieces(const std::vector<Piece>& made) {
+  auto changed = write(made);
+  if (!changed) {
+    return std::unexpected(changed.error());
+  }
+  made_ = made;
+  const auto tried = try_text(std::move(*changed));
+  return tried ? Result<TriedPieces>(last_) : std::unexpected(tried.error());
+}
+
+// From the alternating arcs of a close fit the windows do not get away: they begin with a coarse
+// one.
+Result<void> Predistortion::polish() {
+  learnt_.unrefine(0);
+  caps_.emplace(path_, 1.0);
+  speed_ = best_mm_ < 0.0 ? first_speed_ : best_speed_;
+  PolishTask task = polish_task();
+  if (how_.hold_mm > 0.0) {
+    task.price.time = PolishTask::kTimeToHold;
+  }
+  return polish_rounds(std::move(task), coarse_pieces(), starts_,
+                       [this](const std::vector<Piece>& made) { return try_pieces(made); });
 }
 
 Result<void> Predistortion::try_corners() {
@@ -178,22 +219,6 @@ Result<void> Predistortion::try_corners() {
   corners_ = std::move(best);
   speed_ = best_speed_;
   return rounds(kLastRounds);
-}
-
-Result<void> Predistortion::hold() {
-  if (how_.hold_mm <= 0.0 || best_mm_ < 0.0) {
-    return {};
-  }
-  progress_.phase("holding the limit", kMostHolds * kHoldRounds);
-  holds_ = true;
-  over_ = best_over_;
-  speed_ = best_speed_;
-  for (int i = 0; i < kMostHolds && caps_->tighten(over_, speed_, how_.hold_mm); ++i) {
-    if (auto done = rounds(kHoldRounds); !done) {
-      return done;
-    }
-  }
-  return {};
 }
 
 Result<std::vector<ErrorSample>> Predistortion::left() {

@@ -9,6 +9,7 @@
 #include <steadyrest/contour/offline/predistort/barred_lines.hpp>
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
+#include <steadyrest/contour/offline/predistort/held_stretches.hpp>
 #include <steadyrest/contour/offline/predistort/phase_progress.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
@@ -34,6 +35,8 @@ class Predistortion {
   static constexpr int kRefinements = 8;
   static constexpr int kMostHolds = 16;
   static constexpr int kHoldRounds = 2;
+  static constexpr int kHoldPasses = 4;  ///< of windows
+  static constexpr int kHoldRuns = kHoldPasses * 40 + 1;
   static constexpr int kLastRounds = 2;  ///< with the best share at each corner
   /// Tried at corners in addition to the default; parts that take longer are left with the default.
   static constexpr std::array kBeyond = {0.0, 0.3, 0.4, 0.5, 0.55, 0.65, 0.7, 0.8};
@@ -58,6 +61,8 @@ class Predistortion {
   /// Bars the runs that the best round makes worse. False where there are none.
   bool bar_worse();
 
+  /// All feeds as programmed.
+  void begin_caps();
   /// Back to the program as it is. False where no block may be changed.
   bool begin();
 
@@ -91,14 +96,33 @@ class Predistortion {
 
   Result<void> try_text(Changed changed);
 
+  /// Places in runs that this makes worse for some machine.
+  [[nodiscard]] std::vector<double> harmed_mm(const RunErrors& after) const;
+
+  [[nodiscard]] PolishTask polish_task();
+  void be_coarse();  ///< the next fits …
+  void be_fine();    ///< … until now
+  /// A coarse fit for the speed in hand.
+  std::vector<Piece> coarse_pieces();
+  Result<TriedPieces> try_pieces(const std::vector<Piece>& made);
+
   /// A command of few pieces, its windows made better and its stops led beyond.
   Result<void> polish();
 
   /// Tries other shares at all corners and keeps the best at each.
   Result<void> try_corners();
 
-  /// Where the path alone does not keep the limit the feed falls.
+  /// Where the path alone does not keep the limit: by windows, where that leaves something by lower
+  /// feeds too; each stretch gets what holds it best.
   Result<void> hold();
+  /// The text of the best stretches, without windows where the proof refuses them.
+  Result<void> take_best_stretches();
+  /// The feeds fall where windows leave an error (FeedCaps).
+  Result<void> hold_by_windows();
+  /// Of open stretches, shaped first where the windows are no longer than usual.
+  Result<void> hold_window_sweeps(std::vector<Piece> pieces, std::size_t inner);
+  /// From the best round so far.
+  Result<void> hold_by_feeds();
 
   /// What the best round leaves on the model whose inverse is written (cautious()).
   Result<std::vector<ErrorSample>> left();
@@ -130,7 +154,11 @@ class Predistortion {
   std::optional<FeedCaps> caps_;
   double tolerance_mm_ = ShapeConfig{}.tolerance_mm;  ///< of the fit
   double smooth_ = ShapeConfig{}.smooth;
-  bool holds_ = false;             ///< feeds may fall
+  bool holds_ = false;                 ///< feeds may fall
+  std::optional<HeldStretches> held_;  ///< where a limit is to be held
+  HeldStretches::By by_ = HeldStretches::By::feeds;
+  std::vector<Piece> made_;  ///< of the text tried last
+  double best_cost_s_ = 0.0;
   std::vector<Corner> corners_;    ///< as led in the last pieces
   std::vector<double> corner_mm_;  ///< their errors in the last run
   std::optional<RoundScore> score_;

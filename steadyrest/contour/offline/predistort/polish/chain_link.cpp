@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLeastLink_mm = 1e-6;
 constexpr double kSameRadius_mm = 1e-6;
+constexpr double kSameSlope = 1e-6;
 constexpr double kSteep = 10.0;  ///< rise per way in the plane
 constexpr double kStraightArc_1_mm = 1.0 / 3000.0;
 
@@ -89,7 +90,7 @@ Piece in_space(const Link& link) {
   return out;
 }
 
-void level(std::span<ChainPiece> pieces, double tolerance_mm) {
+void level(std::span<ChainPiece> pieces, double tolerance_mm, bool alike) {
   const auto end_mm = [&](std::size_t i) {
     return pieces[i].height_mm + pieces[i].slope * pieces[i].arc.length_mm;
   };
@@ -110,7 +111,9 @@ void level(std::span<ChainPiece> pieces, double tolerance_mm) {
     for (double whole = pieces[first].arc.length_mm; last < pieces.size(); ++last) {
       whole += pieces[last].arc.length_mm;
       const double over = (end_mm(last) - pieces[first].height_mm) / whole;
-      if (!is_straight(first, last + 1, over)) {
+      const bool same = alike && std::abs(pieces[last].original_slope -
+                                          pieces[first].original_slope) < kSameSlope;
+      if (!same && !is_straight(first, last + 1, over)) {
         break;
       }
       slope = over;

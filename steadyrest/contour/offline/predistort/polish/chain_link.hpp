@@ -19,8 +19,9 @@ struct Link {
 [[nodiscard]] std::optional<ChainPiece> flat(const Piece& from);
 [[nodiscard]] Piece in_space(const Link& link);
 /// As few slopes as leave the height of every joint within the tolerance: a control stops where the
-/// slope changes.
-void level(std::span<ChainPiece> pieces, double tolerance_mm);
+/// slope changes. `alike`: pieces of one slope of the original have one slope, whatever that
+/// leaves.
+void level(std::span<ChainPiece> pieces, double tolerance_mm, bool alike = false);
 /// `one` becomes its first half, `two` the second.
 void halve(Link& one, Link& two);
 

@@ -19,6 +19,7 @@ struct ChainPiece {
   double slope = 0.0;      ///< of the height, per mm in the plane
   double feed_mm_s = 0.0;
   double programmed_mm_s = 0.0;  ///< the original's feed
+  double original_slope = 0.0;   ///< where it belongs to
   bool smooth = true;            ///< it goes on from the piece before without a bend
 };
 

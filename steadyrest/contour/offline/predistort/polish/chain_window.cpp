@@ -9,7 +9,6 @@
 namespace steadyrest::contour::offline {
 namespace {
 
-constexpr int kMostSteps = 16;
 constexpr double kScale = 0.3;      ///< of the largest error
 constexpr double kEnough = 5e-3;    ///< a step that takes less than this share of J is the last
 constexpr double kSmall = 0.03;     ///< of the limit: an error that is not worth a step
@@ -211,12 +210,16 @@ bool ChainWindow::value(const Task& task, const std::vector<double>& x, Value& o
   for (std::size_t j = first; j < std::min(last, off_.size()); ++j) {
     const double side = off_[j].side_mm / scale_mm_;
     const double height = off_[j].height_mm / scale_mm_;
-    out.worst_mm = std::max(out.worst_mm, std::hypot(off_[j].side_mm, off_[j].height_mm));
+    const double off_mm = std::hypot(off_[j].side_mm, off_[j].height_mm);
+    out.worst_mm = std::max(out.worst_mm, off_mm);
     put(weight * side);
     put(weight * side * side * side);
     put(weight * height);
     put(weight * height * height * height);
     put(weight * off_[j].fast_ratio / kFaster);
+    if (price_.over > 0.0) {
+      put(weight * price_.over * std::max(0.0, off_mm / price_.limit_mm - price_.aim));
+    }
   }
   for (std::size_t i = task.first; i < task.last; ++i) {
     const double seconds = begin[i + 1] - begin[i];
@@ -345,10 +348,11 @@ std::optional<ChainWindow::Result> ChainWindow::improve(const Task& task) {
     return std::nullopt;
   }
   Result out{.before = now.cost, .after = now.cost, .chain = trial_, .starts = {}};
-  if (now.cost - price_.time * now.seconds >= kSmall * kSmall * now.seconds) {
+  if (now.worst_mm >= price_.enough_mm &&
+      now.cost - price_.time * now.seconds >= kSmall * kSmall * now.seconds) {
     rescale(task, at, now);
     double damping = kFirstDamping;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < price_.steps; ++step) {
       const double was = now.cost;
       if (newton(task, at, now, damping) && was - now.cost >= kEnough * now.cost) {
         continue;

@@ -19,6 +19,11 @@ struct ChainPrice {
   double time = 5.0;
   double block = 0.003;          ///< of a piece: as much as so many seconds
   double least_piece_s = 0.004;  ///< block time of the control
+  /// Of an error beyond `aim` limits: √J′ for each second and limit beyond. 0: none.
+  double over = 0.0;
+  double aim = 0.85;
+  int steps = 16;          ///< of a window, at most
+  double enough_mm = 0.0;  ///< a window whose largest error is less stays
 };
 
 /// A command without bends between two neighbours that stay where they are, made better piece by
@@ -31,8 +36,9 @@ struct ChainPrice {
 /// over the window and until the servos have forgotten it, ε the tool's distance from the path
 /// (ChainError) under the control's motion (ChainMotion), L the limit, λ the price of time: Gauss
 /// and Newton's steps with Levenberg's damping, derivatives by differences. The sixth power keeps
-/// the largest error near the limit. A piece that would be shorter than the control's block time
-/// costs as much as an error at the limit throughout it.
+/// the largest error near the limit; to hold it, ∫ (over·(ε/limit − aim)₊)² dt is added. A piece
+/// that would be shorter than the control's block time costs as much as an error at the limit
+/// throughout it.
 class ChainWindow {
  public:
   ChainWindow(ChainMotion& motion, ChainError& error, const ChainPrice& price, double period_s,

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <optional>
 
+#include <steadyrest/contour/offline/predistort/polish/chain_bounds.hpp>
 #include <steadyrest/contour/offline/predistort/polish/chain_link.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish.hpp>
-#include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/math/geometry/segment.hpp>
@@ -20,6 +20,8 @@ namespace geometry = math::geometry;
 using kernel::signal::Point;
 
 constexpr double kSmoothBend_rad = 2e-3;
+constexpr double kTakenBend_rad = 0.15;  ///< that a window takes away
+constexpr double kPieceTurn_rad = 1.0;   ///< of one piece
 constexpr double kSameStart_mm = 1e-3;
 constexpr double kSamePoint_mm = 1e-6;
 constexpr double kNearBlock_mm = 5.0;  ///< the last sample before a block is nearer
@@ -30,15 +32,23 @@ constexpr double kRamp_s = 0.05;       ///< of the speed
 constexpr std::size_t kBetweenProgress = 64;
 constexpr double kNotAll = 0.99;
 constexpr std::size_t kMostSamples = 20'000'000;
-constexpr double kShift = 0.95;    ///< of the largest shift: the text is rounded
-constexpr double kLevel = 0.2;     ///< of the limit: the height of a joint
-constexpr std::size_t kInner = 3;  ///< pieces that a window changes
+constexpr double kLevel = 0.2;  ///< of the limit: the height of a joint
+
+double slope_of(const kernel::signal::PathSegment& segment, nc::interpret::Plane plane) {
+  const Point tangent = geometry::station_at(segment, 0.5).tangent;
+  const auto axes = nc::interpret::axes_of(plane);
+  const double flat = std::hypot(tangent[axes.first], tangent[axes.second]);
+  return flat > 0.0 ? tangent[axes.normal] / flat : 0.0;
+}
 
 class Sweep {
  public:
   Sweep(const PolishTask& task, const std::vector<BlockStart>& starts)
       : task_(task),
         block_starts_(starts),
+        bounds_({.path = task.path,
+                 .most_shift_mm = task.most_shift_mm,
+                 .gain_1_s = softest_gain_1_s(task.models)}),
         gain_1_s_(softest_gain_1_s(task.models)),
         forget_s_(kForget / gain_1_s_),
         every_(static_cast<std::size_t>(
@@ -56,7 +66,9 @@ class Sweep {
       }
       auto made = flat(piece);
       if (made) {
-        made->programmed_mm_s = programmed_mm_s(piece);
+        const kernel::signal::PathSegment& original = original_of(piece);
+        made->programmed_mm_s = original.feed_mm_s;
+        made->original_slope = slope_of(original, piece.plane);
       }
       const bool goes_on = made && !chain_.empty() && follows(piece);
       if (!goes_on) {
@@ -71,7 +83,7 @@ class Sweep {
         const double bend =
             std::remainder(along(before, before.length_mm).angle_rad - made->arc.start.angle_rad,
                            kernel::units::kTurn);
-        made->smooth = std::abs(bend) < kSmoothBend_rad;
+        made->smooth = std::abs(bend) < (task_.thorough ? kTakenBend_rad : kSmoothBend_rad);
       }
       chain_.push_back({*made, piece});
     }
@@ -87,10 +99,10 @@ class Sweep {
            geometry::distance(before.segment.end_mm, piece.segment.start_mm) < kSamePoint_mm;
   }
 
-  [[nodiscard]] double programmed_mm_s(const Piece& piece) const {
+  [[nodiscard]] const kernel::signal::PathSegment& original_of(const Piece& piece) const {
     const auto& segments = task_.path.segments;
     const double middle_mm = 0.5 * (piece.progress_start_mm + piece.progress_end_mm);
-    return segments[geometry::segment_at(segments, middle_mm)].feed_mm_s;
+    return segments[geometry::segment_at(segments, middle_mm)];
   }
 
   void level_chain() {
@@ -99,7 +111,7 @@ class Sweep {
     for (const Link& link : chain_) {
       all.push_back(link.piece);
     }
-    level(all, kLevel * task_.price.limit_mm);
+    level(all, kLevel * task_.price.limit_mm, task_.thorough);
     for (std::size_t i = 0; i < all.size(); ++i) {
       chain_[i].piece = all[i];
     }
@@ -121,7 +133,10 @@ class Sweep {
       starts_.assign(1, start());
       stands_ = starts_[0].speed_mm_s <= standstill_mm_s(chain_.front());
       stops_ = ends_at_stop();
-      while (chain_.size() < kInner && chain_.front().piece.arc.curvature_1_mm != 0.0) {
+      if (task_.thorough) {
+        divide();
+      }
+      while (chain_.size() < task_.inner && chain_.front().piece.arc.curvature_1_mm != 0.0) {
         chain_.push_back(chain_.back());
         halve(*std::prev(chain_.end(), 2), chain_.back());
       }
@@ -143,9 +158,22 @@ class Sweep {
     chain_.clear();
   }
 
+  /// Two arcs close a window's gap: they must not turn by much.
+  void divide() {
+    for (std::size_t i = 0; i < chain_.size();) {
+      const PlanarArc& arc = chain_[i].piece.arc;
+      if (std::abs(arc.curvature_1_mm) * arc.length_mm <= kPieceTurn_rad) {
+        ++i;
+        continue;
+      }
+      chain_.insert(chain_.begin() + static_cast<std::ptrdiff_t>(i), Link(chain_[i]));
+      halve(chain_[i], chain_[i + 1]);
+    }
+  }
+
   /// Behind the last piece that a window from `first` on may change.
   [[nodiscard]] std::size_t window_end(std::size_t first) const {
-    const std::size_t most = std::min(first + kInner, chain_.size() - (stops_ ? 0 : 1));
+    const std::size_t most = std::min(first + task_.inner, chain_.size() - (stops_ ? 0 : 1));
     if (first > 0 && !chain_[first].piece.smooth) {
       return first;
     }
@@ -215,8 +243,7 @@ class Sweep {
     return result->after;
   }
 
-  /// The window and its neighbours, in a result whose chain begins with the piece `from`: farther
-  /// from the path than permitted, or a block's end too far from where the original has it.
+  /// The window and its neighbours, in a result whose chain begins with the piece `from`.
   [[nodiscard]] bool too_far(const ChainWindow::Result& result, std::size_t from, std::size_t first,
                              std::size_t last) const {
     std::vector<Piece> pieces;
@@ -224,32 +251,7 @@ class Sweep {
          i < std::min(last + 1, from + result.chain.size()); ++i) {
       pieces.push_back(in_space({.piece = result.chain[i - from], .of = chain_[i].of}));
     }
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-      if (pieces[i].segment.line != pieces[i - 1].segment.line &&
-          from_block_end_mm(pieces[i - 1]) > most_from_end_mm(pieces[i - 1])) {
-        return true;
-      }
-    }
-    return !shift_of(task_.path, pieces, kShift * task_.most_shift_mm).too_far.empty();
-  }
-
-  /// How far the end of a block's last piece is from the end of the block.
-  [[nodiscard]] double from_block_end_mm(const Piece& last) const {
-    const auto& segments = task_.path.segments;
-    const std::uint32_t line = last.segment.line;
-    std::size_t i = geometry::segment_at(segments, last.progress_end_mm);
-    while (i > 0 && segments[i].line != line) {
-      --i;
-    }
-    while (i + 1 < segments.size() && segments[i + 1].line == line) {
-      ++i;
-    }
-    return geometry::distance(segments[i].end_mm, last.segment.end_mm);
-  }
-
-  /// The command is ahead of the tool.
-  [[nodiscard]] double most_from_end_mm(const Piece& last) const {
-    return 2.0 * task_.most_shift_mm + 1.5 * last.segment.feed_mm_s / gain_1_s_;
+    return bounds_.left_by(pieces);
   }
 
   /// Makes one piece of two that follow one another in a block, where that costs less than it is
@@ -359,6 +361,7 @@ class Sweep {
 
   const PolishTask& task_;
   const std::vector<BlockStart>& block_starts_;
+  ChainBounds bounds_;
   double gain_1_s_;
   double forget_s_;
   std::size_t every_;  ///< interpolator periods between two samples

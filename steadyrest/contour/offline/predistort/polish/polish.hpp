@@ -22,8 +22,14 @@ struct PolishTask {
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::function<kernel::signal::Point(double foot_mm)> unknown = {};
   ChainPrice price;
-  double most_shift_mm = 0.5;  ///< from the path
+  double most_shift_mm = 0.5;                 ///< from the path
+  static constexpr double kTimeToHold = 1.0;  ///< price of a second where the limit comes first
+  static constexpr std::size_t kInner = 3;
+  std::size_t inner = kInner;  ///< pieces that a window changes
   bool unites = false;         ///< pieces of one block may become fewer
+  /// Windows reach everywhere: small bends are taken away, long arcs divided, and pieces of one
+  /// slope have one.
+  bool thorough = false;
   std::function<void(double share)> progress = [](double) {};  ///< of a sweep, to 1
 };
 

@@ -4,33 +4,41 @@
 #include <limits>
 #include <utility>
 
-#include <steadyrest/contour/offline/predistort/polish/corner_legs.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
 
 constexpr std::size_t kMostPieces = 5000;  ///< CAM programs of many lines stay
-constexpr int kSweeps = 7;
-constexpr double kDearer = 4.0;   ///< a second, where the program takes too long
-constexpr double kCheaper = 0.5;  ///< … and where it leaves time
-constexpr double kSpare = 0.99;   ///< of the time permitted
-constexpr int kFirstSecants = 5;  ///< until the legs at corners are right …
-constexpr int kSecants = 1;       ///< … and after each further sweep
-constexpr double kWorth = 0.99;   ///< of the score: a sweep that wins less is the last
-static_assert(1 + kFirstSecants + kSweeps * (2 + kSecants) == kPolishRuns);
+constexpr double kDearer = 4.0;            ///< a second, where the program takes too long
+constexpr double kCheaper = 0.5;           ///< … and where it leaves time
+constexpr double kSpare = 0.99;            ///< of the time permitted
+constexpr int kSecants = 1;                ///< after each further sweep, until the legs are right
+constexpr double kWorth = 0.99;            ///< of the score: a sweep that wins less is the last
+static_assert(1 + PolishSweeps{}.first_secants + PolishSweeps{}.most * (2 + kSecants) ==
+              kPolishRuns);
 
 }  // namespace
+
+CornerLegs corner_legs(const PolishTask& task) {
+  return CornerLegs({.limit_mm = task.price.limit_mm,
+                     .lag_s = std::ranges::max(first_lags_s(task.models)),
+                     .most_mm = task.most_shift_mm});
+}
 
 kernel::outcome::Result<void> polish_rounds(PolishTask task, std::vector<Piece> pieces,
                                             const std::vector<BlockStart>& starts,
                                             const TryPieces& attempt) {
+  CornerLegs legs = corner_legs(task);
+  return polish_sweeps(task, pieces, legs, starts, attempt, {});
+}
+
+kernel::outcome::Result<void> polish_sweeps(PolishTask& task, std::vector<Piece>& pieces,
+                                            CornerLegs& legs, const std::vector<BlockStart>& starts,
+                                            const TryPieces& attempt, const PolishSweeps& how) {
   if (pieces.size() > kMostPieces) {
     return {};
   }
-  CornerLegs legs({.limit_mm = task.price.limit_mm,
-                   .lag_s = std::ranges::max(first_lags_s(task.models)),
-                   .most_mm = task.most_shift_mm});
   const auto lead = [&](int secants) -> kernel::outcome::Result<TriedPieces> {
     auto tried = attempt(legs.with_legs(pieces));
     for (int i = 0; tried && i < secants && legs.update(pieces, starts); ++i) {
@@ -39,9 +47,9 @@ kernel::outcome::Result<void> polish_rounds(PolishTask task, std::vector<Piece> 
     return tried;
   };
   // A window behind a stop would spend time on what the stop has left.
-  auto tried = lead(kFirstSecants);
+  auto tried = lead(how.first_secants);
   double best_mm = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; tried && sweep < kSweeps; ++sweep) {
+  for (int sweep = 0; tried && sweep < how.most; ++sweep) {
     task.unites = sweep == 0;
     pieces = polished(task, starts, pieces);
     tried = lead(kSecants);
@@ -52,11 +60,12 @@ kernel::outcome::Result<void> polish_rounds(PolishTask task, std::vector<Piece> 
     if (tried && tried->time < kSpare) {
       task.price.time *= kCheaper;
     }
-    if (tried && tried->score_mm > kWorth * best_mm) {
+    if (tried && tried->score_mm > kWorth * best_mm &&
+        !(how.patient && tried->score_mm > best_mm / kWorth)) {
       break;
     }
     if (tried) {
-      best_mm = tried->score_mm;
+      best_mm = std::min(best_mm, tried->score_mm);
     }
   }
   return tried ? kernel::outcome::Result<void>{} : std::unexpected(tried.error());

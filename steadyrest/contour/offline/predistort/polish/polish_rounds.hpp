@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include <steadyrest/contour/offline/predistort/polish/corner_legs.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -18,6 +19,12 @@ using TryPieces = std::function<kernel::outcome::Result<TriedPieces>(const std::
 
 inline constexpr int kPolishRuns = 27;  ///< sweeps and pieces tried, at most
 
+struct PolishSweeps {
+  int most = 7;
+  int first_secants = 5;  ///< until the legs at corners are right
+  bool patient = false;   ///< a sweep that wins nothing is not the last
+};
+
 /// Sweeps of windows (polished()) and, between them, stops led beyond (CornerLegs), as long as that
 /// helps. Where the program takes too long a second costs more in the next sweep. `starts` are
 /// those of the last run: each attempt changes them. Refused: what `attempt` refuses.
@@ -25,5 +32,13 @@ inline constexpr int kPolishRuns = 27;  ///< sweeps and pieces tried, at most
                                                           std::vector<Piece> pieces,
                                                           const std::vector<BlockStart>& starts,
                                                           const TryPieces& attempt);
+
+/// The legs of a task's corners, none yet.
+[[nodiscard]] CornerLegs corner_legs(const PolishTask& task);
+
+/// The same, with the pieces and legs in hand; `pieces` are then those of the last sweep.
+[[nodiscard]] kernel::outcome::Result<void> polish_sweeps(
+    PolishTask& task, std::vector<Piece>& pieces, CornerLegs& legs,
+    const std::vector<BlockStart>& starts, const TryPieces& attempt, const PolishSweeps& how);
 
 }  // namespace steadyrest::contour::offline

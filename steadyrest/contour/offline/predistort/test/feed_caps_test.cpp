@@ -6,6 +6,7 @@
 
 #include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
+#include <steadyrest/passport/file/machine_file.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
@@ -77,6 +78,34 @@ TEST(FeedCaps, CountFromTheSpeedThatTheCommandHad) {
   ASSERT_TRUE(caps.tighten({{40.0, 41.0, 0.0095 * 1.25}}, capped_speed(10.0), 0.01));
   EXPECT_NEAR(capped(caps, path)[1].segment.feed_mm_s, 10.0 * std::sqrt(0.95 / (0.95 * 1.25)),
               1e-9);
+}
+
+// A stop between the tool and its command would slow all of the stretch down to the lowest feed.
+TEST(FeedCaps, CountFromTheHighestSpeedWhereTheCommandMayBrake) {
+  const auto path = capped_line();
+  FeedCaps caps(path, 0.1);
+  CommandSpeed speed = capped_speed();
+  for (std::size_t i = 405; i < 407; ++i) {
+    speed.speed_mm_s[i] = 0.0;
+  }
+  ASSERT_TRUE(caps.tighten({{40.0, 41.0, 0.019}, {40.0, 41.0, 0.019}}, speed, 0.01,
+                           FeedCaps::Speed::highest));
+  EXPECT_NEAR(capped(caps, path)[1].segment.feed_mm_s, kCapFeed_mm_s * std::sqrt(0.5), 1e-9);
+}
+
+// Closed form: the command's circle has R·√(1 + q²) and is run at v·√(1 + q²).
+TEST(FeedCaps, LeaveAnArcTheFeedThatItsCommandCanHave) {
+  const auto machine =
+      passport::read(STEADYREST_SOURCE_DIR "/examples/machines/linuxcnc-mill.toml").value();
+  nc::plan::PlannedPath path;
+  path.segments = online::test::circle(2.0, 60.0 * kCapFeed_mm_s, 1.0);
+  FeedCaps caps(path, 0.1);
+  caps.lower_arcs(nc::plan::PathLimits(machine.axes, machine.control), 0.05, 0.9);
+  const double v = caps.most_mm_s(3.0);
+  const double q = v * 0.05 / 2.0;
+  const double across_mm_s2 = v * v * std::sqrt(1.0 + q * q) / 2.0;
+  EXPECT_LE(across_mm_s2, 0.81 * 0.866 * 2000.0);
+  EXPECT_GT(across_mm_s2, 0.76 * 0.866 * 2000.0);
 }
 
 TEST(FeedCaps, EndAtTheLowestFeed) {
