@@ -11,6 +11,7 @@
 #include <steadyrest/apps/cli/program/ahead/over_lines.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
 #include <steadyrest/apps/cli/program/ahead/setting_words.hpp>
+#include <steadyrest/contour/offline/predict/paired.hpp>
 #include <steadyrest/contour/offline/settings/settings.hpp>
 #include <steadyrest/trial/cut/comparison.hpp>
 

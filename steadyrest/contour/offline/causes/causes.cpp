@@ -87,15 +87,6 @@ std::string path_reason(const OverTask& task, const Peak& peak) {
 
 }  // namespace
 
-PathMap paired(const nc::plan::PlannedPath& changed, const math::geometry::PathPairing& pairing) {
-  PathMap map;
-  for (const PathSegment& segment : changed.segments) {
-    map.start_mm.push_back(pairing.original_mm(segment.position_mm));
-    map.end_mm.push_back(pairing.original_mm(segment.position_mm + segment.length_mm));
-  }
-  return map;
-}
-
 Result<std::vector<Peak>> peaks_over(const OverTask& task) {
   std::map<std::uint32_t, Peak> worst;
   const ServoModels model = servo_models(task.machine.axes);

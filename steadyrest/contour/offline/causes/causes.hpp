@@ -10,14 +10,9 @@
 #include <steadyrest/contour/offline/predict/model_run.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
-#include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {
-
-/// Of a changed path against its original.
-[[nodiscard]] PathMap paired(const nc::plan::PlannedPath& changed,
-                             const math::geometry::PathPairing& pairing);
 
 /// A program on the servo model, and the path that its part should have.
 struct OverTask {

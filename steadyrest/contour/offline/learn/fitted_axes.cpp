@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -77,7 +78,7 @@ std::optional<Axes> by_gain_and_lag(const PartRecord& record,
     if (!subject) {
       return std::nullopt;
     }
-    const ServoProblem& problem = subject->problem;
+    const ServoProblem problem = first_of(subject->problem, kFittedSamples);
     const ServoForm form = ServoForm{}.with({Free::lag});
     const ServoLaw start = {.gain_1_s = axis.servo_gain_1_s,
                             .feed_forward = axis.feed_forward,
@@ -132,11 +133,8 @@ online::AxisModel model_of(const Axis& axis) noexcept {
 Result<std::vector<FittedAxis>> fit_axes(const std::vector<CutPart>& parts, const Lessons& lessons,
                                          Axes& axes) {
   const auto by_file = misfit_mm(parts, lessons, axes);
-  if (!by_file) {
-    return std::unexpected(by_file.error());
-  }
   const auto places = moved(lessons.original.segments, axes.size());
-  double least = kClearly * *by_file;
+  double least = by_file ? kClearly * *by_file : std::numeric_limits<double>::infinity();
   std::optional<Axes> best;
   for (const CutPart& part : parts) {
     for (const auto& fit : {by_all_numbers, by_gain_and_lag}) {
@@ -148,6 +146,9 @@ Result<std::vector<FittedAxis>> fit_axes(const std::vector<CutPart>& parts, cons
         best = std::move(other);
       }
     }
+  }
+  if (!by_file && !best) {
+    return std::unexpected(by_file.error());
   }
   std::vector<FittedAxis> out;
   for (std::size_t i = 0; best && i < places.size(); ++i) {

@@ -27,7 +27,7 @@ struct FittedAxis {
 /// straight lines. The contour error that the records leave beyond each model decides, to which a
 /// delay of the whole record is nothing (LearningFigures::misfit_rms_mm): the file's model goes
 /// where another leaves at most kClearly of it. Returns the axes that changed. Refused: what
-/// learn_from() refuses with the file's model.
+/// learn_from() refuses with the file's model, where no other explains the records.
 [[nodiscard]] kernel::outcome::Result<std::vector<FittedAxis>> fit_axes(
     const std::vector<CutPart>& parts, const Lessons& lessons,
     std::vector<kernel::machine::Axis>& axes);

@@ -14,6 +14,7 @@
 #include <steadyrest/contour/offline/learn/sharp_corners.hpp>
 #include <steadyrest/contour/offline/learn/stretches.hpp>
 #include <steadyrest/contour/offline/learn/swapped_columns.hpp>
+#include <steadyrest/contour/offline/predict/paired.hpp>
 #include <steadyrest/contour/online/contour_error.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/moves.hpp>
@@ -73,11 +74,7 @@ class Learner {
 
  private:
   Result<void> run_plan() {
-    PathMap map;
-    for (const PathSegment& segment : lesson_.cut.segments) {
-      map.start_mm.push_back(pairing_.original_mm(segment.position_mm));
-      map.end_mm.push_back(pairing_.original_mm(segment.position_mm + segment.length_mm));
-    }
+    const PathMap map = paired(lesson_.cut, pairing_);
     const auto seconds = run_model({.machine = lesson_.machine,
                                     .path = lesson_.cut,
                                     .original = lesson_.original,

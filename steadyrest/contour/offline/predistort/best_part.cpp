@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include <steadyrest/contour/offline/causes/causes.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
+#include <steadyrest/contour/offline/predict/paired.hpp>
 #include <steadyrest/contour/offline/predistort/best_part.hpp>
+#include <steadyrest/contour/offline/predistort/run_errors.hpp>
 #include <steadyrest/contour/offline/predistort/shift.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
@@ -20,10 +21,9 @@ namespace {
 using kernel::outcome::Result;
 using Figures = ErrorFigures::Whole;
 
-constexpr double kLarger = 1.05;       ///< the largest error, as the RMS falls …
-constexpr double kMuchBetter = 0.5;    ///< … and where it falls to less than this, any
-constexpr double kRounding_mm = 5e-4;  ///< of the text
-constexpr double kExplains = 2.0;      ///< of the model's misfit: no more explains the record too
+constexpr double kPartGrows = 1.05;  ///< the largest error, as the RMS falls …
+constexpr double kMuchBetter = 0.5;  ///< … and where it falls to less than this, any
+constexpr double kExplains = 2.0;    ///< of the model's misfit: no more explains the record too
 constexpr std::array kLags = {0.25, 0.5};  ///< in 1/k
 constexpr double kNoLag_s = 1e-9;
 
@@ -176,9 +176,9 @@ std::vector<ServoModels> with_gains(const ServoModels& model, double share,
 }
 
 bool grows(const Figures& was, const Figures& is) noexcept {
-  return is.rms_mm() > was.rms_mm() + kRounding_mm ||
+  return is.rms_mm() > was.rms_mm() + RunErrors::kRounding_mm ||
          (is.rms_mm() > kMuchBetter * was.rms_mm() &&
-          is.max_mm > kLarger * was.max_mm + kRounding_mm);
+          is.max_mm > kPartGrows * was.max_mm + RunErrors::kRounding_mm);
 }
 
 }  // namespace
@@ -193,7 +193,7 @@ Result<std::optional<BestPart>> better_part(const BestPartTask& task, const Chan
   }
   Candidate& candidate = **best;
   const CutPart& part = task.parts[candidate.best.part];
-  const double most_mm = kExplains * candidate.taught.misfit_mm + kRounding_mm;
+  const double most_mm = kExplains * candidate.taught.misfit_mm + RunErrors::kRounding_mm;
   for (const ServoModels& of_lag : with_lags(task.lessons.model)) {
     for (const ServoModels& model :
          with_gains(of_lag, task.lessons.gain_uncertainty, task.lessons.original.segments)) {

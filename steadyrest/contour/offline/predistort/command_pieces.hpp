@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <steadyrest/contour/offline/learn/learnt.hpp>
-#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/shape/command_shape.hpp>
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <steadyrest/contour/offline/predistort/barred_lines.hpp>
-#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
-#include <steadyrest/contour/offline/predistort/held_stretches.hpp>
+#include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/hold/held_stretches.hpp>
 #include <steadyrest/contour/offline/predistort/phase_progress.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>

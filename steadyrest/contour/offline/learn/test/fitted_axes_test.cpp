@@ -75,6 +75,15 @@ TEST(FitAxes, FindsAnotherGain) {
   EXPECT_NEAR(fitted[1].is.gain_1_s, 42.0, 0.42);
 }
 
+// By the file's model more than 0.1 mm is unknown everywhere: nothing could be learnt with it.
+TEST(FitAxes, FindsAGainFarFromTheFile) {
+  RecordedSlot slot({.gain_1_s = 12.0, .noise_mm = 1e-3});
+  const auto fitted = slot.fitted();
+  ASSERT_EQ(fitted.size(), 2U);
+  EXPECT_NEAR(fitted[0].is.gain_1_s, 12.0, 0.12);
+  EXPECT_NEAR(fitted[1].is.gain_1_s, 12.0, 0.12);
+}
+
 TEST(FitAxes, AModelThatExplainsTheRecordStays) {
   RecordedSlot slot({.gain_1_s = 50.0, .noise_mm = 1e-3});
   EXPECT_TRUE(slot.fitted().empty());

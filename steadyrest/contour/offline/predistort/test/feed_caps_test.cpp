@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/contour/online/test/paths.hpp>
 #include <steadyrest/passport/file/machine_file.hpp>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <steadyrest/contour/offline/predistort/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
 
 namespace steadyrest::contour::offline {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include <steadyrest/contour/offline/predistort/held_stretches.hpp>
+#include <steadyrest/contour/offline/predistort/hold/held_stretches.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
 namespace steadyrest::contour::offline {
