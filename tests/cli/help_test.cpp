@@ -58,8 +58,10 @@ TEST(Help, EveryVerbWithAReportShowsHowToGetIt) {
 
 // The examples of --help are run as they are written: a reader copies them.
 TEST(Help, EveryVerbEndsWithAnExampleThatWorks) {
-  const LiveLayer layer;  // for the verbs that ask a running one
-  const Scratch own;      // for the accounts
+  const Scratch own;  // for the accounts
+  // For the verbs that ask a running one; it ends with its program, and examples may be slow.
+  const LiveLayer layer(
+      "observe", {}, own.file("waits.mpf", "G71 G90\nG0 X0 Y0 Z0\nG1 X1 F1000\nG4 F3600\nM30\n"));
   ::setenv("XDG_CONFIG_HOME", own.at("").c_str(), 1);
   const std::string password = own.file("password", "correct horse\n");
   for (const Words& verb : verbs()) {

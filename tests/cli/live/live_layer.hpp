@@ -79,10 +79,13 @@ class LiveLayer {
  private:
   std::vector<std::string> arguments(const std::string& mode, std::vector<std::string> more,
                                      const std::string& program) {
-    std::vector<std::string> all = {
-        "run",       "--machine",           scratch_.file("machine.toml", machine_),
-        "--program", project_file(program), "--mode",
-        mode};
+    std::vector<std::string> all = {"run",
+                                    "--machine",
+                                    scratch_.file("machine.toml", machine_),
+                                    "--program",
+                                    program.starts_with('/') ? program : project_file(program),
+                                    "--mode",
+                                    mode};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
