@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -15,6 +16,12 @@ namespace steadyrest::math::geometry {
   return segment.start_mm[axis] != segment.end_mm[axis] ||
          (segment.geometry == kernel::signal::Geometry::arc &&
           std::abs(segment.axis[axis]) < kSquare);
+}
+
+/// Whether any segment does.
+[[nodiscard]] inline bool moves(kernel::signal::PathView path, std::size_t axis) noexcept {
+  return std::ranges::any_of(
+      path, [axis](const kernel::signal::PathSegment& segment) { return moves(segment, axis); });
 }
 
 }  // namespace steadyrest::math::geometry

@@ -253,8 +253,7 @@ std::vector<passport::ServoValues> values_of(const ServoFits& fits, const std::v
   return out;
 }
 
-/// Takes the axes that stand still out of the record and out of the places, unless all do. Their
-/// names.
+/// Removes axes that do not move from `places` and `logs`, unless none moves. Returns their names.
 std::vector<std::string> leave_out_standing(const Machine& machine,
                                             std::vector<std::size_t>& places,
                                             std::vector<contour::offline::ServoLog>& logs) {

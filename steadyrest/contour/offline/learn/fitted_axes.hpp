@@ -15,6 +15,7 @@ struct FittedAxis {
   std::string name;
   online::AxisModel was;       ///< by the machine file
   online::AxisModel is;        ///< by the record
+  double gain_sd_1_s = 0.0;    ///< standard deviation of its gain
   bool lag_was_known = false;  ///< the file has a lag
 };
 

@@ -98,8 +98,8 @@ struct Taught {
   double misfit_mm = 0.0;
 };
 
-/// What a part's record shows beyond a model. Whether learning from it converges is of no matter
-/// here.
+/// What a part's record shows beyond a model. Nothing is learnt from it, so convergence is not
+/// required.
 Result<Taught> taught(const BestPartTask& task, const ServoModels& model, const CutPart& part,
                       const Changed& program) {
   LearnConfig config;

@@ -11,6 +11,7 @@
 #include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
+#include <steadyrest/math/geometry/moves.hpp>
 #include <steadyrest/nc/rewrite/replace/at_worst.hpp>
 #include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
@@ -27,22 +28,35 @@ constexpr double kLeastFeed = 0.25;   ///< of the programmed one, where feeds fa
 constexpr double kWorthwhile = 0.25;  ///< of the limit: a run whose error is less stays
 constexpr double kHopeless = 0.25;    ///< of its RMS: a run that could win no more stays
 constexpr double kLongestTried_s = 1200.0;
-constexpr double kFittedGain = 0.002;  ///< to which a record shows the gains
+constexpr double kFittedGain = 0.002;  ///< to which a record shows how far gains are apart
+
+/// A record shows the gains to two standard deviations, and what is in all of them alike, such as
+/// half a cycle of its delay, bends no line.
+GainUncertainty gains_by(const std::vector<FittedAxis>& fitted, double by_file) {
+  if (fitted.empty()) {
+    return {.each = by_file, .apart = by_file};
+  }
+  double each = kFittedGain;
+  for (const FittedAxis& axis : fitted) {
+    each = std::max(each, 2.0 * axis.gain_sd_1_s / axis.is.gain_1_s);
+  }
+  return {.each = std::min(each, by_file), .apart = std::min(kFittedGain, by_file)};
+}
 
 }  // namespace
 
 Predistortion::Predistortion(const std::string& file, const nc::interpret::Config& config,
                              const Machine& machine, const PredistortConfig& how,
-                             double gain_uncertainty)
+                             const GainUncertainty& gains)
     : file_(file),
       config_(config),
       machine_(machine),
       how_(how),
-      gain_uncertainty_(gain_uncertainty),
+      gains_(gains),
       // What is learnt is beyond the model whose inverse is written.
       model_(how.parts.empty() ? servo_models(machine.axes)
-                               : cautious(servo_models(machine.axes), gain_uncertainty)),
-      inverse_(cautious(model_, gain_uncertainty), backlash_mm(machine.axes)),
+                               : cautious(servo_models(machine.axes), gains.apart)),
+      inverse_(cautious(model_, gains.apart), backlash_mm(machine.axes)),
       progress_(how.progress, 1 + how.rounds + kCornerRuns + kPolishRuns + kRefinements +
                                   (how.hold_mm > 0.0 ? kHoldRuns + kMostHolds * kHoldRounds : 0)) {}
 
@@ -93,7 +107,7 @@ Result<Predistorted> Predistortion::run() {
   learnt_.unrefine(0);
   out_.taught = std::move(learnt_);
   out_.axes = std::move(machine_.axes);
-  out_.gain_uncertainty = gain_uncertainty_;
+  out_.gain_uncertainty = gains_.each;
   return std::move(out_);
 }
 
@@ -107,8 +121,15 @@ Result<void> Predistortion::keep_best_part() {
   if (!better) {
     return std::unexpected(better.error());
   }
-  if (!*better || !nc::rewrite::prove_made(file_, (*better)->program.replaced, config_, machine_)) {
+  if (!*better) {
     return {};
+  }
+  const auto proof = nc::rewrite::prove_made(file_, (*better)->program.replaced, config_, machine_);
+  if (!proof) {
+    // A full disk, say, is no fault of the program.
+    return proof.error().kind == kernel::outcome::Kind::unavailable
+               ? Result<void>(std::unexpected(proof.error()))
+               : Result<void>();
   }
   out_.kept_part = (*better)->part;
   out_.largest_shift_mm = (*better)->largest_shift_mm;
@@ -255,10 +276,10 @@ Result<void> Predistortion::read() {
   path_ = std::move(*path);
   // What the lags do is part of what records show.
   const auto lag = how_.parts.empty() ? how_.lag_uncertainty : 0.0;
-  const auto by = ServoUncertainty::of(machine_.axes, gain_uncertainty_, lag);
+  const auto by = ServoUncertainty::of(machine_.axes, gains_.each, lag);
   out_.others = uncertain(model_, by, path_.segments);
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine_.axes.size()); ++i) {
-    if (moves(path_.segments, i)) {
+    if (math::geometry::moves(path_.segments, i)) {
       out_.lag_uncertainty = std::max(out_.lag_uncertainty, by.lag[i]);
       if (!machine_.axes[i].velocity_lag_known) {
         out_.unknown_lags.push_back(machine_.axes[i].name);
@@ -277,7 +298,7 @@ Lessons Predistortion::lessons() const {
           .config = config_,
           .original = path_,
           .model = model_,
-          .gain_uncertainty = gain_uncertainty_};
+          .gain_uncertainty = gains_.each};
 }
 
 Result<void> Predistortion::learn_from_parts() {
@@ -293,7 +314,9 @@ Result<void> Predistortion::learn_from_parts() {
 Result<Predistorted> predistort(const std::string& program, const nc::interpret::Config& config,
                                 const Machine& machine, const PredistortConfig& how) {
   if (how.parts.empty()) {
-    return Predistortion(program, config, machine, how, how.gain_uncertainty).run();
+    return Predistortion(program, config, machine, how,
+                         {.each = how.gain_uncertainty, .apart = how.gain_uncertainty})
+        .run();
   }
   const auto path = shaped_path(program, config, machine);
   if (!path) {
@@ -310,9 +333,8 @@ Result<Predistorted> predistort(const std::string& program, const nc::interpret:
   if (!fitted) {
     return std::unexpected(fitted.error());
   }
-  const double gain_uncertainty =
-      fitted->empty() ? how.gain_uncertainty : std::min(how.gain_uncertainty, kFittedGain);
-  auto out = Predistortion(program, config, shown, how, gain_uncertainty).run();
+  auto out =
+      Predistortion(program, config, shown, how, gains_by(*fitted, how.gain_uncertainty)).run();
   if (out) {
     out->fitted = std::move(*fitted);
   }

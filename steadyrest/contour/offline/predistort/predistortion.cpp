@@ -139,7 +139,7 @@ Result<void> Predistortion::try_text(Changed changed) {
 PolishTask Predistortion::polish_task() {
   PolishTask task{.machine = machine_,
                   .path = path_,
-                  .models = cautious(model_, gain_uncertainty_),
+                  .models = cautious(model_, gains_.apart),
                   .price = {.limit_mm = how_.limit_mm},
                   .most_shift_mm = how_.max_shift_mm,
                   .progress = [this](double share) {
@@ -222,7 +222,7 @@ Result<void> Predistortion::try_corners() {
 }
 
 Result<std::vector<ErrorSample>> Predistortion::left() {
-  const ServoModels sure = cautious(model_, gain_uncertainty_);
+  const ServoModels sure = cautious(model_, gains_.apart);
   if (sure == model_) {
     return best_errors_;
   }

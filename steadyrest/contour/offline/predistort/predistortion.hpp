@@ -18,6 +18,12 @@
 
 namespace steadyrest::contour::offline {
 
+/// As shares of the gains.
+struct GainUncertainty {
+  double each = 0.05;   ///< how far each may be off its model
+  double apart = 0.05;  ///< how far they may be off one another: cautious()
+};
+
 /// One program being predistorted: what was tried, and the best of it.
 class Predistortion {
  public:
@@ -26,7 +32,7 @@ class Predistortion {
 
   Predistortion(const std::string& file, const nc::interpret::Config& config,
                 const kernel::machine::Machine& machine, const PredistortConfig& how,
-                double gain_uncertainty);
+                const GainUncertainty& gains);
 
   Result<Predistorted> run();
 
@@ -134,7 +140,7 @@ class Predistortion {
   const nc::interpret::Config& config_;
   kernel::machine::Machine machine_;  ///< as parts have shown it
   const PredistortConfig& how_;
-  double gain_uncertainty_;
+  GainUncertainty gains_;
   ServoModels model_;
   ServoInverse inverse_;
   PhaseProgress progress_;

@@ -30,12 +30,6 @@ std::vector<online::AxisModel> corners(const online::AxisModel& model, double ga
 
 }  // namespace
 
-bool moves(kernel::signal::PathView path, std::size_t axis) {
-  return std::ranges::any_of(path, [axis](const kernel::signal::PathSegment& segment) {
-    return math::geometry::moves(segment, axis);
-  });
-}
-
 ServoUncertainty ServoUncertainty::of(std::span<const kernel::machine::Axis> axes, double gain,
                                       std::optional<double> lag) {
   ServoUncertainty out{.gain = gain};
@@ -49,7 +43,7 @@ OtherModels uncertain(const ServoModels& model, const ServoUncertainty& by,
                       kernel::signal::PathView path) {
   OtherModels out;
   for (std::size_t i = 0; i < 3; ++i) {
-    const bool at_rest = !moves(path, i);
+    const bool at_rest = !math::geometry::moves(path, i);
     out.axis[i] = corners(model[i], at_rest ? 0.0 : by.gain, at_rest ? 0.0 : by.lag[i]);
   }
   return out.size() == 1 ? OtherModels{} : out;

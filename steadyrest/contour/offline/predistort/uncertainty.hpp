@@ -24,9 +24,6 @@ struct ServoUncertainty {
                                            std::optional<double> lag);
 };
 
-/// The path moves this axis of X, Y, Z.
-[[nodiscard]] bool moves(kernel::signal::PathView path, std::size_t axis);
-
 /// The corners of the uncertainty: each gain and lag up or down, but for axes that the path never
 /// moves. Empty where all is sure.
 [[nodiscard]] OtherModels uncertain(const ServoModels& model, const ServoUncertainty& by,

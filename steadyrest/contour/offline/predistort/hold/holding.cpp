@@ -98,20 +98,18 @@ Result<void> Predistortion::hold_by_windows() {
         !caps_->tighten(held_->close_good(), speed_, how_.hold_mm, FeedCaps::Speed::highest)) {
       return {};
     }
-    Result<void> done;
     if (pass.from == From::expected) {
       speed_ = expected_speed(path_, first_speed_, inverse_.lag_s(),
                               [this](double at_mm) { return caps_->most_mm_s(at_mm); });
     } else if (pass.from == From::rounds) {
       speed_ = first;
-      // A text that is refused is no reason to keep its block: another pass may do better.
+      // A refused text ends these rounds only: a later pass may do better.
       for (int i = 0; i < kShapingRounds && try_pieces(coarse_pieces()); ++i) {
       }
     }
-    if (done) {
-      done = pass.from == From::best ? hold_window_sweeps(held_->best(), kLongWindow)
-                                     : hold_window_sweeps(coarse_pieces(), PolishTask::kInner);
-    }
+    const auto done = pass.from == From::best
+                          ? hold_window_sweeps(held_->best(), kLongWindow)
+                          : hold_window_sweeps(coarse_pieces(), PolishTask::kInner);
     if (!done || held_->close_good().empty()) {
       return done;
     }

@@ -37,7 +37,7 @@ class ChainMotion {
   /// The speed at which a piece takes all of the acceleration that the control gives to curves.
   [[nodiscard]] double curve_mm_s(const ChainPiece& piece) const noexcept;
   /// From a standstill or, on the first piece led backwards, from a speed. Behind the end the
-  /// command stands still for `rest_s`. False where the planner refuses the pieces.
+  /// command rests for `rest_s`. Returns false if the planner refuses the pieces.
   bool run(std::span<const ChainPiece> pieces, double rest_s, double from_mm_s = 0.0);
   /// From the first one on the pieces.
   [[nodiscard]] const std::vector<kernel::signal::Point>& command() const noexcept {

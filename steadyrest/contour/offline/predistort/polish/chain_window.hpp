@@ -49,7 +49,7 @@ class ChainWindow {
   struct Start {
     ChainError::State at;
     double until_s = 0.0;     ///< from then until it begins
-    double speed_mm_s = 0.0;  ///< of the command; 0: it stands still until the piece begins
+    double speed_mm_s = 0.0;  ///< of the command; 0: it is at rest until the piece begins
   };
   /// Pieces [first, last) may change. At a stop their first point stays and its direction is
   /// free; elsewhere the neighbour is in the chain and goes on without a bend. So it is at the
@@ -61,7 +61,7 @@ class ChainWindow {
     bool leaves_free = false;
     bool arrives_free = false;
     Start start;          ///< of the chain
-    double rest_s = 0.0;  ///< the command stands still behind the chain for so long
+    double rest_s = 0.0;  ///< how long the command rests after the chain
   };
   struct Result {
     double before = 0.0;  ///< J

@@ -223,7 +223,7 @@ class Sweep {
     }
   }
 
-  /// The window from `first` on made better; its J. Nothing where there is no window.
+  /// Improves the window that begins at `first` and returns its J; nullopt if there is none.
   std::optional<double> improve(ChainWindow& window, std::size_t first) {
     const std::size_t last = window_end(first);
     if (last < first + 2) {
