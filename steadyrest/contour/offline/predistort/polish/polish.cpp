@@ -258,7 +258,10 @@ class Sweep {
   /// worth. Both are in the window from `first` on, whose J is `now`.
   std::optional<double> unite(ChainWindow& window, std::size_t first, double now) {
     const std::size_t last = window_end(first);
-    for (std::size_t at = first; at + 1 < last && last > first + 2; ++at) {
+    // One arc in the place of two ends elsewhere. Within the window the arcs behind it make up for
+    // that; behind the chain nothing does.
+    const std::size_t most = last == chain_.size() ? last - 1 : last;
+    for (std::size_t at = first; at + 1 < most && last > first + 2; ++at) {
       if (chain_[at].of.segment.line != chain_[at + 1].of.segment.line) {
         continue;
       }
