@@ -111,17 +111,20 @@ steadyrest_headers(steadyrest_test_headers_not_hot HEADERS ${test_headers} ${tex
 steadyrest_headers(steadyrest_program_headers HEADERS <CLI/CLI.hpp> ${text_headers}
   DEPENDS CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json OPTIONS ${steadyrest_not_hot_options})
 
+# A test on a control or in a browser, which takes its time and leaves the processor much of it: one of them at a time beside
+# the others, and from the start, so that none is left over at the end.
+set(steadyrest_live_test RESOURCE_LOCK live COST 1000)
+# A test that takes minutes: early, so that it does not end alone.
+set(steadyrest_long_test COST 100)
+
 # All test executables with the label `threads`: those worth building for ThreadSanitizer.
 add_custom_target(threads_tests)
 
 # steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT COMPUTES): a GoogleTest executable; every test is a
 # ctest entry; with WHOLE all of them are one, so that a suite starts its server once. Several labels may be given. NOT_HOT: see
-# steadyrest_not_hot. COMPUTES: optimised in sanitized builds too.
+# steadyrest_not_hot. COMPUTES: optimised in sanitized builds too. LIVE: steadyrest_live_test.
 function(steadyrest_test)
-  cmake_parse_arguments(T "NOT_HOT;COMPUTES;ALONE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
-  if(NOT T_ALONE)
-    set(T_ALONE FALSE)
-  endif()
+  cmake_parse_arguments(T "NOT_HOT;COMPUTES;LIVE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
   if(NOT T_LABEL)
     set(T_LABEL fast)
   endif()
@@ -144,8 +147,11 @@ function(steadyrest_test)
   if("threads" IN_LIST T_LABEL)
     add_dependencies(threads_tests ${target})
   endif()
-  set(properties LABELS "${T_LABEL}" TIMEOUT 600 RUN_SERIAL ${T_ALONE}
+  set(properties LABELS "${T_LABEL}" TIMEOUT 600
     ENVIRONMENT "RC_PARAMS=seed=${STEADYREST_PROPERTY_SEED} max_success=${STEADYREST_PROPERTY_RUNS}")
+  if(T_LIVE)
+    list(APPEND properties ${steadyrest_live_test})
+  endif()
   if(T_WHOLE)
     add_test(NAME ${T_NAME} COMMAND ${target})
     set_tests_properties(${T_NAME} PROPERTIES ${properties})
