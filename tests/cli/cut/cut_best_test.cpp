@@ -140,7 +140,7 @@ TEST(CutBest, ALimitThatAnyWayHoldsIsHeld) {
       "G3 X4.6 Y0 I4.2 J0\nG3 X-5.4 Y0 I-5 J0\nG4 P0.5\nM2\n");
   const std::string text = scratch.at("held.ngc");
   const json answer = answer_of("program correct " + part + " --machine " + kArcsMill +
-                                " --max-error-mm 0.01 --max-shift-mm 2 --hold-limit -o " + text);
+                                " --max-error-mm 0.01 --hold-limit -o " + text);
   EXPECT_TRUE(answer["path"]["remaining"].empty()) << answer["path"]["by"];
   const json cut = answer_of("cut " + text + " --against " + part + " --machine " + kArcsMill);
   EXPECT_EQ(cut["without"]["samples_over_limit"], 0);

@@ -29,10 +29,12 @@ double rms_um(const json& cut) {
 /// With its corrected path, of a program for a machine.
 struct Predistorted {
   explicit Predistorted(const std::string& program = kMarkedPart,
-                        const std::string& machine_file = "examples/machines/vmc-840d.toml")
+                        const std::string& machine_file = "examples/machines/vmc-840d.toml",
+                        const std::string& more = "")
       : machine(" --machine " + machine_file),
         file(scratch.at("changed" + std::filesystem::path(program).extension().string())) {
-    answer_of("program predistort " + program + machine + " --max-error-mm 0.01 -o " + file);
+    answer_of("program predistort " + program + machine + " --max-error-mm 0.01" + more + " -o " +
+              file);
   }
   /// Something in its text changed by hand.
   void edit(const std::string& from, const std::string& to) const {
@@ -86,7 +88,7 @@ TEST(CutMarked, WhereBlocksStayTheLayerHoldsWhatTheTextDoesNot) {
       scratch.file("part.ngc",
                    "G21 G90 G17 G54 G61\nS1000 M3\nG0 X0 Y0 Z0\nG4 P0.5\nG1 X40 F2000\nG3 X45 Y5 "
                    "I0 J5\nG1 Y40\nG3 X45 Y40 I-12 J0 P3 F5000\nG1 Y60 F2000\nG0 Z5\nM2\n"),
-      "examples/machines/linuxcnc-mill.toml");
+      "examples/machines/linuxcnc-mill.toml", " --max-shift-mm 0.5");
   const json cut = answer_of("cut " + part.file + part.machine + " --quick");
   EXPECT_LT(rms_um(cut["with"]), 0.9 * rms_um(cut["without"]));
   EXPECT_LE(cut["with"]["contour_error_max_mm"].get<double>(),

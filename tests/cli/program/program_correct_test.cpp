@@ -71,9 +71,9 @@ TEST(ProgramCorrect, BeginsAtTheCornerBehindABlockThatStays) {
       << "G21 G90 G94 G17 G64 G54\nT1 M6\nS3000 M3\nG0 X0 Y0 Z2\nG0 X50 Y50\nG91\nG1 X5 F1000\n"
          "G1 Y5\nG2 X5 Y5 I5 J0\nG90\nG0 Z20\nM5\nM2\n";
   const std::string part = scratch.at("part.ngc");
-  const auto answer =
-      answer_of("program correct " + part + " --machine examples/machines/linuxcnc-mill.toml" +
-                " --max-error-mm 0.01 --hold-limit -o " + scratch.at("changed.ngc"));
+  const auto answer = answer_of(
+      "program correct " + part + " --machine examples/machines/linuxcnc-mill.toml" +
+      " --max-error-mm 0.01 --max-shift-mm 0.5 --hold-limit -o " + scratch.at("changed.ngc"));
   EXPECT_EQ(answer["path"]["too_far"], (nlohmann::json{7}));
   EXPECT_EQ(answer["replaced_lines"].get<int>(), 2);
   answer_of("program verify " + part + " " + scratch.at("changed.ngc"));

@@ -67,7 +67,8 @@ TEST(ProgramPredistort, MakesNoCornerWorseAtTheEnd) {
                         << mode << "\nF3000\nG0 X0 Y0 Z0\nG1 X10 Y1\nG3 X10 Y21 J10 I0\n"
                         << "G1 X0\nG2 Y1 J-10 I0\nG1 X0 Y0\nM2\n";
     const std::string changed = scratch.at("changed.ngc");
-    const auto answer = answer_of("program predistort " + part + on_linuxcnc + " -o " + changed);
+    const auto answer =
+        answer_of("program predistort " + part + on_linuxcnc + " --max-shift-mm 0.5 -o " + changed);
     const auto cut = answer_of("cut " + changed + " --against " + part + on_linuxcnc);
     const double was_mm = cut["original"]["contour_error_max_mm"].get<double>();
     const double is_mm = cut["without"]["contour_error_max_mm"].get<double>();
@@ -77,6 +78,26 @@ TEST(ProgramPredistort, MakesNoCornerWorseAtTheEnd) {
     EXPECT_LT(cut["without"]["contour_error_rms_mm"].get<double>(),
               0.8 * cut["original"]["contour_error_rms_mm"].get<double>());
   }
+}
+
+// A command leaves the path by as much as the tool would.
+TEST(ProgramPredistort, PermitsTheShiftThatASlowServoNeeds) {
+  const Scratch scratch;
+  const std::string part = scratch.file("part.ngc",
+                                        "G21 G90 G17 G61\nF3000\nG0 X0 Y0 Z0\nG4 P0.5\nG1 X20\nG3 "
+                                        "X20 Y4 J2\nG1 X0\nG4 P0.5\nM2\n");
+  const std::string changed = scratch.at("changed.ngc");
+  const std::string command = "program predistort " + part +
+                              " --machine examples/machines/linuxcnc-mill.toml -o " + changed;
+  const auto answer = answer_of(command);
+  EXPECT_GT(answer["predicted_error_max_before_mm"].get<double>(), 0.25);
+  EXPECT_EQ(answer["too_far"], nlohmann::json::array());
+  EXPECT_GT(answer["largest_shift_mm"].get<double>(), 0.5);
+  EXPECT_THAT(text_of_file(changed), testing::HasSubstr("--tube-mm 2"));
+  answer_of("program verify " + part + " " + changed);
+  // What is asked for counts.
+  const auto bounded = answer_of(command + " --max-shift-mm 0.5");
+  EXPECT_EQ(bounded["too_far"], nlohmann::json({6}));
 }
 
 // A lag of half of 1 / servo gain leaves no error on an arc: where the file does not exclude it,

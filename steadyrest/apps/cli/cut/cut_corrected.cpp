@@ -26,23 +26,11 @@ namespace {
 using nc::rewrite::Told;
 using trial::cut::Way;
 
-/// An error beyond this asks for shifts of the command beyond the default.
-constexpr double kLargeError_mm = 0.25;
-constexpr double kLargeShift_mm = 2.0;
-
 struct Text {
   nc::rewrite::Replaced replaced;
   std::string command;
   std::vector<std::string> unknown_lags;  ///< axes
 };
-
-PathOptions path_options(const CorrectTask& task, bool hold) {
-  PathOptions options{.max_error_mm = task.machine.contour.limit_mm, .hold = hold, .learning = {}};
-  if (task.error_mm > kLargeError_mm) {
-    options.max_shift_mm = kLargeShift_mm;
-  }
-  return options;
-}
 
 /// What a user types to get this text.
 std::string command_of(const CorrectTask& task, const std::string& verb, const std::string& more) {
@@ -55,7 +43,10 @@ std::string command_of(const CorrectTask& task, const std::string& verb, const s
 
 Result<Text> shifted(const CorrectTask& task, const SourceProgram& program,
                      const std::vector<Told>& read, bool hold, Progress& progress) {
-  const PathOptions options = path_options(task, hold);
+  PathOptions options{.max_error_mm = task.machine.contour.limit_mm, .hold = hold, .learning = {}};
+  if (auto settled = settle_shift(options, program); !settled) {
+    return std::unexpected(settled.error());
+  }
   std::vector<Told> told = read;
   told.front().value = changes_of(options);
   for (Told& one : told_of(options)) {
@@ -66,11 +57,7 @@ Result<Text> shifted(const CorrectTask& task, const SourceProgram& program,
     return std::unexpected(done.error());
   }
   return Text{.replaced = std::move(done->replaced),
-              .command = command_of(task, "correct",
-                                    (task.error_mm > kLargeError_mm
-                                         ? fmt::format(" --max-shift-mm {:g}", kLargeShift_mm)
-                                         : std::string{}) +
-                                        (hold ? " --hold-limit" : "")),
+              .command = command_of(task, "correct", hold ? " --hold-limit" : ""),
               .unknown_lags = std::move(done->unknown_lags)};
 }
 

@@ -19,7 +19,6 @@ struct CorrectTask {
   std::string machine_file;
   const kernel::machine::Machine& machine;
   const CLI::App& verb;
-  double error_mm = 0.0;  ///< largest, as programmed
 };
 
 /// One text, planned, and held against its original.

@@ -204,8 +204,7 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
                            {.program = options.program,
                             .machine_file = options.machine,
                             .machine = setup.machine,
-                            .verb = *options.verb,
-                            .error_mm = cuts.without.figures().contour_error_max_mm},
+                            .verb = *options.verb},
                            path, cuts.with, runs, cuts.ways.ways, progress);
     if (!every) {
       return std::unexpected(every.error());

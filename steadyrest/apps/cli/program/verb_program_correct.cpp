@@ -171,7 +171,7 @@ std::expected<std::string, Refusals> inserted(const Options& options, Answer& an
 }
 
 /// Blocks replaced in a program, which may have corrections inserted.
-std::expected<nc::rewrite::Replaced, Refusals> changed(const Options& options, Answer& answer,
+std::expected<nc::rewrite::Replaced, Refusals> changed(Options& options, Answer& answer,
                                                        Progress& progress) {
   progress.update(0.0, "reading the program");
   const auto program = read_source_program(options.rewrite.program, options.rewrite.machine);
@@ -181,6 +181,9 @@ std::expected<nc::rewrite::Replaced, Refusals> changed(const Options& options, A
   if (options.asks_path()) {
     if (auto fits = within_bounds(*program, options.rewrite.program.file, kLongestPath_s); !fits) {
       return refused(fits.error());
+    }
+    if (auto settled = settle_shift(options.path, *program); !settled) {
+      return refused(settled.error());
     }
   }
   std::vector<Told> more;

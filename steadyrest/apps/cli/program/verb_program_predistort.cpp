@@ -22,7 +22,7 @@ struct Options {
   const CLI::App* verb = nullptr;
 };
 
-Outcome run(const Options& options, Progress& progress) {
+Outcome run(Options options, Progress& progress) {
   progress.update(0.0, "reading the program");
   const auto program = read_source_program(options.program, options.machine);
   if (!program) {
@@ -30,6 +30,9 @@ Outcome run(const Options& options, Progress& progress) {
   }
   if (const auto fits = within_bounds(*program, options.program.file, kLongestPath_s); !fits) {
     return refused(fits.error());
+  }
+  if (auto settled = settle_shift(options.path, *program); !settled) {
+    return refused(settled.error());
   }
   auto told =
       told_of_change(changes_of(options.path), *options.verb, *program, told_of(options.path));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <expected>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/predicted_change.hpp>
 #include <steadyrest/apps/cli/shared/value_check.hpp>
+#include <steadyrest/contour/offline/predict/model_run.hpp>
 
 namespace steadyrest::apps::cli {
 namespace {
@@ -18,6 +20,9 @@ using contour::offline::Predistorted;
 using kernel::outcome::Result;
 
 constexpr double kPercent = 100.0;
+constexpr double kUsualShift_mm = 0.5;
+constexpr double kLargeError_mm = 0.25;
+constexpr double kLargeShift_mm = 2.0;
 
 void put_figures(Answer& answer, const Predistorted& done, const PathOptions& options) {
   put_prediction(answer, done, options.max_error_mm);
@@ -99,7 +104,7 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
   }
   if (!done.too_far.empty()) {
     text += fmt::format("unchanged, because the shift would exceed {:g} mm: {} blocks\n",
-                        options.max_shift_mm, done.too_far.size());
+                        *options.max_shift_mm, done.too_far.size());
   }
   if (!done.worse.empty()) {
     text +=
@@ -127,7 +132,7 @@ void add_path_options(Verb& verb, PathOptions& options) {
       ->check(within(0.0001, 10.0));
   verb.add_option("--max-shift-mm", options.max_shift_mm,
                   "How far the command may leave the programmed path; a block that would need more "
-                  "stays")
+                  "stays. Default: 0.5, or 2 where the program's predicted error exceeds 0.25 mm")
       ->check(within(0.001, 5.0));
   verb.add_option(
           "--gain-uncertainty-percent", options.gain_uncertainty_percent,
@@ -150,6 +155,29 @@ void add_path_options(Verb& verb, PathOptions& options) {
   add_learning_options(verb, options.learning);
 }
 
+Result<void> settle_shift(PathOptions& options, const SourceProgram& program) {
+  if (options.max_shift_mm) {
+    return {};
+  }
+  double largest_mm = 0.0;
+  const auto& path = program.path;
+  const auto map = contour::offline::same_path(path);
+  const auto model = contour::offline::servo_models(program.machine.axes);
+  const auto seconds = contour::offline::run_model(
+      {.machine = program.machine,
+       .path = path,
+       .original = path,
+       .map = map,
+       .model = model,
+       .others = {},
+       .backlash_mm = contour::offline::backlash_mm(program.machine.axes)},
+      [&](const contour::offline::ModelSample& sample) {
+        largest_mm = sample.cuts ? std::max(largest_mm, std::abs(sample.error_mm)) : largest_mm;
+      });
+  options.max_shift_mm = largest_mm > kLargeError_mm ? kLargeShift_mm : kUsualShift_mm;
+  return seconds ? Result<void>{} : std::unexpected(seconds.error());
+}
+
 std::string changes_of(const PathOptions& options) {
   return options.hold ? "predistort,feeds" : "predistort";
 }
@@ -157,7 +185,7 @@ std::string changes_of(const PathOptions& options) {
 std::vector<nc::rewrite::Told> told_of(const PathOptions& options) {
   std::vector<nc::rewrite::Told> told = {
       {"max-error-mm", fmt::format("{:g}", options.max_error_mm)},
-      {"tube-mm", fmt::format("{:g}", options.max_shift_mm)},
+      {"tube-mm", fmt::format("{:g}", *options.max_shift_mm)},
       {"gain-uncertainty-percent", fmt::format("{:g}", options.gain_uncertainty_percent)}};
   if (options.lag_uncertainty_percent) {
     told.push_back(
@@ -176,7 +204,7 @@ Result<Predistorted> path_ahead(const PathOptions& options, const SourceProgram&
   return contour::offline::predistort(
       file, program.config, program.machine,
       {.limit_mm = options.max_error_mm,
-       .max_shift_mm = options.max_shift_mm,
+       .max_shift_mm = *options.max_shift_mm,
        .gain_uncertainty = options.gain_uncertainty_percent / kPercent,
        .lag_uncertainty = options.lag_uncertainty_percent.transform(
            [](double percent) { return percent / kPercent; }),

@@ -15,7 +15,9 @@ namespace steadyrest::apps::cli {
 
 struct PathOptions {
   double max_error_mm = 0.01;
-  double max_shift_mm = 0.5;
+  /// None: by settle_shift().
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<double> max_shift_mm = std::nullopt;
   double gain_uncertainty_percent = 5.0;
   // NOLINTNEXTLINE(readability-redundant-member-init)
   std::optional<double> lag_uncertainty_percent = std::nullopt;
@@ -29,11 +31,17 @@ struct PathOptions {
 /// --max-time-percent, --hold-limit, --from-record and --cut-program.
 void add_path_options(Verb& verb, PathOptions& options);
 
+/// Where no largest shift was asked for: 0.5 mm, which is enough for all but slow servos, and 2 mm
+/// for a program whose predicted error is beyond 0.25 mm, since a command leaves the path by as
+/// much as the tool would.
+[[nodiscard]] kernel::outcome::Result<void> settle_shift(PathOptions& options,
+                                                         const SourceProgram& program);
+
 /// For the mark in the program, and what it says of `changes`.
 [[nodiscard]] std::string changes_of(const PathOptions& options);
 [[nodiscard]] std::vector<nc::rewrite::Told> told_of(const PathOptions& options);
 
-/// `file`: the program itself, or a stage of it.
+/// After settle_shift(). `file`: the program itself, or a stage of it.
 [[nodiscard]] kernel::outcome::Result<contour::offline::Predistorted> path_ahead(
     const PathOptions& options, const SourceProgram& program, const std::string& file,
     std::vector<nc::rewrite::Told> told, Progress& progress);
