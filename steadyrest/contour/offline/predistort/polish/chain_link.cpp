@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -18,7 +19,8 @@ namespace {
 constexpr double kLeastLink_mm = 1e-6;
 constexpr double kSameRadius_mm = 1e-6;
 constexpr double kSameSlope = 1e-6;
-constexpr double kSteep = 10.0;  ///< rise per way in the plane
+constexpr double kPieceTurn_rad = 1.0;  ///< of one piece
+constexpr double kSteep = 10.0;         ///< rise per way in the plane
 constexpr double kStraightArc_1_mm = 1.0 / 3000.0;
 
 }  // namespace
@@ -138,6 +140,48 @@ void halve(Link& one, Link& two) {
   two.of.progress_start_mm = one.of.progress_end_mm = middle;
   two.of.begins_run = false;
   two.of.joined = true;
+}
+
+void divide(std::vector<Link>& chain) {
+  for (std::size_t i = 0; i < chain.size();) {
+    const PlanarArc& arc = chain[i].piece.arc;
+    if (std::abs(arc.curvature_1_mm) * arc.length_mm <= kPieceTurn_rad) {
+      ++i;
+      continue;
+    }
+    chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(i), Link(chain[i]));
+    halve(chain[i], chain[i + 1]);
+  }
+}
+
+void share_progress(std::span<Link> chain, std::pair<std::size_t, std::size_t> range,
+                    double leaves_mm, double arrives_mm) {
+  const auto [first, last] = range;
+  const auto moved = [](const Link& link, double was_mm) {
+    const double span = link.of.progress_end_mm - link.of.progress_start_mm;
+    return was_mm > 0.0 ? span / was_mm * (link.piece.arc.length_mm - was_mm) : 0.0;
+  };
+  double at = chain[first].of.progress_start_mm;
+  double end = chain[last - 1].of.progress_end_mm;
+  if (leaves_mm > 0.0) {
+    Link& leaves = chain[first - 1];
+    at = leaves.of.progress_end_mm += moved(leaves, leaves_mm);
+  }
+  if (arrives_mm > 0.0) {
+    Link& arrives = chain[last];
+    end = arrives.of.progress_start_mm - moved(arrives, arrives_mm);
+    end = arrives.of.progress_start_mm = std::max(at, end);
+  }
+  double whole = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
+    whole += chain[i].piece.arc.length_mm;
+  }
+  const double span = std::max(0.0, end - at);
+  for (std::size_t i = first; i < last; ++i) {
+    chain[i].of.progress_start_mm = at;
+    at += span * chain[i].piece.arc.length_mm / whole;
+    chain[i].of.progress_end_mm = at;
+  }
 }
 
 }  // namespace steadyrest::contour::offline

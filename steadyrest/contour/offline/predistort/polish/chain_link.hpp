@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <steadyrest/contour/offline/predistort/polish/chain_motion.hpp>
 #include <steadyrest/contour/offline/predistort/shape/piece.hpp>
@@ -24,5 +27,12 @@ struct Link {
 void level(std::span<ChainPiece> pieces, double tolerance_mm, bool alike = false);
 /// `one` becomes its first half, `two` the second.
 void halve(Link& one, Link& two);
+/// Pieces that turn by much are halved: two arcs that close a window's gap must not.
+void divide(std::vector<Link>& chain);
+/// The progress of the pieces [first, last) in proportion to their length, between those before and
+/// behind them. `leaves_mm`, `arrives_mm`: how long the neighbours were, whose progress ends and
+/// begins in proportion to their new length; 0: as it was.
+void share_progress(std::span<Link> chain, std::pair<std::size_t, std::size_t> range,
+                    double leaves_mm, double arrives_mm);
 
 }  // namespace steadyrest::contour::offline

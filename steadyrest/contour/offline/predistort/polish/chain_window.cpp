@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/contour/offline/predistort/polish/chain_corner.hpp>
 #include <steadyrest/contour/offline/predistort/polish/chain_window.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
@@ -27,8 +28,9 @@ constexpr double kLeastNeighbour_mm = 0.05;
 constexpr int kMostDampings = 6;
 constexpr double kFirstDamping = 1e-2;
 constexpr double kLeastDamping = 1e-6;
-constexpr double kFlatSlope = 1e-9;  ///< of an unknown that changes nothing
-constexpr double kProbe = 4.0;       ///< steps
+constexpr double kFlatSlope = 1e-9;   ///< of an unknown that changes nothing
+constexpr double kProbe = 4.0;        ///< steps
+constexpr double kCornerStep = 0.02;  ///< mm, and of a feed
 
 /// Unknowns: [leave, arrive (mm, or rad where the direction is free), ln ρ], (curvature, ln length)
 /// of the free arcs, ln feed of all.
@@ -114,9 +116,26 @@ void ChainWindow::rise(const Task& task, const Ends& between, std::vector<ChainP
   }
 }
 
+bool ChainWindow::put_feeds(const Task& task, std::span<const double> ln_ratio,
+                            std::vector<ChainPiece>& out) {
+  for (std::size_t i = task.first; i < task.last; ++i) {
+    out[i].feed_mm_s = task.chain[i].feed_mm_s * std::exp(ln_ratio[i - task.first]);
+    if (!(out[i].feed_mm_s <= kMostFeedRatio * out[i].programmed_mm_s) ||
+        !(out[i].feed_mm_s >= kLeastFeedRatio * out[i].programmed_mm_s)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool ChainWindow::build(const Task& task, const std::vector<double>& x,
                         std::vector<ChainPiece>& out) const {
   out = task.chain;
+  if (task.corner) {
+    // Unknowns: by how much the first piece is longer and the last begins later, ln feed of all.
+    return turn_corner(std::span(out).subspan(task.first).first<3>(), x[0], x[1]) &&
+           put_feeds(task, std::span(x).subspan(2), out);
+  }
   const auto between = ends(task, x, out);
   if (!between || !(std::abs(x[2]) < kMostRatio_ln)) {
     return false;
@@ -143,11 +162,9 @@ bool ChainWindow::build(const Task& task, const std::vector<double>& x,
         !(std::abs(arc.curvature_1_mm) * arc.length_mm <= kMostTurn_rad)) {
       return false;
     }
-    out[i].feed_mm_s = task.chain[i].feed_mm_s * std::exp(x[3 + 2 * free + (i - task.first)]);
-    if (!(out[i].feed_mm_s <= kMostFeedRatio * out[i].programmed_mm_s) ||
-        !(out[i].feed_mm_s >= kLeastFeedRatio * out[i].programmed_mm_s)) {
-      return false;
-    }
+  }
+  if (!put_feeds(task, std::span(x).subspan(3 + 2 * free), out)) {
+    return false;
   }
   // Two arcs close the gap whatever they turn by: a whole turn more or less is another path.
   if (!(std::abs(turn(out, task) - turn(task.chain, task)) < 0.25 * kernel::units::kTurn)) {
@@ -237,6 +254,9 @@ bool ChainWindow::value(const Task& task, const std::vector<double>& x, Value& o
 
 ChainWindow::Unknowns ChainWindow::unknowns(const Task& task) {
   const std::size_t count = task.last - task.first;
+  if (task.corner) {
+    return {std::vector<double>(2 + count, 0.0), std::vector<double>(2 + count, kCornerStep)};
+  }
   const std::size_t free = free_arcs(count);
   Unknowns out{std::vector<double>(3 + 2 * free + count, 0.0),
                std::vector<double>(3 + 2 * free + count, 0.02)};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -27,7 +28,7 @@ struct ChainPrice {
 };
 
 /// A command without bends between two neighbours that stay where they are, made better piece by
-/// piece.
+/// piece; or the three pieces that lead it beyond a corner and back (turn_corner()).
 ///
 /// Law. The pieces are arcs. Unknowns x: where the first leaves its neighbour and where the last
 /// arrives at its, the curvature and length of all but the last two, the ratio of those two, which
@@ -60,6 +61,8 @@ class ChainWindow {
     std::size_t last = 0;
     bool leaves_free = false;
     bool arrives_free = false;
+    /// Three pieces: beyond a corner, straight across and on. Their lengths may change.
+    bool corner = false;
     Start start;          ///< of the chain
     double rest_s = 0.0;  ///< how long the command rests after the chain
   };
@@ -107,6 +110,8 @@ class ChainWindow {
   void probe(const Task& task, Unknowns& at, Value& now);
   /// True where the largest error asks for another L; the cost is with that.
   bool rescale(const Task& task, const Unknowns& at, Value& now);
+  static bool put_feeds(const Task& task, std::span<const double> ln_ratio,
+                        std::vector<ChainPiece>& out);
   bool build(const Task& task, const std::vector<double>& x, std::vector<ChainPiece>& out) const;
   bool value(const Task& task, const std::vector<double>& x, Value& out);
   bool follow(const Task& task, std::vector<ChainError::State>* states = nullptr);

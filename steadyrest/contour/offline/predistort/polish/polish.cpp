@@ -21,7 +21,6 @@ using kernel::signal::Point;
 
 constexpr double kSmoothBend_rad = 2e-3;
 constexpr double kTakenBend_rad = 0.15;  ///< that a window takes away
-constexpr double kPieceTurn_rad = 1.0;   ///< of one piece
 constexpr double kSameStart_mm = 1e-3;
 constexpr double kSamePoint_mm = 1e-6;
 constexpr double kNearBlock_mm = 5.0;  ///< the last sample before a block is nearer
@@ -32,7 +31,8 @@ constexpr double kRamp_s = 0.05;       ///< of the speed
 constexpr std::size_t kBetweenProgress = 64;
 constexpr double kNotAll = 0.99;
 constexpr std::size_t kMostSamples = 20'000'000;
-constexpr double kLevel = 0.2;  ///< of the limit: the height of a joint
+constexpr double kTimeAtCorners = 3.0;  ///< times its price: a slow corner is always better
+constexpr double kLevel = 0.2;          ///< of the limit: the height of a joint
 
 double slope_of(const kernel::signal::PathSegment& segment, nc::interpret::Plane plane) {
   const Point tangent = geometry::station_at(segment, 0.5).tangent;
@@ -130,45 +130,38 @@ class Sweep {
                         .unknown = task_.unknown},
                        task_.path.segments);
       ChainWindow window(motion, error, task_.price, period_s_, forget_s_);
+      ChainPrice at_corners = task_.price;
+      at_corners.time *= kTimeAtCorners;
+      ChainWindow corner(motion, error, at_corners, period_s_, forget_s_);
       starts_.assign(1, start());
       stands_ = starts_[0].speed_mm_s <= standstill_mm_s(chain_.front());
       stops_ = ends_at_stop();
       if (task_.thorough) {
-        divide();
+        divide(chain_);
       }
       while (chain_.size() < task_.inner && chain_.front().piece.arc.curvature_1_mm != 0.0) {
         chain_.push_back(chain_.back());
         halve(*std::prev(chain_.end(), 2), chain_.back());
       }
       for (std::size_t first = stands_ ? 0 : 1; first + 1 < chain_.size(); ++first) {
+        if (is_corner(first)) {
+          turn_corner(corner, first);
+        }
         auto now = improve(window, first);
         while (now && task_.unites) {
           now = unite(window, first, *now);
         }
-        if (samples_ + window.samples() > kMostSamples) {
+        if (samples_ + window.samples() + corner.samples() > kMostSamples) {
           break;
         }
       }
-      samples_ += window.samples();
+      samples_ += window.samples() + corner.samples();
       level_chain();
     }
     for (const Link& link : chain_) {
       out_.push_back(in_space(link));
     }
     chain_.clear();
-  }
-
-  /// Two arcs close a window's gap: they must not turn by much.
-  void divide() {
-    for (std::size_t i = 0; i < chain_.size();) {
-      const PlanarArc& arc = chain_[i].piece.arc;
-      if (std::abs(arc.curvature_1_mm) * arc.length_mm <= kPieceTurn_rad) {
-        ++i;
-        continue;
-      }
-      chain_.insert(chain_.begin() + static_cast<std::ptrdiff_t>(i), Link(chain_[i]));
-      halve(chain_[i], chain_[i + 1]);
-    }
   }
 
   /// Behind the last piece that a window from `first` on may change.
@@ -241,6 +234,25 @@ class Sweep {
     put(*result, around.first);
     put_progress(first, last, task);
     return result->after;
+  }
+
+  /// The command is led beyond a corner here and comes back on the next piece.
+  [[nodiscard]] bool is_corner(std::size_t first) const {
+    return first + 2 < chain_.size() && !chain_[first + 1].piece.smooth &&
+           !chain_[first + 2].piece.smooth && chain_[first + 1].piece.arc.curvature_1_mm == 0.0;
+  }
+
+  void turn_corner(ChainWindow& window, std::size_t first) {
+    const std::size_t last = first + 3;
+    const auto around = surroundings(first, last);
+    ChainWindow::Task task = task_of(first, last, around);
+    task.corner = true;
+    const auto result = window.improve(task);
+    if (!result || too_far(*result, around.first, first, last)) {
+      return;
+    }
+    put(*result, around.first);
+    share_progress(chain_, {first + 1, first + 2}, 0.0, task.chain[task.last - 1].arc.length_mm);
   }
 
   /// The window and its neighbours, in a result whose chain begins with the piece `from`.
@@ -335,31 +347,9 @@ class Sweep {
 
   /// `before`: the task of the window, whose neighbours have changed their length.
   void put_progress(std::size_t first, std::size_t last, const ChainWindow::Task& before) {
-    const auto moved = [](const Link& link, double was_mm) {
-      const double span = link.of.progress_end_mm - link.of.progress_start_mm;
-      return was_mm > 0.0 ? span / was_mm * (link.piece.arc.length_mm - was_mm) : 0.0;
-    };
-    double at = chain_[first].of.progress_start_mm;
-    double end = chain_[last - 1].of.progress_end_mm;
-    if (!before.leaves_free) {
-      Link& leaves = chain_[first - 1];
-      at = leaves.of.progress_end_mm += moved(leaves, before.chain[before.first - 1].arc.length_mm);
-    }
-    if (!before.arrives_free) {
-      Link& arrives = chain_[last];
-      end = arrives.of.progress_start_mm -= moved(arrives, before.chain[before.last].arc.length_mm);
-      end = arrives.of.progress_start_mm = std::max(at, end);
-    }
-    double whole = 0.0;
-    for (std::size_t i = first; i < last; ++i) {
-      whole += chain_[i].piece.arc.length_mm;
-    }
-    const double span = std::max(0.0, end - at);
-    for (std::size_t i = first; i < last; ++i) {
-      chain_[i].of.progress_start_mm = at;
-      at += span * chain_[i].piece.arc.length_mm / whole;
-      chain_[i].of.progress_end_mm = at;
-    }
+    share_progress(chain_, {first, last},
+                   before.leaves_free ? 0.0 : before.chain[before.first - 1].arc.length_mm,
+                   before.arrives_free ? 0.0 : before.chain[before.last].arc.length_mm);
   }
 
   const PolishTask& task_;
