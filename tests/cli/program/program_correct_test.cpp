@@ -2,6 +2,7 @@
 // Everything at once: the result is what the single verbs make one after the other, and verify
 // proves it by its mark.
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "examples.hpp"
@@ -20,8 +21,13 @@ const std::string kSlotSpeeds = " --process " + kSlotProcess + " --depth-mm 1";
 // The path alone leaves a few corners above the limit; the feed falls there and nowhere else.
 TEST(ProgramCorrect, HoldsTheLimitInHardlyMoreTime) {
   const Scratch scratch;
+  const std::string on_vmc =
+      " --machine " +
+      scratch.file("vmc.toml",
+                   std::regex_replace(text_of_file(project_file("examples/machines/vmc-840d.toml")),
+                                      std::regex("block_time_ms = 4 "), "block_time_ms = 0 "));
   const std::string changed = scratch.at("changed.mpf");
-  const auto answer = answer_of("program correct " + kCorrectPart + kOnVmc +
+  const auto answer = answer_of("program correct " + kCorrectPart + on_vmc +
                                 " --max-error-mm 0.010 --hold-limit -o " + changed);
   const auto& path = answer["path"];
   EXPECT_LT(path["predicted_error_max_mm"].get<double>(), 0.020);
@@ -29,12 +35,22 @@ TEST(ProgramCorrect, HoldsTheLimitInHardlyMoreTime) {
   EXPECT_GT(path["share_over_limit_before"].get<double>(), 0.5);
   EXPECT_LT(path["share_over_limit"].get<double>(), 0.001);
 
-  const auto cut = answer_of("cut " + changed + " --against " + kCorrectPart + kOnVmc)["without"];
+  const auto cut = answer_of("cut " + changed + " --against " + kCorrectPart + on_vmc)["without"];
   EXPECT_LE(cut["samples_over_limit"].get<double>(), 0.001 * cut["samples"].get<double>());
   EXPECT_LT(cut["contour_error_rms_mm"].get<double>(), 0.002);
   const auto proof = answer_of("program verify " + kCorrectPart + " " + changed);
   EXPECT_EQ(proof["farthest_mm"], answer["farthest_mm"]);
   EXPECT_EQ(proof["new_lines"], answer["new_lines"]);
+}
+
+// A control that takes 4 ms for a block cannot follow as many.
+TEST(ProgramCorrect, HoldsTheLimitWhateverABlockTakes) {
+  const Scratch scratch;
+  const auto path =
+      answer_of("program correct " + kCorrectPart + kOnVmc +
+                " --max-error-mm 0.010 --hold-limit -o " + scratch.at("changed.mpf"))["path"];
+  EXPECT_LT(path["seconds_after"].get<double>(), 1.1 * path["seconds_before"].get<double>());
+  EXPECT_EQ(path["share_over_limit"].get<double>(), 0.0);
 }
 
 TEST(ProgramCorrect, WritesSpeedsPathAndHeatIntoOneProgram) {

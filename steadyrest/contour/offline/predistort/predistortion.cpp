@@ -16,6 +16,7 @@ namespace {
 
 using kernel::outcome::Result;
 
+constexpr double kOverHeld = 60.0;  ///< price of an error over a limit to be held (ChainPrice)
 constexpr double kCoarse = 0.05;    ///< of the largest shift: the fit that windows begin with
 constexpr double kCoarsest = 10.0;  ///< of the limit
 constexpr double kSmoothJoint =
@@ -193,6 +194,7 @@ Result<void> Predistortion::polish() {
   PolishTask task = polish_task();
   if (how_.hold_mm > 0.0) {
     task.price.time = PolishTask::kTimeToHold;
+    task.price.over = kOverHeld;
   }
   return polish_rounds(std::move(task), coarse_pieces(), starts_,
                        [this](const std::vector<Piece>& made) { return try_pieces(made); });

@@ -19,8 +19,10 @@ using kernel::outcome::Result;
 
 constexpr double kLeastWindowFeed = 0.3;  ///< of the programmed one, under windows
 constexpr double kArcSpeed = 0.9;         ///< of what the control permits on a command's arc
-constexpr double kNearly = 1.05;          ///< of the program's own time: feeds alone are enough
-constexpr double kOverLimit = 30.0;       ///< price of an error over it (ChainPrice)
+constexpr double kHardly = 0.005;         ///< of the cut over the limit …
+constexpr double kLittleMore = 1.1;  ///< … in so much of the program's time: windows stop there
+constexpr double kNearly = 1.05;     ///< of the program's own time: feeds alone are enough
+constexpr double kOverLimit = 30.0;  ///< price of an error over it (ChainPrice)
 constexpr int kWindowSteps = 6;
 constexpr double kWellShaped = 0.3;     ///< of the limit: a window that leaves less stays
 constexpr std::size_t kLongWindow = 5;  ///< pieces
@@ -52,9 +54,17 @@ Result<void> Predistortion::hold() {
     return done;
   }
   // Nothing takes less time than the program itself.
-  if (held_->cost_s() <= kNearly * out_.seconds_before) {
+  const double before_s = out_.seconds_before;
+  if (held_->cost_s() <= kNearly * before_s && out_.seconds_after <= kNearly * before_s) {
     progress_.phase("polishing the path", kPolishRuns);
     return polish();
+  }
+  best_speed_ = speed;
+  if (auto done = polish(); !done) {
+    return done;
+  }
+  if (out_.after.share_over() < kHardly && out_.seconds_after <= kLittleMore * before_s) {
+    return take_best_stretches();
   }
   best_speed_ = speed;
   learnt_.unrefine(0);
