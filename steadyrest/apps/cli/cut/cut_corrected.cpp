@@ -15,8 +15,8 @@
 
 #include <steadyrest/apps/cli/cut/cut_against.hpp>
 #include <steadyrest/apps/cli/cut/cut_corrected.hpp>
+#include <steadyrest/apps/cli/program/ahead/corrected_path.hpp>
 #include <steadyrest/apps/cli/program/ahead/feeds_ahead.hpp>
-#include <steadyrest/apps/cli/program/ahead/path_ahead.hpp>
 #include <steadyrest/apps/cli/program/ahead/program_bounds.hpp>
 #include <steadyrest/kernel/file/memory_file.hpp>
 
@@ -52,13 +52,14 @@ Result<Text> shifted(const CorrectTask& task, const SourceProgram& program,
   for (Told& one : told_of(options)) {
     told.push_back(std::move(one));
   }
-  auto done = path_ahead(options, program, task.program.file, std::move(told), progress);
-  if (!done) {
-    return std::unexpected(done.error());
+  auto corrected = corrected_path(options, program, task.program.file, told, progress);
+  if (!corrected) {
+    return std::unexpected(corrected.error());
   }
-  return Text{.replaced = std::move(done->replaced),
+  contour::offline::Predistorted& done = corrected->done;
+  return Text{.replaced = std::move(done.replaced),
               .command = command_of(task, "correct", hold ? " --hold-limit" : ""),
-              .unknown_lags = std::move(done->unknown_lags)};
+              .unknown_lags = std::move(done.unknown_lags)};
 }
 
 Result<Text> slowed(const CorrectTask& task, SourceProgram program, std::vector<Told> told,
