@@ -43,7 +43,7 @@ namespace steadyrest::nc::rewrite {
 
 /// A block of a straight move or an arc depends on what the control decides: whether it is
 /// executed, where it begins, or the modes that give its words their meaning; `doubt`: as the block
-/// leaves them. `used`: axes that have moved so far; what comes in the block's place may name them.
+/// leaves them. `used`: axes that what comes in the block's place may name.
 ///
 /// G90 or G91 must be set by the program, and the plane of an arc; what else the state at the start
 /// may be (feed per revolution, cutter compensation, G90.1) is taken to be as usual, unless the

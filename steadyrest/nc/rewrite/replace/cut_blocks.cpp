@@ -22,6 +22,8 @@
 namespace steadyrest::nc::rewrite {
 namespace {
 
+constexpr std::uint32_t kSpace = 0b111;  ///< X, Y and Z, a mask of axes
+
 using interpret::Move;
 using interpret::MoveKind;
 
@@ -272,7 +274,9 @@ class CutSurvey {
     if (too_long_to_keep(dialect_, text)) {
       return Stays::too_long;
     }
-    if (depends_on_control(run_.doubt(), state, move, used_, dialect_)) {
+    // What comes in its place moves the axes that it moves, in space; the others may be anywhere.
+    const std::uint32_t named = (used_ & kSpace) | axes_used(run_.block(), kept_.moves);
+    if (depends_on_control(run_.doubt(), state, move, named, dialect_)) {
       return Stays::by_control;
     }
     if (by_switch_now_) {

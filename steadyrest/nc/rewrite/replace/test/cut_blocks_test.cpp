@@ -56,6 +56,17 @@ TEST(CutBlocks, TheFirstMoveAfterCompensationStaysStraight) {
   EXPECT_EQ(why_it_stays("G21 G90 G40 G94 G17 F100\nG0 X0 Y0\nG1 X5\nM2\n", 3), Stays::free);
 }
 
+// Where G54 is on the control is not known: after SUPA an axis is in its place again when it is
+// named. A rotary axis that stands while the block cuts is named by nothing that replaces it.
+TEST(CutBlocks, AnAxisThatStandsMayBeAnywhere) {
+  const std::string head = "G71 G90 G94 G17 F100\nSUPA G0 X0 Y0 Z50 A30 D0\nG54\n";
+  EXPECT_EQ(why_it_stays(head + "G0 X1 Y1 Z1\nG1 X5\nM30\n", 5, Dialect::sinumerik), Stays::free);
+  EXPECT_EQ(why_it_stays(head + "G0 X1 Y1\nG1 X5\nM30\n", 5, Dialect::sinumerik),
+            Stays::by_control);
+  EXPECT_EQ(why_it_stays(head + "G0 X1 Y1 Z1\nG1 X5 A40\nM30\n", 5, Dialect::sinumerik),
+            Stays::more_words);
+}
+
 // In inches F is inches a minute; G10 L2 R turns the work about Z, and shifts it.
 TEST(CutBlocks, TellInWhichModesTheyWereWritten) {
   const Workshop shop;
