@@ -88,7 +88,11 @@ std::vector<ChainPiece> improved(double block_time_s) {
   config.models = servo_models(machine.axes);
   ChainError error(config, path);
   ChainWindow window(motion, error, {.least_piece_s = block_time_s}, 0.001, 0.25);
-  ChainWindow::Task task{.chain = corner(), .first = 0, .last = 3, .corner = true, .start = {}};
+  ChainWindow::Task task;
+  task.chain = corner();
+  task.last = 3;
+  task.leaves_free = task.arrives_free = true;
+  task.corner = true;
   task.start.at.axes.tool_mm = {-kLine_mm, 0.0, 0.0};
   task.rest_s = 0.25;
   for (int i = 0; i < 3; ++i) {
