@@ -120,11 +120,11 @@ set(steadyrest_long_test COST 100)
 # All test executables with the label `threads`: those worth building for ThreadSanitizer.
 add_custom_target(threads_tests)
 
-# steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT COMPUTES): a GoogleTest executable; every test is a
+# steadyrest_test(NAME x SOURCES … DEPENDS … LABEL fast|slow|threads|… NOT_HOT COMPUTES LIVE ALONE): a GoogleTest executable; every test is a
 # ctest entry; with WHOLE all of them are one, so that a suite starts its server once. Several labels may be given. NOT_HOT: see
-# steadyrest_not_hot. COMPUTES: optimised in sanitized builds too. LIVE: steadyrest_live_test.
+# steadyrest_not_hot. COMPUTES: optimised in sanitized builds too. LIVE: steadyrest_live_test. ALONE: nothing runs beside it.
 function(steadyrest_test)
-  cmake_parse_arguments(T "NOT_HOT;COMPUTES;LIVE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
+  cmake_parse_arguments(T "NOT_HOT;COMPUTES;LIVE;ALONE;WHOLE" "NAME" "SOURCES;DEPENDS;LABEL" ${ARGN})
   if(NOT T_LABEL)
     set(T_LABEL fast)
   endif()
@@ -151,6 +151,8 @@ function(steadyrest_test)
     ENVIRONMENT "RC_PARAMS=seed=${STEADYREST_PROPERTY_SEED} max_success=${STEADYREST_PROPERTY_RUNS}")
   if(T_LIVE)
     list(APPEND properties ${steadyrest_live_test})
+  elseif(T_ALONE)
+    list(APPEND properties RUN_SERIAL TRUE)
   endif()
   if(T_WHOLE)
     add_test(NAME ${T_NAME} COMMAND ${target})
