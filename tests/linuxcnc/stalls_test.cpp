@@ -23,6 +23,7 @@ using linuxcnc_test::servo_log;
 using linuxcnc_test::ServoRow;
 
 constexpr double kHold = 1000.0;       ///< servo cycles of 1 ms: late_hold_ms
+constexpr double kSeenLater = 10.0;    ///< cycles
 constexpr double kAfterwards = 300.0;  ///< cycles in which the layer finds its way again
 /// Of the ratio: what the governor itself moves about on a circle, which asks for 0.13 here.
 constexpr double kGovernor = 0.02;
@@ -68,26 +69,38 @@ TEST(Stalls, NeverRaiseTheFeedInTheCut) {
   ASSERT_EQ(std::to_string(stalls.size()), count);
   double most = 0.0;
   double most_afterwards = 0.0;
+  std::string where;  ///< the most
   std::size_t late = 0;
   for (const Stall& stall : stalls) {
     const auto at = [&](double tick) {
       return std::ranges::lower_bound(log, tick, {}, &ServoRow::tick);
     };
-    const auto begin = at(stall.begin + 2.0);  // what was written last shows a cycle later
+    auto begin = at(stall.begin + 2.0);  // what was written last shows a cycle later
     ASSERT_LT(begin, log.end());
-    // A busy computer lets it go on later than it was told.
-    const auto beats = std::find_if(begin + 1, log.end(), [&](const ServoRow& row) {
-      return row.tick > stall.end && row.beat != begin->beat;
-    });
+    // The control may see the last beats later than they were made.
+    for (; begin + 1 < log.end() && begin->tick < stall.begin + kSeenLater; ++begin) {
+      if ((begin + 1)->beat == begin->beat) {
+        break;
+      }
+    }
+    // It goes on when its beat does, before its end was noted or, on a busy computer, later.
+    const auto beats = std::find_if(begin + 1, log.end(),
+                                    [&](const ServoRow& row) { return row.beat != begin->beat; });
     ASSERT_LT(beats, log.end());
     late += beats->tick - begin->tick > 20.0 ? 1 : 0;
     for (auto i = begin; i < log.end() && i->tick < beats->tick + kAfterwards; ++i) {
       const double risen = i->ratio - begin->ratio;
-      const bool held = i->tick < std::min(beats->tick, begin->tick + kHold - 5.0);
+      // The layer gives its ratio before its beat: the sampler may see the one a cycle earlier.
+      const bool held = i->tick < std::min(beats->tick - 1.0, begin->tick + kHold - 5.0);
+      if (held && risen > std::max(most, 1e-9)) {
+        where = "cycle " + std::to_string(i->tick - begin->tick) + " after the last beat, of " +
+                std::to_string(beats->tick - begin->tick) + ", " +
+                std::to_string(begin->tick - stall.begin) + " after the stop";
+      }
       (held ? most : most_afterwards) = std::max(held ? most : most_afterwards, risen);
     }
   }
-  EXPECT_LE(most, 1e-9);
+  EXPECT_LE(most, 1e-9) << where;
   EXPECT_LE(most_afterwards, kGovernor);
   EXPECT_GT(late, stalls.size() / 2) << "the watchdog has found most of them late";
   std::printf(
