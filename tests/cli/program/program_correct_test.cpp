@@ -44,7 +44,7 @@ TEST(ProgramCorrect, HoldsTheLimitInHardlyMoreTime) {
 }
 
 // A control that takes 4 ms for a block cannot follow as many.
-TEST(ProgramCorrect, HoldsTheLimitWhateverABlockTakes) {
+TEST(ProgramCorrect, HoldsTheLimitAtFourMillisecondsABlock) {
   const Scratch scratch;
   const auto path =
       answer_of("program correct " + kCorrectPart + kOnVmc +

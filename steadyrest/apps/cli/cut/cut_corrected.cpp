@@ -43,7 +43,10 @@ std::string command_of(const CorrectTask& task, const std::string& verb, const s
 
 Result<Text> shifted(const CorrectTask& task, const SourceProgram& program,
                      const std::vector<Told>& read, bool hold, Progress& progress) {
-  PathOptions options{.max_error_mm = task.machine.contour.limit_mm, .hold = hold, .learning = {}};
+  PathOptions options{.max_error_mm = task.machine.contour.limit_mm,
+                      .hold = hold,
+                      .explains = false,
+                      .learning = {}};
   if (auto settled = settle_shift(options, program); !settled) {
     return std::unexpected(settled.error());
   }

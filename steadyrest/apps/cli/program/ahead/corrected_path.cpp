@@ -243,15 +243,22 @@ Result<void> explain(const PathOptions& options, const SourceProgram& program, c
 Result<void> finish(const PathOptions& options, const SourceProgram& program,
                     const std::string& file, const std::vector<Told>& told, CorrectedPath& out,
                     Progress& progress) {
+  // The judge knows nothing of what records have shown.
+  const bool holds = options.hold && !options.staged && options.learning.records.empty();
+  if (!holds && !options.explains) {
+    return {};
+  }
   const auto judge = Judge::make(options, program, file);
   if (!judge) {
     return std::unexpected(judge.error());
   }
-  // The judge knows nothing of what records have shown.
-  if (options.hold && !options.staged && options.learning.records.empty()) {
+  if (holds) {
     if (auto best = take_best(options, program, file, told, *judge, out, progress); !best) {
       return best;
     }
+  }
+  if (!options.explains) {
+    return {};
   }
   progress.update(0.95, "looking for causes and cures");
   return explain(options, program, *judge, out);

@@ -22,8 +22,7 @@ struct CorrectedPath {
 
 /// As path_ahead(). Where the limit is to be held, lower feeds on the programmed path and, for each
 /// stretch between two rapids, the better of both are tried too, and taken where they keep the
-/// limit, or leave less over it in no more time. Where feeds stay, what --hold-limit would do is
-/// worked out beside, for the price of a cure.
+/// limit, or leave less over it in no more time.
 [[nodiscard]] Result<CorrectedPath> corrected_path(const PathOptions& options,
                                                    const SourceProgram& program,
                                                    const std::string& file,

@@ -23,7 +23,8 @@ struct PathOptions {
   std::optional<double> lag_uncertainty_percent = std::nullopt;
   double max_time_percent = 2.0;
   bool hold = false;
-  bool staged = false;  ///< other lines have been replaced before: feeds are theirs
+  bool staged = false;   ///< other lines have been replaced before: feeds are theirs
+  bool explains = true;  ///< causes, cures and settings are asked for
   LearningOptions learning;
 };
 

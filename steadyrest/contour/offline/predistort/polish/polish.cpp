@@ -236,7 +236,8 @@ class Sweep {
     return result->after;
   }
 
-  /// The command is led beyond a corner here and comes back on the next piece.
+  /// A straight piece between two bends begins here: the way back from beyond a corner, or a side
+  /// of a polygon, whose ends may move as well.
   [[nodiscard]] bool is_corner(std::size_t first) const {
     return first + 2 < chain_.size() && !chain_[first + 1].piece.smooth &&
            !chain_[first + 2].piece.smooth && chain_[first + 1].piece.arc.curvature_1_mm == 0.0;

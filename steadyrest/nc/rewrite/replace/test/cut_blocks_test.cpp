@@ -56,8 +56,9 @@ TEST(CutBlocks, TheFirstMoveAfterCompensationStaysStraight) {
   EXPECT_EQ(why_it_stays("G21 G90 G40 G94 G17 F100\nG0 X0 Y0\nG1 X5\nM2\n", 3), Stays::free);
 }
 
-// Where G54 is on the control is not known: after SUPA an axis is in its place again when it is
-// named. A rotary axis that stands while the block cuts is named by nothing that replaces it.
+// Only the control knows G54: after SUPA the place of an axis in the program's coordinates is
+// unknown until the axis is programmed again. A rotary axis at rest does not matter: no block that
+// replaces a cut names it.
 TEST(CutBlocks, AnAxisThatStandsMayBeAnywhere) {
   const std::string head = "G71 G90 G94 G17 F100\nSUPA G0 X0 Y0 Z50 A30 D0\nG54\n";
   EXPECT_EQ(why_it_stays(head + "G0 X1 Y1 Z1\nG1 X5\nM30\n", 5, Dialect::sinumerik), Stays::free);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,7 +14,6 @@ namespace steadyrest::contour::offline {
 namespace {
 
 using kernel::signal::Point;
-using std::numbers::pi;
 
 constexpr double kFeed_mm_s = 40.0;
 constexpr double kLine_mm = 15.0;
