@@ -10,9 +10,10 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
-// Lines and circles in closed form; helices and spirals by sampling at most π/6 apart and refining
-// each dip. At most two turns are searched: the caller roughly knows where the foot is, and a foot
-// beyond would be on another turn.
+// Lines and circles in closed form; an arc that is a circle but for the rounding of its text from
+// the circle's foot; helices and spirals by sampling at most π/6 apart and refining each dip. At
+// most two turns are searched: the caller roughly knows where the foot is, and a foot beyond would
+// be on another turn.
 namespace steadyrest::math::geometry {
 namespace {
 
@@ -23,6 +24,10 @@ using kernel::units::kTurn;
 constexpr int kMaxSamples = 25;  // π/6 apart: two turns
 // Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;
+// An arc whose radius grows by less is round enough for its circle's foot to begin with, …
+constexpr double kRound = 1e-3;
+constexpr double kLessThanATurn = 0.9 * kTurn;  // … within so much of a turn …
+constexpr double kOffCentre = 0.1;              // … and so many radii away from the centre.
 
 // The projection, clamped to the permitted part.
 Foot foot_on_line(const PathSegment& segment, const Point& query, double u_low,
@@ -157,6 +162,29 @@ double refine(const Curve& curve, double low, double high, double start) noexcep
   return u;
 }
 
+bool is_nearly_round(const PathSegment& segment, double u_low, double u_high) noexcept {
+  const double growth_mm = std::abs(segment.radius_end_mm - segment.radius_mm);
+  return segment.rise_mm == 0.0 &&
+         growth_mm <= kRound * std::min(segment.radius_mm, segment.radius_end_mm) &&
+         (u_high - u_low) * segment.sweep_rad <= kLessThanATurn;
+}
+
+// Off the centre the squared distance to a circle has one minimum, at the query's own angle; where
+// that is not permitted the end nearest to it is the least. So it is here, but for the growth.
+double foot_from_circle(const Curve& curve, const PathSegment& segment, const Local& query,
+                        double u_low, double u_high) noexcept {
+  const double low = u_low * segment.sweep_rad;
+  const double high = u_high * segment.sweep_rad;
+  double angle = std::atan2(query.y, query.x);
+  angle += kTurn * std::ceil((low - angle) / kTurn);
+  const double end = angle - high < low + kTurn - angle ? u_high : u_low;
+  const double start = angle <= high ? std::clamp(angle / segment.sweep_rad, u_low, u_high) : end;
+  const double u = refine(curve, u_low, u_high, start);
+  return std::min({u, u_low, u_high}, [&](double a, double b) {
+    return curve.distance_squared(a) < curve.distance_squared(b);
+  });
+}
+
 Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low, double u_high,
                    double u_near) noexcept {
   const double max_step = std::numbers::pi / 6.0 / segment.sweep_rad;
@@ -170,7 +198,13 @@ Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low,
   const double step = (high - low) / (count - 1);
 
   const ArcFrame frame = arc_frame(segment);
-  const Curve curve(segment, local_of(segment, frame, query));
+  const Local local = local_of(segment, frame, query);
+  const Curve curve(segment, local);
+  if (is_nearly_round(segment, u_low, u_high) &&
+      std::hypot(local.x, local.y) >= kOffCentre * segment.radius_mm) {
+    const double u = foot_from_circle(curve, segment, local, u_low, u_high);
+    return {u, std::sqrt(curve.distance_squared(u)), global_of(segment, frame, curve.point(u))};
+  }
   std::array<double, kMaxSamples> sample{};
   for (int i = 0; i < count; ++i) {
     sample[static_cast<std::size_t>(i)] = curve.distance_squared(low + step * i);

@@ -18,8 +18,9 @@ struct Foot {
 /// turns of a circle are equally near, the one nearest to u_near is taken. Helices and spirals:
 /// samples at most π/6 apart (at most two turns about u_near), then Newton's method on (p(u) −
 /// q)·p′(u) = 0 within a bracket, bisection where Newton leaves it, at most 12 steps; converges to
-/// rounding (tested at 1e-9 mm). Bounded work, no allocation. The foot point of a circle's own axis
-/// is any of its points.
+/// rounding (tested at 1e-9 mm). Arcs of less than a turn whose radius grows by at most 0.1 %, as
+/// rounded texts have them, begin at the circle's foot instead. Bounded work, no allocation. The
+/// foot point of a circle's own axis is any of its points.
 [[nodiscard]] Foot foot_point(const kernel::signal::PathSegment& segment,
                               const kernel::signal::Point& query, double u_low, double u_high,
                               double u_near) noexcept;

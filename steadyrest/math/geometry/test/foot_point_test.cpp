@@ -62,6 +62,23 @@ RC_GTEST_PROP(FootPoint, OfArcsHelicesAndSpiralsMatchesDenseSamplingWithinTwoTur
   RC_ASSERT(distance(foot.point_mm, point_at(segment, foot.u)) <= 1e-9);
 }
 
+// As a text with rounded digits has them: another radius at the end, less than a turn.
+RC_GTEST_PROP(FootPoint, OfArcsWithRoundedRadiiMatchesDenseSampling, ()) {
+  PathSegment segment = *test::any_arc();
+  segment = test::arc(segment.centre_mm, segment.axis, segment.radius_mm,
+                      segment.radius_mm * (1.0 + *test::number(-1e-3, 1e-3)), 0.0,
+                      *test::number(0.01, 6.2), 0.0);
+  const double reach = std::min(1.0, 5.6 / segment.sweep_rad);
+  const double low = *test::number(0.0, 1.0) * (1.0 - reach);
+  const double high = low + reach * *test::number(0.05, 1.0);
+  const double u = *test::number(0.0, 1.0);
+  const Point query = add(point_at(segment, u), *test::point(2.0 * segment.radius_mm));
+  const Foot foot = foot_point(segment, query, low, high, 0.5 * (low + high));
+  RC_ASSERT(foot.u >= low && foot.u <= high);
+  RC_ASSERT(std::abs(foot.distance_mm - brute_distance(segment, query, low, high)) <= 1e-9);
+  RC_ASSERT(distance(foot.point_mm, point_at(segment, foot.u)) <= 1e-9);
+}
+
 // Four turns coincide; only u_near can tell them apart.
 TEST(FootPoint, OnAMultiTurnCircleStaysOnTheTurnThatIsAsked) {
   const double turn = 2.0 * std::numbers::pi;
