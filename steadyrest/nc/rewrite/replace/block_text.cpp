@@ -183,6 +183,13 @@ std::string BlockText::with_feed(const CutBlock& block, std::string_view line,
   return with_word(dialect_, line, feed_word(block, feed_ratio));
 }
 
+std::string dwell_text(read::Dialect dialect, double seconds) {
+  const char letter = dialect == read::Dialect::sinumerik ? 'F'
+                      : dialect == read::Dialect::fanuc   ? 'X'
+                                                          : 'P';
+  return fmt::format("G4 {}{:.2f}", letter, seconds);
+}
+
 std::string with_word(read::Dialect dialect, std::string_view line, std::string_view word) {
   // In plain words and outside the comments the letter is the word's.
   const char letter = word.front();

@@ -57,6 +57,9 @@ class BlockText {
   int decimals_;
 };
 
+/// `G4 P0.15`, in seconds, as each control has it.
+[[nodiscard]] std::string dwell_text(read::Dialect dialect, double seconds);
+
 /// The line with this word in place of its word with the same letter, or before the comment that
 /// ends it; for a line of plain words and comments.
 [[nodiscard]] std::string with_word(read::Dialect dialect, std::string_view line,

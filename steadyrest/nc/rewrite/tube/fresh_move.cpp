@@ -5,13 +5,54 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/nc/interpret/decode/codes.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
+#include <steadyrest/nc/rewrite/replace/block_words.hpp>
 #include <steadyrest/nc/rewrite/tube/fresh_move.hpp>
 
 namespace steadyrest::nc::rewrite {
 
 using interpret::Move;
 using interpret::MoveKind;
+
+namespace {
+
+constexpr double kLongestWait_s = 5.0;
+
+/// G4 and its time in seconds, in the words of any control.
+bool is_dwell_word(const read::Word& word) {
+  constexpr std::string_view kTimes = "PFX";
+  return (word.letter == 'G' && interpret::g::code_of(word.value) == interpret::g::kDwell) ||
+         (word.letter != 0 && kTimes.find(word.letter) != std::string_view::npos &&
+          !is_calculated(word));
+}
+
+}  // namespace
+
+std::string words_fault(const read::Block& block) {
+  const std::string_view word = word_beyond_a_cut(block);
+  return word.empty()
+             ? std::string{}
+             : fmt::format("holds {}; a new line may hold a line or an arc and its feed alone",
+                           word);
+}
+
+bool is_wait(const Permitted& permitted, std::span<const Move> moves) noexcept {
+  return permitted.dwells && moves.size() == 1 && moves.front().kind == MoveKind::dwell;
+}
+
+std::string wait_fault(const read::Block& block, double seconds, bool begins) {
+  if (!begins) {
+    return "is a dwell that is not between a rapid and the block that it replaces";
+  }
+  const auto words = block.words();
+  if (words.size() != 2 || !std::ranges::all_of(words, is_dwell_word)) {
+    return "is a dwell with more words than its time in seconds";
+  }
+  return seconds <= kLongestWait_s
+             ? std::string{}
+             : fmt::format("is a dwell of {:g} s; {:g} s are allowed", seconds, kLongestWait_s);
+}
 
 std::string fresh_move_difference(const Permitted& permitted, const Move& block, Move move) {
   if (move.kind != MoveKind::linear && move.kind != MoveKind::arc) {

@@ -68,12 +68,13 @@ Result<Permitted> permitted_of(const std::string& changed, const std::vector<Tol
     while (!rest.empty()) {
       const std::string_view change = rest.substr(0, rest.find(','));
       rest.remove_prefix(std::min(rest.size(), change.size() + 1));
-      if (change != "predistort" && change != "feeds" && change != "speeds") {
+      if (change != "predistort" && change != "feeds" && change != "speeds" && change != "dwells") {
         return refuse(fmt::format("its record says --changes {}, which is not known", change));
       }
       out.path = out.path || change == "predistort";
       out.feeds = out.feeds || change == "feeds";
       out.speeds = out.speeds || change == "speeds";
+      out.dwells = out.dwells || change == "dwells";
     }
   }
   if (!out.path && !out.feeds && !out.speeds) {

@@ -22,6 +22,7 @@ struct Permitted {
   bool path = false;    ///< predistort
   bool feeds = false;   ///< lower feeds
   bool speeds = false;  ///< spindle speeds, and feeds in the same proportion
+  bool dwells = false;  ///< between a rapid and a block that is replaced
   double tube_mm = kUsualTube_mm;
   double least_rev_s = 0.0;  ///< range of the spindle
   double most_rev_s = 1e9;   // no machine is given
@@ -29,8 +30,8 @@ struct Permitted {
   std::vector<kernel::machine::Axis> axes{};  ///< their travel; none without a machine
 };
 
-/// From the mark: `changes` (predistort, feeds, speeds, with commas between) and `tube-mm`, which
-/// `tube_mm` overrides. Travel and the spindle's range are the machine's, where one is given.
+/// From the mark: `changes` (predistort, feeds, speeds, dwells, with commas between) and `tube-mm`,
+/// which `tube_mm` overrides. Travel and the spindle's range are the machine's, where one is given.
 /// Refused: other changes, and a mark that names none.
 [[nodiscard]] kernel::outcome::Result<Permitted> permitted_of(
     const std::string& changed, const std::vector<Told>& told, std::optional<double> tube_mm,

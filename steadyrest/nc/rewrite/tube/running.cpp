@@ -27,6 +27,9 @@ void Running::note_position() {
   for (const interpret::Move& move : kept.moves) {
     if (move.kind != interpret::MoveKind::dwell) {
       at_mm = machine_point(move, move.end);
+      if (move.start != move.end) {
+        behind_rapid = move.kind == interpret::MoveKind::rapid;
+      }
       used.add(move, run->line());
     }
   }

@@ -46,6 +46,7 @@ struct Running {
   Standing before;  ///< the line at hand
   std::optional<interpret::ProgramRun> run;
   std::optional<kernel::signal::Point> at_mm;  ///< machine
+  bool behind_rapid = false;                   ///< the last move of some length was one
   UsedTravel used;
 };
 

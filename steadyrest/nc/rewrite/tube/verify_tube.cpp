@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 
 #include <steadyrest/kernel/outcome/bad_input.hpp>
-#include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/replace/block_text.hpp>
@@ -193,7 +192,7 @@ class TubeProver {
     if (may_be_replaced(number)) {
       return replaced_block(*blocks_.find(number), fresh);
     }
-    const std::uint32_t was = b_->run->line();
+    const auto was = b_->run->line();
     if (fresh > 0 && !b_->step()) {
       return refuse_end(*b_, "ends before the original");
     }
@@ -252,7 +251,8 @@ class TubeProver {
     }
     const Move& block = a_->kept.moves.front();
     const Point start = machine_point(block, block.start);
-    if (!stretch_.open()) {
+    const bool begins = !stretch_.open();
+    if (begins) {
       stretch_.begin(start, b_->at_mm.value_or(start));
     }
     stretch_.block(block);
@@ -263,47 +263,45 @@ class TubeProver {
       if (asks_control(of, b_->run->block(), b_->kept.moves)) {
         return refuse(std::string(kAsksControl));
       }
-      if (!fresh_line(block)) {
+      if (!fresh_line(block, begins && a_->behind_rapid && i == 0)) {
         return false;
       }
     }
-    if (lasting(modes_of(b_->run->state())) != lasting(modes_of(a_->run->state())) &&
-        !only_speed_differs()) {
+    if (!same_modes()) {
       return refuse("leaves another mode in force than the block that it replaces");
     }
     return true;
   }
 
-  [[nodiscard]] bool only_speed_differs() const {
+  [[nodiscard]] bool same_modes() const {
     Modes a = lasting(modes_of(a_->run->state()));
     const Modes b = lasting(modes_of(b_->run->state()));
-    a.spindle_speed_rev_s = permitted_.speeds ? b.spindle_speed_rev_s : a.spindle_speed_rev_s;
+    a.spindle_speed_rev_s = (permitted_.speeds ? b : a).spindle_speed_rev_s;
     return a == b;
   }
 
   /// A line in place of a block, which has made its moves.
-  bool fresh_line(const Move& block) {
+  bool fresh_line(const Move& block, bool begins) {
     const interpret::ProgramRun& run = *b_->run;
+    const auto& moves = b_->kept.moves;
     if (!run.in_main() || lines_.kind(run.line()) < ChangedLines::Kind::fresh) {
       return refuse("executes another line than the original");
     }
-    if (auto word = word_beyond_a_cut(run.block()); !word.empty()) {
-      return refuse(
-          fmt::format("holds {}; a new line may hold a line or an arc and its feed alone", word));
+    const bool waits = is_wait(permitted_, moves);
+    auto fault =
+        waits ? wait_fault(run.block(), moves.front().dwell_s, begins) : words_fault(run.block());
+    if (fault.empty() &&
+        (!run.executed() || !run.at_top() || run.block().deleted() || !b_->kept.events.empty())) {
+      fault = "is a new line that does more than cut";
     }
-    if (!run.executed() || !run.at_top() || run.block().deleted() || !b_->kept.events.empty()) {
-      return refuse("is a new line that does more than cut");
+    for (std::size_t i = 0; i < moves.size() && fault.empty() && !waits; ++i) {
+      fault = fresh_move_difference(permitted_, block, moves[i]);
+      stretch_.fresh(moves[i]);
+      note_feed(block, moves[i]);
     }
-    proof_.moves += b_->kept.moves.size();
-    for (const Move& move : b_->kept.moves) {
-      if (auto fault = fresh_move_difference(permitted_, block, move); !fault.empty()) {
-        return refuse(std::move(fault));
-      }
-      stretch_.fresh(move);
-      note_feed(block, move);
-    }
+    proof_.moves += moves.size();
     b_->note_position();
-    return true;
+    return fault.empty() || refuse(std::move(fault));
   }
 
   /// Both programs are together again: the path since they parted.
