@@ -93,6 +93,8 @@ class Sweep {
   }
 
  private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
   [[nodiscard]] bool follows(const Piece& piece) const {
     const Piece& before = chain_.back().of;
     return !piece.begins_run && (piece.joined || piece.passes) && piece.plane == before.plane &&
@@ -256,13 +258,18 @@ class Sweep {
     share_progress(chain_, {first + 1, first + 2}, 0.0, task.chain[task.last - 1].arc.length_mm);
   }
 
-  /// The window and its neighbours, in a result whose chain begins with the piece `from`.
+  /// The window and its neighbours, in a result whose chain begins with the piece `from`. There one
+  /// piece is in the place of two, `united` and the next; kNone: nowhere.
   [[nodiscard]] bool too_far(const ChainWindow::Result& result, std::size_t from, std::size_t first,
-                             std::size_t last) const {
+                             std::size_t last, std::size_t united = kNone) const {
     std::vector<Piece> pieces;
     for (std::size_t i = std::max<std::size_t>(1, first) - 1;
          i < std::min(last + 1, from + result.chain.size()); ++i) {
-      pieces.push_back(in_space({.piece = result.chain[i - from], .of = chain_[i].of}));
+      Link link{.piece = result.chain[i - from], .of = chain_[i > united ? i + 1 : i].of};
+      if (i == united) {
+        link.of.progress_end_mm = chain_[i + 1].of.progress_end_mm;
+      }
+      pieces.push_back(in_space(link));
     }
     return bounds_.left_by(pieces);
   }
@@ -293,7 +300,7 @@ class Sweep {
       --task.last;
       const auto result = window.improve(task);
       if (!result || !(result->after < now + task_.price.block) ||
-          too_far(*result, around.first, first, last - 1)) {
+          too_far(*result, around.first, first, last - 1, at)) {
         continue;
       }
       chain_[at].of.progress_end_mm = chain_[at + 1].of.progress_end_mm;
