@@ -11,11 +11,11 @@
 #include <steadyrest/contour/offline/causes/places.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
+#include <steadyrest/nc/rewrite/replace/block_text.hpp>
 
 namespace steadyrest::contour::offline {
 namespace {
 
-using kernel::machine::Dialect;
 using kernel::outcome::Result;
 using kernel::signal::Motion;
 using nc::plan::PathEvent;
@@ -153,12 +153,13 @@ class Trial {
   [[nodiscard]] bool waits_for_spindle() const {
     return std::ranges::any_of(window_.path.plans, &nc::plan::SegmentPlan::per_revolution);
   }
-  /// The first segment that cuts behind the last rapid before the place.
+  /// The first segment that cuts behind the last rapid before the place; none where both are of one
+  /// block, a drilling cycle's: no dwell goes between them.
   [[nodiscard]] std::optional<std::size_t> after_rapid() const {
     const auto& segments = window_.path.segments;
     for (std::size_t i = peak_.segment - window_.first; i > 0; --i) {
       if (segments[i].motion == Motion::feed && segments[i - 1].motion == Motion::rapid) {
-        return i;
+        return segments[i].line == segments[i - 1].line ? std::nullopt : std::optional(i);
       }
     }
     return std::nullopt;
@@ -172,14 +173,6 @@ class Trial {
   double to_mm_ = 0.0;
   Tried now_;
 };
-
-std::string dwell_words(Dialect dialect, double seconds) {
-  return fmt::format("G4 {}{:.2f}",
-                     dialect == Dialect::sinumerik ? "F"
-                     : dialect == Dialect::fanuc   ? "X"
-                                                   : "P",
-                     seconds);
-}
 
 Result<std::optional<Cure>> Trial::dwell(std::size_t before) const {
   const double gain_1_s = softest_gain_1_s(servo_models(task_.machine.axes));
@@ -202,10 +195,11 @@ Result<std::optional<Cure>> Trial::dwell(std::size_t before) const {
     if (best && tried->error_mm > kAim * best->leaves_mm) {
       continue;  // a longer dwell must win something
     }
-    best = Cure{.what = fmt::format("{} before line {}",
-                                    dwell_words(task_.machine.control.dialect, dwell_s), line),
-                .seconds = tried->seconds - now_.seconds,
-                .leaves_mm = tried->error_mm};
+    best = Cure{
+        .what = fmt::format("{} before line {}",
+                            nc::rewrite::dwell_text(task_.machine.control.dialect, dwell_s), line),
+        .seconds = tried->seconds - now_.seconds,
+        .leaves_mm = tried->error_mm};
     if (best->holds(task_.limit_mm)) {
       break;
     }

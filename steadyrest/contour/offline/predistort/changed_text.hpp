@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,9 @@ struct Changed {
   std::vector<double> end_mm;
 };
 
+/// Dwells, s, by the line of the block that they are before.
+using Waits = std::map<std::uint32_t, double>;
+
 /// What is needed to write pieces into a program and to plan it again.
 struct Program {
   const std::string& file;
@@ -32,9 +37,11 @@ struct Program {
   const nc::rewrite::CutBlocks& blocks;
   const nc::plan::PlannedPath& path;  ///< of the original
   const std::vector<nc::rewrite::Told>& told;
+  const Waits& waits;
 };
 
-/// The program with the pieces in place of their blocks, read and planned as the control would.
+/// The program with the pieces in place of their blocks, read and planned as the control would. A
+/// wait is the first line in place of a block that may change.
 /// Refused: what the interpreter or the planner refuses of it.
 [[nodiscard]] kernel::outcome::Result<Changed> write_pieces(const Program& program,
                                                             const std::vector<Piece>& pieces);

@@ -17,15 +17,21 @@ constexpr std::size_t kBetweenProgress = 4096;  ///< samples
 constexpr double kWake = 3.0;                   ///< in time constants of the softest axis
 constexpr double kPause = 10.5;                 ///< periods without a sample of a cut
 
-/// Notes where each block of the text begins and with what state of the axes.
+/// Notes where each block of the text begins and with what state of the axes: behind a dwell
+/// before it, where there is one.
 class Starts {
  public:
   void add(const ModelSample& sample, std::uint32_t line) {
-    if (line != last_line_) {
+    const bool begins = line != last_line_;
+    if (begins || waits_) {
       const auto& error = sample.axes.servo.error_mm;
       last_.next_error_mm = {error[0], error[1], error[2]};
-      all_.push_back(last_);
+      if (begins) {
+        all_.emplace_back();
+      }
+      all_.back() = last_;
     }
+    waits_ = (begins || waits_) && sample.command_mm_s == 0.0;
     last_line_ = line;
     last_ = {.progress_mm = sample.progress_mm,
              .foot_mm = sample.foot_mm,
@@ -37,6 +43,7 @@ class Starts {
  private:
   std::vector<BlockStart> all_;
   BlockStart last_;
+  bool waits_ = false;  ///< the last sample's block has not begun to move
   std::uint32_t last_line_ = 0;
 };
 
@@ -89,7 +96,8 @@ kernel::outcome::Result<FollowedRun> follow(const Judging& by, const Changed& ch
         run.over.push_back({.foot_mm = sample.foot_mm,
                             .progress_mm = sample.progress_mm,
                             .error_mm = std::abs(sample.error_mm),
-                            .early = run.runs.early()});
+                            .early = run.runs.early(),
+                            .since_s = run.runs.since_s()});
       }
     }
   });

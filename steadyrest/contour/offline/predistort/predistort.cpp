@@ -23,6 +23,7 @@ using kernel::outcome::Result;
 
 constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
 constexpr int kSifts = 8;
+constexpr int kMostWaits = 5;  ///< runs in which waits are found
 constexpr int kSiftRounds = 2;
 constexpr double kLeastFeed = 0.25;   ///< of the programmed one, where feeds fall
 constexpr double kWorthwhile = 0.25;  ///< of the limit: a run whose error is less stays
@@ -69,27 +70,19 @@ Result<Predistorted> Predistortion::run() {
   }
   barred_.emplace(path_, machine_.axes, how_.max_shift_mm);
   runs_.emplace(path_, use());
-  // The control's own plan of the program as it is, on the path that the shape is made from.
-  auto planned = write({});
-  if (!planned) {
-    return std::unexpected(planned.error());
+  if (auto done = begin_with(); !done) {
+    return std::unexpected(done.error());
   }
-  auto before = follow(judging(), *planned, corners_);
-  if (!before) {
-    return std::unexpected(before.error());
-  }
-  out_.before = std::move(before->figures);
-  out_.seconds_before = before->seconds;
+  out_.before = first_->figures;
+  out_.seconds_before = first_->seconds;
   if (out_.before.nominal().samples == 0) {
     return kernel::outcome::refuse(file_, "the program cuts nothing",
                                    "give a program with feed moves");
   }
-  score_.emplace(how_.most_time, out_.seconds_before, out_.before.nominal(), how_.limit_mm);
-  first_speed_ = std::move(before->speed);
-  first_starts_ = std::move(before->starts);
-  runs_before_ = std::move(before->runs);
+  if (auto done = wait_behind_rapids(); !done) {
+    return std::unexpected(done.error());
+  }
   bar_hopeless();
-  original_ = std::move(planned->replaced);
   if (auto done = proved(); !done) {
     return std::unexpected(done.error());
   }
@@ -103,12 +96,55 @@ Result<Predistorted> Predistortion::run() {
   out_.worse = std::move(barred_->worse);
   out_.unproved = blocks_.lines_that_stay(nc::rewrite::Stays::unproved);
   out_.slower = score_->slower(out_.after.nominal());
+  if (!out_.kept_part) {
+    out_.waits = std::move(waits_);
+  }
   add_report(out_, how_.limit_mm);
   learnt_.unrefine(0);
   out_.taught = std::move(learnt_);
   out_.axes = std::move(machine_.axes);
   out_.gain_uncertainty = gains_.each;
   return std::move(out_);
+}
+
+// The control's own plan of it, on the path that the shape is made from.
+Result<void> Predistortion::begin_with() {
+  auto planned = write({});
+  if (!planned) {
+    return std::unexpected(planned.error());
+  }
+  auto run = follow(judging(), *planned, corners_);
+  if (!run) {
+    return std::unexpected(run.error());
+  }
+  score_.emplace(how_.most_time, run->seconds, run->figures.nominal(), how_.limit_mm);
+  runs_before_ = std::move(run->runs);
+  first_ = First{.lines = std::move(planned->lines),
+                 .replaced = std::move(planned->replaced),
+                 .figures = std::move(run->figures),
+                 .seconds = run->seconds,
+                 .speed = std::move(run->speed),
+                 .starts = std::move(run->starts),
+                 .over = std::move(run->over)};
+  return {};
+}
+
+Result<void> Predistortion::wait_behind_rapids() {
+  RapidWaits rapids(path_, use(), how_.hold_mm, softest_gain_1_s(model_));
+  for (int i = 0; i < kMostWaits && how_.hold_mm > 0.0 && rapids.adjust(first_->over); ++i) {
+    waits_ = rapids.waits();
+    if (auto done = begin_with(); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+Result<void> Predistortion::drop_waits() {
+  const auto gone = std::erase_if(waits_, [&](const auto& wait) {
+    return blocks_.find(wait.first)->stays != nc::rewrite::Stays::free;
+  });
+  return gone == 0 ? Result<void>{} : begin_with();
 }
 
 Result<void> Predistortion::keep_best_part() {
@@ -174,6 +210,9 @@ Result<void> Predistortion::proved() {
 }
 
 Result<void> Predistortion::revise(int& revision) {
+  if (auto done = drop_waits(); !done) {
+    return done;
+  }
   if (judged_by_each()) {
     if (auto done = sift(); !done) {
       return done;
@@ -204,8 +243,8 @@ void Predistortion::begin_caps() {
 bool Predistortion::begin() {
   best_mm_ = -1.0;
   keep_original();
-  speed_ = best_speed_ = first_speed_;
-  starts_ = first_starts_;
+  speed_ = best_speed_ = first_->speed;
+  starts_ = first_->starts;
   begin_caps();
   holds_ = false;
   if (how_.hold_mm > 0.0) {
@@ -256,10 +295,10 @@ Result<void> Predistortion::attempt(int revision) {
 }
 
 void Predistortion::keep_original() {
-  best_.lines.clear();
-  best_.replaced = original_;
-  out_.after = out_.before;
-  out_.seconds_after = out_.seconds_before;
+  best_.lines = first_->lines;
+  best_.replaced = first_->replaced;
+  out_.after = first_->figures;
+  out_.seconds_after = first_->seconds;
   out_.largest_shift_mm = 0.0;
 }
 

@@ -43,8 +43,8 @@ struct PredistortConfig {
   int rounds = 4;
   /// Of the program's own time; a slower round does not count, but is named if it wins much.
   double most_time = RoundScore::kUsualTime;
-  /// Feeds fall where the predicted error stays above this (FeedCaps), and the program takes
-  /// longer; 0: all feeds stay.
+  /// Feeds fall where the predicted error stays above this (FeedCaps), the cut waits where a rapid
+  /// has left it (RapidWaits), and the program takes longer; 0: all feeds stay.
   double hold_mm = 0.0;
   /// Parts cut before, to learn from (learn/). They say what the servos are, where they determine
   /// it (fit_axes()), and the best of their programs stays where the new one is not surely better
@@ -83,6 +83,7 @@ struct Predistorted : PredictedChange {
   double lag_uncertainty = 0.0;           ///< in 1/k: the largest of the axes that move
   std::vector<std::string> unknown_lags;  ///< axes that move, whose lag the machine file lacks
   double largest_shift_mm = 0.0;
+  Waits waits;  ///< dwells between a rapid and the cut
   std::optional<Slower> slower;
   std::vector<Remaining> remaining;  ///< the worst first
   std::vector<std::uint32_t>

@@ -70,7 +70,8 @@ Result<Changed> Predistortion::write(const std::vector<Piece>& made) const {
                        .machine = machine_,
                        .blocks = blocks_,
                        .path = path_,
-                       .told = how_.told},
+                       .told = how_.told,
+                       .waits = waits_},
                       made);
 }
 
@@ -118,7 +119,7 @@ Result<void> Predistortion::try_text(Changed changed) {
   }
   const double cost_s = held_ ? held_->cost_s(*run) : 0.0;
   const bool better = holds_ ? cost_s < best_cost_s_ : best_mm_ < 0.0 || score_mm < best_mm_;
-  if (in_time && better && !sketch && figures.rms_mm() <= out_.before.nominal().rms_mm()) {
+  if (in_time && better && !sketch && figures.rms_mm() <= first_->figures.nominal().rms_mm()) {
     best_mm_ = score_mm;
     best_cost_s_ = cost_s;
     best_over_ = run->over;
@@ -190,7 +191,7 @@ Result<TriedPieces> Predistortion::try_pieces(const std::vector<Piece>& made) {
 Result<void> Predistortion::polish() {
   learnt_.unrefine(0);
   caps_.emplace(path_, 1.0);
-  speed_ = best_mm_ < 0.0 ? first_speed_ : best_speed_;
+  speed_ = best_mm_ < 0.0 ? first_->speed : best_speed_;
   PolishTask task = polish_task();
   if (how_.hold_mm > 0.0) {
     task.price.time = PolishTask::kTimeToHold;

@@ -10,6 +10,7 @@
 #include <steadyrest/contour/offline/predistort/followed_run.hpp>
 #include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/hold/held_stretches.hpp>
+#include <steadyrest/contour/offline/predistort/hold/rapid_waits.hpp>
 #include <steadyrest/contour/offline/predistort/phase_progress.hpp>
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 #include <steadyrest/contour/offline/predistort/predistort.hpp>
@@ -79,10 +80,17 @@ class Predistortion {
   /// All rounds with the blocks that may be changed now.
   Result<void> attempt(int revision);
 
-  /// The result is the program as it is, until a round is better.
+  /// The result is the program as it is, but for its waits, until a round is better.
   void keep_original();
 
   Result<void> read();
+
+  /// Writes and runs the program as it is, but for its waits.
+  Result<void> begin_with();
+  /// Waits between rapids and the cut, where a limit is to be held (RapidWaits).
+  Result<void> wait_behind_rapids();
+  /// Those whose block must stay go.
+  Result<void> drop_waits();
 
   [[nodiscard]] std::vector<SegmentUse> use() const;
 
@@ -147,12 +155,21 @@ class Predistortion {
   Learnt learnt_;
   nc::rewrite::CutBlocks blocks_;
   nc::plan::PlannedPath path_;
-  nc::rewrite::Replaced original_;        ///< with nothing replaced
-  CommandSpeed first_speed_;              ///< of the program as it is
-  CommandSpeed speed_;                    ///< of the last run
-  CommandSpeed best_speed_;               ///< that the best round's pieces were made for
-  std::vector<BlockStart> first_starts_;  ///< of the program as it is
-  std::vector<BlockStart> starts_;        ///< of the last run
+  Waits waits_;
+  /// The program as it is, but for its waits.
+  struct First {
+    nc::rewrite::NewLines lines;
+    nc::rewrite::Replaced replaced;
+    ErrorFigures figures;
+    double seconds = 0.0;
+    CommandSpeed speed;
+    std::vector<BlockStart> starts;
+    std::vector<ErrorPlace> over;
+  };
+  std::optional<First> first_;
+  CommandSpeed speed_;              ///< of the last run
+  CommandSpeed best_speed_;         ///< that the best round's pieces were made for
+  std::vector<BlockStart> starts_;  ///< of the last run
   Changed best_;
   std::vector<ErrorSample> best_errors_;
   std::vector<ErrorPlace> best_over_;

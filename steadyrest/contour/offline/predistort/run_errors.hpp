@@ -97,7 +97,9 @@ class RunErrors {
   }
 
   /// The last sample is in the wake of a pause.
-  [[nodiscard]] bool early() const noexcept { return last_s_ < begin_s_ + wake_.lasts_s; }
+  [[nodiscard]] bool early() const noexcept { return since_s() < wake_.lasts_s; }
+  /// From the end of the last pause to the last sample.
+  [[nodiscard]] double since_s() const noexcept { return last_s_ - begin_s_; }
 
   struct Figures {
     double rms_mm = 0.0;

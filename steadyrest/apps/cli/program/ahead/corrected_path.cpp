@@ -100,6 +100,10 @@ class Judge {
       return std::unexpected(seconds.error());
     }
     out.seconds_after = *seconds;
+    std::erase_if(out.waits, [&](const auto& wait) {
+      const auto now = lines.find(wait.first);
+      return now == lines.end() || now->second != like.lines.at(wait.first);
+    });
     out.lines = std::move(lines);
     out.replaced = std::move(*text);
     contour::offline::add_report(out, options_.max_error_mm);

@@ -24,6 +24,14 @@ constexpr double kUsualShift_mm = 0.5;
 constexpr double kLargeError_mm = 0.25;
 constexpr double kLargeShift_mm = 2.0;
 
+double all_waits_s(const Predistorted& done) {
+  double out = 0.0;
+  for (const auto& [line, seconds] : done.waits) {
+    out += seconds;
+  }
+  return out;
+}
+
 void put_figures(Answer& answer, const Predistorted& done, const PathOptions& options) {
   put_prediction(answer, done, options.max_error_mm);
   Json& json = answer.json;
@@ -35,6 +43,8 @@ void put_figures(Answer& answer, const Predistorted& done, const PathOptions& op
                        {"error_rms_before_mm", done.worst_rms_before_mm},
                        {"error_rms_mm", done.worst_rms_after_mm}};
   json["largest_shift_mm"] = done.largest_shift_mm;
+  json["dwells"] = done.waits.size();
+  json["dwell_s"] = all_waits_s(done);
   json["too_far"] = done.too_far;
   json["past_travel"] = done.past_travel;
   json["not_better"] = done.worse;
@@ -96,6 +106,10 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
               : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
                             done.replaced.replaced, done.replaced.new_lines,
                             in_um(done.largest_shift_mm));
+  if (!done.waits.empty()) {
+    text += fmt::format("{} dwells let the tool arrive between a rapid and the cut: {:.2f} s\n",
+                        done.waits.size(), all_waits_s(done));
+  }
   text += unknown_text(done) + slower_text(done);
   if (!done.past_travel.empty()) {
     text +=
@@ -150,8 +164,8 @@ void add_path_options(Verb& verb, PathOptions& options) {
       ->check(within(0.0, 100.0));
   verb.add_flag(
       "--hold-limit", options.hold,
-      "Lower the feed where the path alone does not keep --max-error-mm; the program takes "
-      "that much longer");
+      "Lower the feed where the path alone does not keep --max-error-mm, and wait (G4) where a "
+      "rapid carries its lag into the cut; the program takes that much longer");
   add_learning_options(verb, options.learning);
 }
 
@@ -179,7 +193,7 @@ Result<void> settle_shift(PathOptions& options, const SourceProgram& program) {
 }
 
 std::string changes_of(const PathOptions& options) {
-  return options.hold ? "predistort,feeds" : "predistort";
+  return options.hold ? "predistort,feeds,dwells" : "predistort";
 }
 
 std::vector<nc::rewrite::Told> told_of(const PathOptions& options) {

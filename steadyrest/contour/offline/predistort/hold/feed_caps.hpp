@@ -18,6 +18,7 @@ struct ErrorPlace {
   double progress_mm = 0.0;  ///< … and the command
   double error_mm = 0.0;     ///< magnitude
   bool early = false;        ///< what comes before has left it: no feed here takes it away
+  double since_s = 0.0;      ///< the cut began behind a pause
 };
 
 /// Lower feeds where a changed path alone does not keep a limit.

@@ -54,7 +54,7 @@ Result<void> Predistortion::hold() {
     return done;
   }
   // Nothing takes less time than the program itself.
-  const double before_s = out_.seconds_before;
+  const double before_s = first_->seconds;
   if (held_->cost_s() <= kNearly * before_s && out_.seconds_after <= kNearly * before_s) {
     progress_.phase("polishing the path", kPolishRuns);
     return polish();
@@ -109,7 +109,7 @@ Result<void> Predistortion::hold_by_windows() {
       return {};
     }
     if (pass.from == From::expected) {
-      speed_ = expected_speed(path_, first_speed_, inverse_.lag_s(),
+      speed_ = expected_speed(path_, first_->speed, inverse_.lag_s(),
                               [this](double at_mm) { return caps_->most_mm_s(at_mm); });
     } else if (pass.from == From::rounds) {
       speed_ = first;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the blocks around the pieces are: those that stay, and those that go with the command.
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,30 @@ TEST(ChangedTextAround, ABlockThatRepeatsAPointGoesWithTheCommand) {
   expect_in_order(*changed, program.length_mm());
   for (std::size_t i = 1; i < changed->path.segments.size(); ++i) {
     EXPECT_GE(changed->path.segments[i].end_mm[0], changed->path.segments[i - 1].end_mm[0]);
+  }
+}
+
+// Before a block that changes, one whose pieces would change nothing, and one that has none; not
+// before one that must stay.
+TEST(ChangedTextAround, WaitsAreTheFirstLineInPlaceOfABlock) {
+  WrittenProgram program(
+      "G0 X10 Y0\nG1 X30 F1200\nG0 Y5\nG1 X10\nG0 Y10\nG1 X30\nG0 Y15\nG1 X10 M8\nG0 Z5\n");
+  program.waits = {{3, 0.1}, {5, 0.2}, {7, 0.3}, {9, 0.4}};
+  auto pieces = program.own_pieces();
+  ASSERT_EQ(pieces.size(), 3U);
+  pieces.pop_back();
+  pieces[0].segment.end_mm[0] = 30.5;
+  pieces[1].begins_run = true;
+  const auto changed = program.with(pieces);
+  ASSERT_TRUE(changed.has_value());
+  ASSERT_EQ(changed->lines.size(), 3U);
+  EXPECT_EQ(changed->lines.at(3).size(), 2U);
+  EXPECT_EQ(changed->lines.at(3)[0], "G4 P0.10");
+  EXPECT_EQ(changed->lines.at(5), (std::vector<std::string>{"G4 P0.20", "G1 X10"}));
+  EXPECT_EQ(changed->lines.at(7), (std::vector<std::string>{"G4 P0.30", "G1 X30"}));
+  expect_in_order(*changed, program.length_mm());
+  for (std::size_t i = 2; i < program.path.segments.size(); ++i) {
+    EXPECT_NEAR(changed->start_mm[i], program.path.segments[i].position_mm, 1e-9) << i;
   }
 }
 

@@ -42,7 +42,8 @@ struct WrittenProgram {
                          .machine = machine,
                          .blocks = blocks,
                          .path = path,
-                         .told = {}},
+                         .told = {},
+                         .waits = waits},
                         pieces);
   }
   /// Planned length of the original.
@@ -56,6 +57,7 @@ struct WrittenProgram {
   std::string file;
   nc::plan::PlannedPath path;
   nc::rewrite::CutBlocks blocks;
+  Waits waits;
 };
 
 /// Its segments cover the whole original, in order and without a gap.

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
+#include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
+#include <steadyrest/nc/plan/path/planned_path.hpp>
+
+namespace steadyrest::contour::offline {
+
+/// Waits between a rapid and the cut, where the tool still follows the rapid.
+///
+/// Law. When a rapid stops, the tool is behind it by e; e falls as exp(−k·t), and whatever the
+/// command does, the first of the cut has it. So it waits for t = ln(ε/L)/k, ε the error as the cut
+/// begins, L the limit, k the lowest gain. A run with these waits shows what is left, since
+/// velocity loops have lags too: a wait that has won little is taken back, one that does not keep
+/// the limit yet grows.
+class RapidWaits {
+ public:
+  RapidWaits(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use, double limit_mm,
+             double gain_1_s);
+
+  /// By the errors that are left with the waits so far. False where nothing changes.
+  [[nodiscard]] bool adjust(const std::vector<ErrorPlace>& over);
+  [[nodiscard]] Waits waits() const;
+
+ private:
+  /// A cut from one rapid to the next.
+  struct Start {
+    std::uint32_t line = 0;
+    double from_mm = 0.0;
+    double to_mm = 0.0;
+    double wait_s = 0.0;
+    double error_mm = 0.0;  ///< without the last addition to the wait
+    double added_s = 0.0;
+    bool settled = false;
+  };
+
+  std::vector<Start> starts_;
+  double limit_mm_;
+  double gain_1_s_;
+};
+
+}  // namespace steadyrest::contour::offline
