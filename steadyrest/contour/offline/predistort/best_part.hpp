@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <steadyrest/contour/offline/learn/learn_from.hpp>
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
 namespace steadyrest::contour::offline {

@@ -8,11 +8,11 @@
 #include <steadyrest/contour/offline/learn/stretches.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
 #include <steadyrest/contour/offline/predict/model_run.hpp>
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/run_errors.hpp>
 #include <steadyrest/contour/offline/predistort/shape/joints.hpp>
 #include <steadyrest/contour/offline/predistort/shape/tool_motion.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 
 namespace steadyrest::contour::offline {
 

@@ -12,8 +12,8 @@
 #include <steadyrest/contour/offline/learn/fitted_axes.hpp>
 #include <steadyrest/contour/offline/learn/learn_from.hpp>
 #include <steadyrest/contour/offline/predict/error_figures.hpp>
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/contour/offline/predistort/round_score.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/kernel/machine/machine.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 

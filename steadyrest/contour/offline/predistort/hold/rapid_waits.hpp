@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/contour/offline/predistort/hold/feed_caps.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/contour/offline/test/ideal_mill.hpp>
 #include <steadyrest/kernel/file/testing/own_folder.hpp>
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
 #include <steadyrest/contour/offline/predistort/shape/piece.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/nc/plan/path/planned_path.hpp>
 
 namespace steadyrest::contour::offline {

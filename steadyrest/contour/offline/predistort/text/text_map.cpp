@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <steadyrest/contour/offline/predistort/text_map.hpp>
+#include <steadyrest/contour/offline/predistort/text/text_map.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/segment.hpp>

@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
-#include <steadyrest/contour/offline/predistort/changed_text.hpp>
-#include <steadyrest/contour/offline/predistort/text_map.hpp>
+#include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
+#include <steadyrest/contour/offline/predistort/text/text_map.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
