@@ -24,6 +24,9 @@ using kernel::units::kTurn;
 constexpr int kMaxSamples = 25;  // π/6 apart: two turns
 // Newton doubles its digits each step; bisection steps in between are few.
 constexpr int kMaxSteps = 12;
+// A step of Newton so small is the last: what it leaves is its square.
+constexpr double kLastStep = 1e-9;
+constexpr double kRounding = 1e-15;
 // An arc whose radius grows by less is round enough for its circle's foot to begin with, …
 constexpr double kRound = 1e-3;
 constexpr double kLessThanATurn = 0.9 * kTurn;  // … within so much of a turn …
@@ -55,6 +58,11 @@ Local local_of(const PathSegment& segment, const ArcFrame& frame, const Point& q
   return {dot(from_centre, frame.e1), dot(from_centre, frame.e2), dot(from_centre, segment.axis)};
 }
 
+// Faster than hypot: no length here is near the ends of double's range.
+double length(double x, double y, double z) noexcept {
+  return std::sqrt(x * x + y * y + z * z);
+}
+
 Point global_of(const PathSegment& segment, const ArcFrame& frame, const Local& local) noexcept {
   Point point = add_scaled(segment.centre_mm, frame.e1, local.x);
   point = add_scaled(point, frame.e2, local.y);
@@ -66,7 +74,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
   const ArcFrame frame = arc_frame(segment);
   const Local q = local_of(segment, frame, query);
   // From its axis a circle is equally far everywhere; any of its points is nearest there.
-  const double rho = std::hypot(q.x, q.y);
+  const double rho = length(q.x, q.y, 0.0);
   const double angle = std::atan2(q.y, q.x);
   // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.
   const double near_angle = u_near * segment.sweep_rad;
@@ -81,14 +89,14 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
   if (best >= low && best <= high && rho > 0.0) {
     const double grow = segment.radius_mm / rho;
     const Local foot{q.x * grow, q.y * grow, 0.0};
-    return {best / segment.sweep_rad, std::hypot(rho - segment.radius_mm, q.z),
+    return {best / segment.sweep_rad, length(rho - segment.radius_mm, q.z, 0.0),
             global_of(segment, frame, foot)};
   }
   // No point at the query's angle within the permitted part: one of its ends is nearest.
   const auto at = [&](double u) {
     const double a = u * segment.sweep_rad;
     const Local p{segment.radius_mm * std::cos(a), segment.radius_mm * std::sin(a), 0.0};
-    return Foot{u, std::hypot(p.x - q.x, std::hypot(p.y - q.y, q.z)), global_of(segment, frame, p)};
+    return Foot{u, length(p.x - q.x, p.y - q.y, q.z), global_of(segment, frame, p)};
   };
   const Foot first = at(u_low);
   const Foot last = at(u_high);
@@ -151,10 +159,11 @@ double refine(const Curve& curve, double low, double high, double start) noexcep
     const auto [first, second] = curve.slope(u);
     (first > 0.0 ? high : low) = u;
     double next = second > 0.0 ? u - first / second : low - 1.0;
-    if (!(next >= low && next <= high)) {
+    const bool newton = next >= low && next <= high;
+    if (!newton) {
       next = 0.5 * (low + high);
     }
-    if (std::abs(next - u) <= 1e-15) {
+    if (std::abs(next - u) <= (newton ? kLastStep : kRounding)) {
       return next;
     }
     u = next;
@@ -170,19 +179,20 @@ bool is_nearly_round(const PathSegment& segment, double u_low, double u_high) no
 }
 
 // Off the centre the squared distance to a circle has one minimum, at the query's own angle; where
-// that is not permitted the end nearest to it is the least. So it is here, but for the growth.
+// that is not permitted the nearest end is the least. So it is here, but for the growth.
 double foot_from_circle(const Curve& curve, const PathSegment& segment, const Local& query,
                         double u_low, double u_high) noexcept {
   const double low = u_low * segment.sweep_rad;
-  const double high = u_high * segment.sweep_rad;
   double angle = std::atan2(query.y, query.x);
   angle += kTurn * std::ceil((low - angle) / kTurn);
-  const double end = angle - high < low + kTurn - angle ? u_high : u_low;
-  const double start = angle <= high ? std::clamp(angle / segment.sweep_rad, u_low, u_high) : end;
-  const double u = refine(curve, u_low, u_high, start);
-  return std::min({u, u_low, u_high}, [&](double a, double b) {
+  if (angle <= u_high * segment.sweep_rad) {
+    return refine(curve, u_low, u_high, std::clamp(angle / segment.sweep_rad, u_low, u_high));
+  }
+  const auto nearer = [&](double a, double b) {
     return curve.distance_squared(a) < curve.distance_squared(b);
-  });
+  };
+  const double end = std::min(u_low, u_high, nearer);
+  return std::min(end, refine(curve, u_low, u_high, end), nearer);
 }
 
 Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low, double u_high,
@@ -201,9 +211,11 @@ Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low,
   const Local local = local_of(segment, frame, query);
   const Curve curve(segment, local);
   if (is_nearly_round(segment, u_low, u_high) &&
-      std::hypot(local.x, local.y) >= kOffCentre * segment.radius_mm) {
+      length(local.x, local.y, 0.0) >= kOffCentre * segment.radius_mm) {
     const double u = foot_from_circle(curve, segment, local, u_low, u_high);
-    return {u, std::sqrt(curve.distance_squared(u)), global_of(segment, frame, curve.point(u))};
+    const Local foot = curve.point(u);
+    return {u, length(foot.x - local.x, foot.y - local.y, foot.z - local.z),
+            global_of(segment, frame, foot)};
   }
   std::array<double, kMaxSamples> sample{};
   for (int i = 0; i < count; ++i) {
