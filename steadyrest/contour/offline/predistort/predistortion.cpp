@@ -16,7 +16,7 @@ namespace {
 
 using kernel::outcome::Result;
 
-constexpr double kOverHeld = 60.0;  ///< price of an error over a limit to be held (ChainPrice)
+constexpr int kUnitesLate = 2;      ///< PolishSweeps
 constexpr double kCoarse = 0.05;    ///< of the largest shift: the fit that windows begin with
 constexpr double kCoarsest = 10.0;  ///< of the limit
 constexpr double kSmoothJoint =
@@ -103,7 +103,7 @@ Result<void> Predistortion::try_text(Changed changed) {
       learnt_.empty() ? static_cast<double>(changed.path.segments.size()) /
                             static_cast<double>(std::max<std::size_t>(1, path_.segments.size()))
                       : 1.0;
-  const double score_mm = score_->of_mm(figures, blocks);
+  const double score_mm = score_->of_mm(figures, blocks, run->seconds);
   // Holding a limit may begin from anything.
   const bool in_time = holds_ || (how_.hold_mm > 0.0 && best_mm_ < 0.0) ||
                        score_->in_time(run->seconds, learnt_.refinements() > 0);
@@ -193,12 +193,24 @@ Result<void> Predistortion::polish() {
   caps_.emplace(path_, 1.0);
   speed_ = best_mm_ < 0.0 ? first_->speed : best_speed_;
   PolishTask task = polish_task();
+  PolishSweeps sweeps;
   if (how_.hold_mm > 0.0) {
     task.price.time = PolishTask::kTimeToHold;
     task.price.over = kOverHeld;
+  } else {
+    sweeps = {.patient = true, .unites_in = kUnitesLate};
+    held_.emplace(path_, use(), how_.limit_mm, HeldStretches::Price::all_errors);
   }
-  return polish_rounds(std::move(task), coarse_pieces(), starts_,
-                       [this](const std::vector<Piece>& made) { return try_pieces(made); });
+  auto done = polish_rounds(
+      std::move(task), coarse_pieces(), starts_,
+      [this](const std::vector<Piece>& made) { return try_pieces(made); }, sweeps);
+  if (done && how_.hold_mm == 0.0) {
+    // What a sweep wins in one stretch it may lose in another.
+    const auto tried = try_pieces(held_->best());
+    held_.reset();
+    done = tried ? done : std::unexpected(tried.error());
+  }
+  return done;
 }
 
 Result<void> Predistortion::try_corners() {

@@ -42,7 +42,8 @@ class Predistortion {
   static constexpr int kRefinements = 8;
   static constexpr int kMostHolds = 16;
   static constexpr int kHoldRounds = 2;
-  static constexpr int kHoldPasses = 4;  ///< of windows
+  static constexpr double kOverHeld = 60.0;  ///< price of an error over a limit (ChainPrice)
+  static constexpr int kHoldPasses = 4;      ///< of windows
   static constexpr int kHoldRuns = kHoldPasses * 40 + 1;
   static constexpr int kLastRounds = 2;  ///< with the best share at each corner
   /// Tried at corners in addition to the default; parts that take longer are left with the default.
@@ -129,6 +130,8 @@ class Predistortion {
   /// Where the path alone does not keep the limit: by windows, where that leaves something by lower
   /// feeds too; each stretch gets what holds it best.
   Result<void> hold();
+  /// Where windows are stuck just above the limit: slower there, and windows from there.
+  Result<void> nudge();
   /// The text of the best stretches, without windows where the proof refuses them.
   Result<void> take_best_stretches();
   /// The feeds fall where windows leave an error (FeedCaps).

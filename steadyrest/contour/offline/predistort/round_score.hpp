@@ -23,6 +23,7 @@ class RoundScore {
   RoundScore(double most_time, double seconds_before, const ErrorFigures::Of& before,
              double limit_mm)
       : limit_mm_(limit_mm),
+        before_s_(seconds_before),
         most_s_(most_time * seconds_before),
         refined_s_((most_time > kUsualTime ? most_time : kRefinedTime) * seconds_before),
         slowest_s_(2.0 * seconds_before),
@@ -31,9 +32,11 @@ class RoundScore {
 
   /// The lower, the better. Any round that leaves the largest error alone is better than one that
   /// does not. `blocks`: of the text, for each one of the original; the control must read them.
-  [[nodiscard]] double of_mm(const ErrorFigures::Of& round, double blocks) const noexcept {
+  [[nodiscard]] double of_mm(const ErrorFigures::Of& round, double blocks,
+                             double seconds) const noexcept {
     return round.rms_mm() + kShareOfLargest * round.max_mm +
            limit_mm_ * std::clamp(kBlock * (blocks - 1.0), 0.0, kMostForBlocks) +
+           limit_mm_ * std::clamp(kTime * (seconds / before_s_ - 1.0), 0.0, kMostForTime) +
            (round.max_mm > most_mm_ ? before_rms_mm_ : 0.0);
   }
   /// In terms of what is permitted.
@@ -64,8 +67,11 @@ class RoundScore {
   static constexpr double kShareOfLargest = 0.05;
   static constexpr double kBlock = 0.02;          ///< of the limit, for each …
   static constexpr double kMostForBlocks = 0.05;  ///< … and for all
+  static constexpr double kTime = 5.0;            ///< of the limit, for the program's time …
+  static constexpr double kMostForTime = 0.05;    ///< … and at most
 
   double limit_mm_;
+  double before_s_;
   double most_s_;
   double refined_s_;
   double slowest_s_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <steadyrest/contour/offline/predistort/hold/held_stretches.hpp>
+#include <steadyrest/contour/offline/predistort/polish/chain_window.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 
 namespace steadyrest::contour::offline {
@@ -22,8 +23,8 @@ double middle_mm(const Piece& piece) noexcept {
 }  // namespace
 
 HeldStretches::HeldStretches(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use,
-                             double limit_mm)
-    : limit_mm_(limit_mm) {
+                             double limit_mm, Price price)
+    : limit_mm_(limit_mm), price_(price) {
   for (std::size_t i = 0; i < use.size(); ++i) {
     if (!use[i].free) {
       continue;
@@ -45,24 +46,32 @@ std::size_t HeldStretches::of(double at_mm) const noexcept {
              : stretches_.size();
 }
 
+void HeldStretches::charge(std::vector<double>& costs, double foot_mm, double cost_s) const {
+  const std::size_t at = of(foot_mm);
+  costs[at] += cost_s;
+  if (at > 0 && at < stretches_.size() && stretches_[at].joined &&
+      foot_mm < stretches_[at].from_mm + kBrought_mm) {
+    costs[at - 1] += cost_s;
+  }
+}
+
 std::vector<double> HeldStretches::costs_s(const FollowedRun& run) const {
   std::vector<double> out(stretches_.size() + 1, 0.0);
   const double period_s =
       run.seconds / static_cast<double>(std::max<std::size_t>(1, run.errors.size()));
+  const bool all = price_ == Price::all_errors;
   for (const ErrorSample& sample : run.errors) {
-    out[of(sample.foot_mm)] += period_s;
+    out[of(sample.foot_mm)] += (all ? ChainPrice{}.time : 1.0) * period_s;
+    if (all && sample.valid) {
+      const double ratio = math::geometry::norm(sample.off_mm) / limit_mm_;
+      charge(out, sample.foot_mm, period_s * ratio * ratio);
+    }
   }
   for (const ErrorPlace& place : run.over) {
     const double ratio = place.error_mm / limit_mm_;
-    const double cost_s = (place.early ? kEarlyShare : 1.0) * period_s *
-                          (kOverSecond + kFarSecond * std::max(0.0, ratio * ratio - 1.0));
-    const std::size_t at = of(place.foot_mm);
-    out[at] += cost_s;
-    // What the axes bring along from before a stop counts there, too.
-    if (at > 0 && at < stretches_.size() && stretches_[at].joined &&
-        place.foot_mm < stretches_[at].from_mm + kBrought_mm) {
-      out[at - 1] += cost_s;
-    }
+    charge(out, place.foot_mm,
+           (place.early ? kEarlyShare : 1.0) * period_s *
+               (kOverSecond + kFarSecond * std::max(0.0, ratio * ratio - 1.0)));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -14,13 +15,15 @@ namespace steadyrest::contour::offline {
 
 /// The best command of each stretch between rapids and blocks that stay, of all that were run.
 ///
-/// Law. A stretch costs T + a·T₊ + b·∫ (ε/L)² − 1 dt: T its time, T₊ that with an error ε above the
-/// limit L, the integral over T₊. What a rapid has left counts almost nothing: no command takes it
-/// away. One stretch hardly acts on the next, since a rapid lies between them.
+/// Law. Where a limit L is to be held, a stretch costs T + a·T₊ + b·∫ (ε/L)² − 1 dt: T its time, T₊
+/// that with an error ε above L, the integral over T₊; what a rapid has left counts almost nothing,
+/// since no command takes it away. Else it costs λ·T + ∫ (ε/L)² dt, as in the windows (ChainPrice).
+/// One stretch hardly acts on the next, since a rapid lies between them.
 class HeldStretches {
  public:
+  enum class Price : std::uint8_t { over_limit, all_errors };
   HeldStretches(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use,
-                double limit_mm);
+                double limit_mm, Price price = Price::over_limit);
 
   enum class By : std::uint8_t { feeds, windows };
   /// A run of these pieces; the stretches that are better than ever before keep theirs.
@@ -64,9 +67,13 @@ class HeldStretches {
   };
   [[nodiscard]] std::size_t of(double at_mm) const noexcept;
   [[nodiscard]] std::vector<double> costs_s(const FollowedRun& run) const;
+  /// Where the tool is; what the axes bring along from before a stop costs the stretch before it,
+  /// too.
+  void charge(std::vector<double>& costs, double foot_mm, double cost_s) const;
 
   std::vector<Stretch> stretches_;
   double limit_mm_;
+  Price price_;
   double open_cost_s_ = 0.0;
 };
 

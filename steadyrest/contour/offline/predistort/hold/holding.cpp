@@ -28,6 +28,10 @@ constexpr double kWellShaped = 0.3;     ///< of the limit: a window that leaves 
 constexpr std::size_t kLongWindow = 5;  ///< pieces
 constexpr int kShapingRounds = 3;
 constexpr PolishSweeps kToShape{.most = 3, .first_secants = 4, .patient = true};
+constexpr int kNudges = 4;
+constexpr double kNudge = 0.93;     ///< of the feed
+constexpr double kNudged_mm = 1.0;  ///< before the tool
+constexpr PolishSweeps kNudged{.most = 2, .first_secants = 0, .patient = true};
 constexpr PolishSweeps kToHold{.most = 5, .first_secants = 1, .patient = true};
 
 /// What windows begin with.
@@ -44,6 +48,17 @@ constexpr std::array kPasses = {Pass{From::expected, false}, Pass{From::rounds, 
                                 Pass{From::expected, true}, Pass{From::rounds, false},
                                 Pass{From::best, false}};
 
+/// Slower between the tool and its command.
+void slow_down(std::vector<Piece>& pieces, const std::vector<ErrorPlace>& places) {
+  for (Piece& piece : pieces) {
+    const bool there = std::ranges::any_of(places, [&](const ErrorPlace& place) {
+      return piece.progress_end_mm > place.foot_mm - kNudged_mm &&
+             piece.progress_start_mm < place.progress_mm;
+    });
+    piece.segment.feed_mm_s *= there ? kNudge : 1.0;
+  }
+}
+
 }  // namespace
 
 Result<void> Predistortion::hold() {
@@ -57,21 +72,46 @@ Result<void> Predistortion::hold() {
   const double before_s = first_->seconds;
   if (held_->cost_s() <= kNearly * before_s && out_.seconds_after <= kNearly * before_s) {
     progress_.phase("polishing the path", kPolishRuns);
-    return polish();
+    auto done = polish();
+    return done ? nudge() : done;
   }
   best_speed_ = speed;
   if (auto done = polish(); !done) {
     return done;
   }
   if (out_.after.share_over() < kHardly && out_.seconds_after <= kLittleMore * before_s) {
-    return take_best_stretches();
+    return nudge();
   }
   best_speed_ = speed;
   learnt_.unrefine(0);
   by_ = HeldStretches::By::windows;
   auto done = hold_by_windows();
   by_ = HeldStretches::By::feeds;
-  return done ? take_best_stretches() : done;
+  return done ? nudge() : done;
+}
+
+Result<void> Predistortion::nudge() {
+  const TryPieces attempt = [this](const std::vector<Piece>& made) { return try_pieces(made); };
+  PolishTask task = polish_task();
+  task.price.time = PolishTask::kTimeToHold;
+  task.price.over = kOverHeld;
+  task.price.enough_mm = task.price.aim * task.price.limit_mm;
+  for (int i = 0; i < kNudges; ++i) {
+    std::vector<Piece> pieces = held_->best();
+    if (const auto tried = try_pieces(pieces); !tried) {
+      return std::unexpected(tried.error());
+    }
+    std::erase_if(over_, &ErrorPlace::early);
+    if (over_.empty()) {
+      break;
+    }
+    slow_down(pieces, over_);
+    CornerLegs none({.most_mm = 0.0});  // the best have theirs
+    if (auto done = polish_sweeps(task, pieces, none, starts_, attempt, kNudged); !done) {
+      return done;
+    }
+  }
+  return take_best_stretches();
 }
 
 Result<void> Predistortion::take_best_stretches() {

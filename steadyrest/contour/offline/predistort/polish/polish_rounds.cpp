@@ -28,9 +28,9 @@ CornerLegs corner_legs(const PolishTask& task) {
 
 kernel::outcome::Result<void> polish_rounds(PolishTask task, std::vector<Piece> pieces,
                                             const std::vector<BlockStart>& starts,
-                                            const TryPieces& attempt) {
+                                            const TryPieces& attempt, const PolishSweeps& how) {
   CornerLegs legs = corner_legs(task);
-  return polish_sweeps(task, pieces, legs, starts, attempt, {});
+  return polish_sweeps(task, pieces, legs, starts, attempt, how);
 }
 
 kernel::outcome::Result<void> polish_sweeps(PolishTask& task, std::vector<Piece>& pieces,
@@ -50,7 +50,7 @@ kernel::outcome::Result<void> polish_sweeps(PolishTask& task, std::vector<Piece>
   auto tried = lead(how.first_secants);
   double best_mm = std::numeric_limits<double>::infinity();
   for (int sweep = 0; tried && sweep < how.most; ++sweep) {
-    task.unites = sweep == 0;
+    task.unites = sweep == how.unites_in;
     pieces = polished(task, starts, pieces);
     tried = lead(kSecants);
     if (tried && tried->time > 1.0) {

@@ -23,6 +23,7 @@ struct PolishSweeps {
   int most = 7;
   int first_secants = 5;  ///< until the legs at corners are right
   bool patient = false;   ///< a sweep that wins nothing is not the last
+  int unites_in = 0;  ///< the sweep that makes one piece of two: later, it costs less of the error
 };
 
 /// Sweeps of windows (polished()) and, between them, stops led beyond (CornerLegs), as long as that
@@ -31,7 +32,8 @@ struct PolishSweeps {
 [[nodiscard]] kernel::outcome::Result<void> polish_rounds(PolishTask task,
                                                           std::vector<Piece> pieces,
                                                           const std::vector<BlockStart>& starts,
-                                                          const TryPieces& attempt);
+                                                          const TryPieces& attempt,
+                                                          const PolishSweeps& how = {});
 
 /// The legs of a task's corners, none yet.
 [[nodiscard]] CornerLegs corner_legs(const PolishTask& task);

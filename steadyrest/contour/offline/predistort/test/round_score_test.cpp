@@ -16,17 +16,33 @@ ErrorFigures::Of figures(double rms_mm, double max_mm) {
 
 TEST(RoundScore, TheLargestErrorMayNotGrow) {
   const RoundScore score(1.02, 10.0, figures(0.1, 0.5), 0.01);
-  EXPECT_LT(score.of_mm(figures(0.05, 0.3), 1.0), score.of_mm(figures(0.05, 0.4), 1.0));
-  EXPECT_LT(score.of_mm(figures(0.09, 0.5), 1.0), score.of_mm(figures(0.01, 0.51), 1.0));
+  EXPECT_LT(score.of_mm(figures(0.05, 0.3), 1.0, 10.0), score.of_mm(figures(0.05, 0.4), 1.0, 10.0));
+  EXPECT_LT(score.of_mm(figures(0.09, 0.5), 1.0, 10.0),
+            score.of_mm(figures(0.01, 0.51), 1.0, 10.0));
 }
 
 TEST(RoundScore, ABlockHasAPrice) {
   const RoundScore score(1.02, 10.0, figures(0.1, 0.5), 0.01);
   // Two more for each one of the original are worth 0.4 µm, and any number half a micrometre.
-  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 3.0), score.of_mm(figures(0.0124, 0.1), 1.0));
-  EXPECT_GT(score.of_mm(figures(0.0121, 0.1), 3.0), score.of_mm(figures(0.0124, 0.1), 1.0));
-  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 90.0), score.of_mm(figures(0.0125, 0.1), 1.0));
-  EXPECT_EQ(score.of_mm(figures(0.01, 0.1), 0.5), score.of_mm(figures(0.01, 0.1), 1.0));
+  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 3.0, 10.0),
+            score.of_mm(figures(0.0124, 0.1), 1.0, 10.0));
+  EXPECT_GT(score.of_mm(figures(0.0121, 0.1), 3.0, 10.0),
+            score.of_mm(figures(0.0124, 0.1), 1.0, 10.0));
+  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 90.0, 10.0),
+            score.of_mm(figures(0.0125, 0.1), 1.0, 10.0));
+  EXPECT_EQ(score.of_mm(figures(0.01, 0.1), 0.5, 10.0), score.of_mm(figures(0.01, 0.1), 1.0, 10.0));
+}
+
+TEST(RoundScore, TimeHasAPrice) {
+  const RoundScore score(1.25, 10.0, figures(0.1, 0.5), 0.01);
+  // A hundredth more is worth half a micrometre, and so is any; less time is worth nothing.
+  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 1.0, 10.1),
+            score.of_mm(figures(0.0125, 0.1), 1.0, 10.0));
+  EXPECT_GT(score.of_mm(figures(0.0121, 0.1), 1.0, 10.1),
+            score.of_mm(figures(0.0125, 0.1), 1.0, 10.0));
+  EXPECT_LT(score.of_mm(figures(0.0119, 0.1), 1.0, 12.0),
+            score.of_mm(figures(0.0125, 0.1), 1.0, 10.0));
+  EXPECT_EQ(score.of_mm(figures(0.01, 0.1), 1.0, 9.0), score.of_mm(figures(0.01, 0.1), 1.0, 10.0));
 }
 
 TEST(RoundScore, MoreTimeIsAskedFor) {
