@@ -91,7 +91,11 @@ TEST(ProgramCorrect, BeginsAtTheCornerBehindABlockThatStays) {
       "program correct " + part + " --machine examples/machines/linuxcnc-mill.toml" +
       " --max-error-mm 0.01 --max-shift-mm 0.5 --hold-limit -o " + scratch.at("changed.ngc"));
   EXPECT_EQ(answer["path"]["too_far"], (nlohmann::json{7}));
-  EXPECT_EQ(answer["replaced_lines"].get<int>(), 2);
+  // Before the block that stays the tool waits for the end of the rapid.
+  EXPECT_EQ(answer["path"]["dwells"].get<int>(), 1);
+  EXPECT_NE(text_of_file(scratch.at("changed.ngc")).find("\nG1 X5 F1000 ;STEADYREST new"),
+            std::string::npos);
+  EXPECT_EQ(answer["replaced_lines"].get<int>(), 3);
   answer_of("program verify " + part + " " + scratch.at("changed.ngc"));
 }
 
