@@ -31,8 +31,9 @@ double share_over(const Figures& figures) {
                                     static_cast<double>(figures.samples);
 }
 
+/// Nothing over the limit is better than the least share.
 double steps_over(const Figures& figures) {
-  return std::floor(share_over(figures) / kSameShare);
+  return figures.samples_over_limit == 0 ? 0.0 : 1.0 + std::floor(share_over(figures) / kSameShare);
 }
 
 bool by_layer(Way way) {

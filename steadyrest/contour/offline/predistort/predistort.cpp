@@ -137,6 +137,7 @@ Result<void> Predistortion::wait_behind_rapids() {
       return done;
     }
   }
+  hold_mm_ = first_->over.empty() ? 0.0 : how_.hold_mm;
   return {};
 }
 
@@ -247,8 +248,8 @@ bool Predistortion::begin() {
   starts_ = first_->starts;
   begin_caps();
   holds_ = false;
-  if (how_.hold_mm > 0.0) {
-    held_.emplace(path_, use(), how_.hold_mm);
+  if (hold_mm_ > 0.0) {
+    held_.emplace(path_, use(), hold_mm_);
     best_cost_s_ = std::numeric_limits<double>::infinity();
   }
   learnt_.unrefine(0);
@@ -287,7 +288,7 @@ Result<void> Predistortion::attempt(int revision) {
   if (auto done = refine(); !done) {
     return done;
   }
-  if (how_.hold_mm > 0.0) {
+  if (hold_mm_ > 0.0) {
     return hold();
   }
   progress_.phase("polishing the path", kPolishRuns);

@@ -180,6 +180,7 @@ class Predistortion {
   std::optional<FeedCaps> caps_;
   double tolerance_mm_ = ShapeConfig{}.tolerance_mm;  ///< of the fit
   double smooth_ = ShapeConfig{}.smooth;
+  double hold_mm_ = 0.0;               ///< 0: the program, with its waits, holds what is asked
   bool holds_ = false;                 ///< feeds may fall
   std::optional<HeldStretches> held_;  ///< where a limit is to be held
   HeldStretches::By by_ = HeldStretches::By::feeds;

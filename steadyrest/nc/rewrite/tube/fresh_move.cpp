@@ -41,17 +41,19 @@ bool is_wait(const Permitted& permitted, std::span<const Move> moves) noexcept {
   return permitted.dwells && moves.size() == 1 && moves.front().kind == MoveKind::dwell;
 }
 
-std::string wait_fault(const read::Block& block, double seconds, bool begins) {
+std::string wait_fault(const read::Block& words, const Move& block, double seconds, bool begins) {
   if (!begins) {
     return "is a dwell that is not between a rapid and the block that it replaces";
   }
-  const auto words = block.words();
-  if (words.size() != 2 || !std::ranges::all_of(words, is_dwell_word)) {
+  if (words.words().size() != 2 || !std::ranges::all_of(words.words(), is_dwell_word)) {
     return "is a dwell with more words than its time in seconds";
+  }
+  if (block.feed_mode == interpret::FeedMode::per_revolution) {
+    return "is a dwell at feeds per revolution, where a control may count turns";
   }
   return seconds <= kLongestWait_s
              ? std::string{}
-             : fmt::format("is a dwell of {:g} s; {:g} s are allowed", seconds, kLongestWait_s);
+             : fmt::format("is a dwell of {} s; {:g} s are allowed", seconds, kLongestWait_s);
 }
 
 std::string fresh_move_difference(const Permitted& permitted, const Move& block, Move move) {

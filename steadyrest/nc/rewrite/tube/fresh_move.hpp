@@ -21,9 +21,10 @@ namespace steadyrest::nc::rewrite {
 /// A new line makes a dwell and nothing else, where dwells are permitted.
 [[nodiscard]] bool is_wait(const Permitted& permitted,
                            std::span<const interpret::Move> moves) noexcept;
-/// Why it may not wait there or so long: `begins` (the first line in place of a block behind a
+/// Why it may not wait there or so long: `begins` (the first line in place of `block`, behind a
 /// rapid, so that the tool does not wait in the cut), its time alone, in seconds as written, at
-/// most 5 s. Empty where it may.
-[[nodiscard]] std::string wait_fault(const read::Block& block, double seconds, bool begins);
+/// most 5 s, and not at feeds per revolution, where some controls count turns. Empty where it may.
+[[nodiscard]] std::string wait_fault(const read::Block& words, const interpret::Move& block,
+                                     double seconds, bool begins);
 
 }  // namespace steadyrest::nc::rewrite

@@ -7,6 +7,20 @@
 #include <steadyrest/nc/rewrite/tube/stretch.hpp>
 
 namespace steadyrest::nc::rewrite {
+namespace {
+
+constexpr double kSomewhere_mm = 1e-3;
+
+/// A whole circle, say, ends where it starts.
+bool goes_somewhere(const interpret::Move& move) {
+  const bool straight =
+      move.kind == interpret::MoveKind::rapid || move.kind == interpret::MoveKind::linear;
+  return !straight || !std::ranges::equal(move.start, move.end, [](double a, double b) {
+    return std::abs(a - b) <= kSomewhere_mm;
+  });
+}
+
+}  // namespace
 
 kernel::outcome::Result<std::unique_ptr<Running>> Running::open(const std::string& file,
                                                                 const interpret::Config& config) {
@@ -27,7 +41,7 @@ void Running::note_position() {
   for (const interpret::Move& move : kept.moves) {
     if (move.kind != interpret::MoveKind::dwell) {
       at_mm = machine_point(move, move.end);
-      if (move.start != move.end) {
+      if (goes_somewhere(move)) {
         behind_rapid = move.kind == interpret::MoveKind::rapid;
       }
       used.add(move, run->line());

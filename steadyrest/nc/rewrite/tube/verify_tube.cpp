@@ -288,8 +288,8 @@ class TubeProver {
       return refuse("executes another line than the original");
     }
     const bool waits = is_wait(permitted_, moves);
-    auto fault =
-        waits ? wait_fault(run.block(), moves.front().dwell_s, begins) : words_fault(run.block());
+    auto fault = waits ? wait_fault(run.block(), block, moves.front().dwell_s, begins)
+                       : words_fault(run.block());
     if (fault.empty() &&
         (!run.executed() || !run.at_top() || run.block().deleted() || !b_->kept.events.empty())) {
       fault = "is a new line that does more than cut";

@@ -30,6 +30,8 @@ using nc::rewrite::Told;
 
 /// As far as the rounding of corners at other feeds may take two paths apart.
 constexpr double kPairedWithin_mm = 5.0;
+/// A limit that is held in so much of the program's time needs no other way.
+constexpr double kHardlyMore = 1.05;
 
 /// Something other than the program is to blame, such as a full disk: the user must hear of it.
 bool has_failed(const kernel::outcome::Refusal& refusal) noexcept {
@@ -183,7 +185,8 @@ Result<void> take_best(const PathOptions& options, SourceProgram program, const 
                        const std::vector<Told>& told, const Judge& judge, CorrectedPath& out,
                        Progress& progress) {
   const double reserve_mm = feed_reserve(program.machine, options.max_error_mm).limit_mm;
-  if (out.done.after.share_over() == 0.0 || !(reserve_mm > 0.0)) {
+  const bool in_time = out.done.seconds_after <= kHardlyMore * out.done.seconds_before;
+  if ((out.done.after.share_over() == 0.0 && in_time) || !(reserve_mm > 0.0)) {
     return {};
   }
   const auto feeds = feeds_ahead(program, file, reserve_mm, told, progress);
@@ -297,7 +300,9 @@ std::string put_corrected(Answer& answer, const CorrectedPath& corrected,
     text += fmt::format("causes and settings are not known: {}\n", corrected.unexplained);
   }
   if (corrected.by != "path") {
-    text += fmt::format("the limit is held best by {}\n", corrected.by);
+    const bool held = corrected.done.after.share_over() == 0.0;
+    text += fmt::format("{} {}\n", held ? "the limit is held best by" : "least is left over it by",
+                        corrected.by);
   }
   answer.json["remaining"] = Json::array();
   const auto before = [&](std::uint32_t line) {

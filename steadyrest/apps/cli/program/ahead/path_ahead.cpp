@@ -96,21 +96,23 @@ std::string text_of(const Predistorted& done, const PathOptions& options) {
           .row({"largest, " + off, in_um(done.worst_before_mm), in_um(done.worst_after_mm)})
           .row({"RMS, " + off, in_um(done.worst_rms_before_mm), in_um(done.worst_rms_after_mm)})
           .text();
-  text += done.replaced.replaced == 0
-              ? options.hold
-                    ? std::string("nothing can be won, at any feed; the program is unchanged\n")
-                    : fmt::format(
-                          "nothing can be won in {:g} % more time; the program is "
-                          "unchanged\n",
-                          options.max_time_percent)
-              : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
-                            done.replaced.replaced, done.replaced.new_lines,
-                            in_um(done.largest_shift_mm));
+  text +=
+      done.replaced.replaced == 0
+          ? options.hold
+                ? std::string(
+                      "nothing wins enough for the time that it costs; the program is unchanged\n")
+                : fmt::format(
+                      "nothing can be won in {:g} % more time; the program is "
+                      "unchanged\n",
+                      options.max_time_percent)
+          : fmt::format("{} blocks replaced by {}; the command leaves the path by at most {}\n",
+                        done.replaced.replaced, done.replaced.new_lines,
+                        in_um(done.largest_shift_mm));
   if (!done.waits.empty()) {
     text += fmt::format("{} dwells let the tool arrive between a rapid and the cut: {:.2f} s\n",
                         done.waits.size(), all_waits_s(done));
   }
-  text += unknown_text(done) + slower_text(done);
+  text += unknown_text(done) + (options.hold ? std::string{} : slower_text(done));
   if (!done.past_travel.empty()) {
     text +=
         fmt::format("unchanged, because an axis would leave its travel: {} blocks, line {} first\n",

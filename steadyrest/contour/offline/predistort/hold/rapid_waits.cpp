@@ -9,7 +9,8 @@ namespace {
 
 using kernel::signal::Motion;
 
-constexpr double kAimedShare = 0.8;   ///< of the limit
+constexpr double kAimedShare = 0.8;  ///< of the limit
+constexpr int kTries = 2;
 constexpr double kWonLittle = 0.7;    ///< of the error: a wait that leaves more is taken back
 constexpr double kWaitStep_s = 0.01;  ///< as it is written
 constexpr double kLongestWait_s = 2.0;
@@ -60,18 +61,18 @@ bool RapidWaits::adjust(const std::vector<ErrorPlace>& over) {
       continue;
     }
     changes = true;
-    if (start.added_s > 0.0 && error_mm > kWonLittle * start.error_mm) {
-      start.wait_s -= start.added_s;
+    if (start.tries == 0) {
+      start.error_mm = error_mm;
+    } else if (start.tries >= kTries && error_mm > kWonLittle * start.error_mm) {
+      start.wait_s = 0.0;
       start.settled = true;
       continue;
     }
     const double more_s = std::log(error_mm / (kAimedShare * limit_mm_)) / gain_1_s_;
-    const double wait_s =
+    start.wait_s =
         std::min(kLongestWait_s, kWaitStep_s * std::ceil((start.wait_s + more_s) / kWaitStep_s));
-    start.added_s = wait_s - start.wait_s;
-    start.wait_s = wait_s;
-    start.error_mm = error_mm;
-    start.settled = wait_s >= kLongestWait_s;
+    ++start.tries;
+    start.settled = start.wait_s >= kLongestWait_s;
   }
   return changes;
 }

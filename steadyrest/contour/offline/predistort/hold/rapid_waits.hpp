@@ -17,8 +17,8 @@ namespace steadyrest::contour::offline {
 /// Law. When a rapid stops, the tool is behind it by e; e falls as exp(−k·t), and whatever the
 /// command does, the first of the cut has it. So it waits for t = ln(ε/L)/k, ε the error as the cut
 /// begins, L the limit, k the lowest gain. A run with these waits shows what is left, since
-/// velocity loops have lags too: a wait that has won little is taken back, one that does not keep
-/// the limit yet grows.
+/// velocity loops have lags, and the control may wait for the spindle meanwhile: a wait that does
+/// not keep the limit yet grows, one that has won little after two tries is taken back.
 class RapidWaits {
  public:
   RapidWaits(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use, double limit_mm,
@@ -35,8 +35,8 @@ class RapidWaits {
     double from_mm = 0.0;
     double to_mm = 0.0;
     double wait_s = 0.0;
-    double error_mm = 0.0;  ///< without the last addition to the wait
-    double added_s = 0.0;
+    double error_mm = 0.0;  ///< without a wait
+    int tries = 0;
     bool settled = false;
   };
 

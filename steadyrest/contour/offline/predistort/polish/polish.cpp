@@ -30,9 +30,10 @@ constexpr double kSampleOfLag = 0.1;   ///< between two samples, in 1/k
 constexpr double kRamp_s = 0.05;       ///< of the speed
 constexpr std::size_t kBetweenProgress = 64;
 constexpr double kNotAll = 0.99;
-constexpr std::size_t kMostSamples = 20'000'000;
-constexpr double kTimeAtCorners = 3.0;  ///< times its price: a slow corner is always better
-constexpr double kLevel = 0.2;          ///< of the limit: the height of a joint
+constexpr double kMostSamples = 2e7;     ///< of a sweep …
+constexpr double kSamplesEach = 1000.0;  ///< … and for each that the program itself has
+constexpr double kTimeAtCorners = 3.0;   ///< times its price: a slow corner is always better
+constexpr double kLevel = 0.2;           ///< of the limit: the height of a joint
 
 double slope_of(const kernel::signal::PathSegment& segment, nc::interpret::Plane plane) {
   const Point tangent = geometry::station_at(segment, 0.5).tangent;
@@ -57,6 +58,12 @@ class Sweep {
     const nc::plan::PathLimits limits(task.machine.axes, task.machine.control);
     lead_s_ = forget_s_ + 2.0 * limits.jerk_time_s() + 2.0 * kRamp_s;
     back_s_ = kRamp_s + limits.jerk_time_s();
+    double program_s = 0.0;
+    for (const auto& segment : task.path.segments) {
+      program_s += segment.feed_mm_s > 0.0 ? segment.length_mm / segment.feed_mm_s : 0.0;
+    }
+    most_samples_ = static_cast<std::size_t>(
+        std::min(kMostSamples, kSamplesEach * (1.0 + program_s / period_s_)));
   }
 
   std::vector<Piece> run(const std::vector<Piece>& pieces) {
@@ -153,7 +160,7 @@ class Sweep {
         while (now && task_.unites) {
           now = unite(window, first, *now);
         }
-        if (samples_ + window.samples() + corner.samples() > kMostSamples) {
+        if (samples_ + window.samples() + corner.samples() > most_samples_) {
           break;
         }
       }
@@ -367,6 +374,7 @@ class Sweep {
   double forget_s_;
   std::size_t every_;  ///< interpolator periods between two samples
   double period_s_;
+  std::size_t most_samples_ = 0;
   double back_s_ = 0.0;                     ///< that a window may slow the control down before it
   double lead_s_ = 0.0;                     ///< until the servos have forgotten a window
   std::vector<ChainWindow::Start> starts_;  ///< of the chain's pieces, as far as they are known

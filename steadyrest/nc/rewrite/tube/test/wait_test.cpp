@@ -52,6 +52,32 @@ TEST(Wait, NowhereElse) {
       HasSubstr(where));
 }
 
+// It starts and ends at one place, and cuts.
+TEST(Wait, NotBehindAWholeCircle) {
+  const TubeShop shop(kPath);
+  const std::string head = "G21 G90 G94 G17\nG0 X50 Y30\n";
+  for (const char* circle : {"G3 X50 Y30 I10 J0 F600\n", "G3 X50 Y30 I10 J0 P3 F600\n"}) {
+    EXPECT_THAT(
+        shop.verdict(head + circle + "G1 X80 F3000\nM2\n", {{4, {"G4 P1", "G1 X80 F3000"}}}),
+        HasSubstr("is a dwell that is not between a rapid and the block"));
+  }
+}
+
+TEST(Wait, NotBehindARapidThatGoesNowhere) {
+  const TubeShop shop(kPath);
+  const std::string cut = "G21 G90 G94 G17\nG0 X1\nG1 X10 F600\nG0 X";
+  EXPECT_THAT(shop.verdict(cut + "10.0000001\nG1 X80\nM2\n", {{5, {"G4 P1", "G1 X80 F600"}}}),
+              HasSubstr("is a dwell that is not between a rapid and the block"));
+  EXPECT_EQ(shop.verdict(cut + "11\nG1 X80\nM2\n", {{5, {"G4 P1", "G1 X80 F600"}}}), "proved");
+}
+
+TEST(Wait, NotAtFeedsPerRevolution) {
+  const TubeShop shop(kPath);
+  EXPECT_THAT(shop.verdict("G21 G90 G95 G17\nS600 M3\nG0 X1\nG1 X10 F0.1\nM2\n",
+                           {{4, {"G4 P0.2", "G1 X10 F0.1"}}}),
+              HasSubstr("is a dwell at feeds per revolution"));
+}
+
 TEST(Wait, OfSecondsAlone) {
   const TubeShop shop(kPath);
   EXPECT_THAT(shop.verdict(kCut, {{3, {"G4 P6", "G1 X10 F500.0"}}}),
