@@ -23,7 +23,7 @@ using kernel::outcome::Result;
 
 constexpr int kMostRevisions = 3;  ///< runs that must stay are found at most so often
 constexpr int kSifts = 8;
-constexpr int kMostWaits = 5;  ///< runs in which waits are found
+constexpr int kMostWaits = 7;  ///< runs in which waits are found
 constexpr int kSiftRounds = 2;
 constexpr double kLeastFeed = 0.25;   ///< of the programmed one, where feeds fall
 constexpr double kWorthwhile = 0.25;  ///< of the limit: a run whose error is less stays

@@ -10,7 +10,7 @@ namespace {
 using kernel::signal::Motion;
 
 constexpr double kAimedShare = 0.8;  ///< of the limit
-constexpr int kTries = 2;
+constexpr int kTries = 4;
 constexpr double kWonLittle = 0.7;    ///< of the error: a wait that leaves more is taken back
 constexpr double kWaitStep_s = 0.01;  ///< as it is written
 constexpr double kLongestWait_s = 2.0;
@@ -61,17 +61,19 @@ bool RapidWaits::adjust(const std::vector<ErrorPlace>& over) {
       continue;
     }
     changes = true;
-    if (start.tries == 0) {
-      start.error_mm = error_mm;
-    } else if (start.tries >= kTries && error_mm > kWonLittle * start.error_mm) {
+    const bool won = start.wait_s == 0.0 || error_mm <= kWonLittle * start.error_mm;
+    start.in_vain = won ? 0 : start.in_vain + 1;
+    if (start.in_vain == kTries) {
       start.wait_s = 0.0;
       start.settled = true;
       continue;
     }
-    const double more_s = std::log(error_mm / (kAimedShare * limit_mm_)) / gain_1_s_;
+    start.error_mm = error_mm;
+    // Hidden by another wait, say for the spindle, it may have to be much longer.
+    const double more_s =
+        std::log(error_mm / (kAimedShare * limit_mm_)) / gain_1_s_ * std::pow(2.0, start.in_vain);
     start.wait_s =
         std::min(kLongestWait_s, kWaitStep_s * std::ceil((start.wait_s + more_s) / kWaitStep_s));
-    ++start.tries;
     start.settled = start.wait_s >= kLongestWait_s;
   }
   return changes;

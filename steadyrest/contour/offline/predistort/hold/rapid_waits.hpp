@@ -18,7 +18,8 @@ namespace steadyrest::contour::offline {
 /// command does, the first of the cut has it. So it waits for t = ln(ε/L)/k, ε the error as the cut
 /// begins, L the limit, k the lowest gain. A run with these waits shows what is left, since
 /// velocity loops have lags, and the control may wait for the spindle meanwhile: a wait that does
-/// not keep the limit yet grows, one that has won little after two tries is taken back.
+/// not keep the limit yet grows, by twice as much where the last addition has won little; after
+/// four of these in a row it is taken back.
 class RapidWaits {
  public:
   RapidWaits(const nc::plan::PlannedPath& path, const std::vector<SegmentUse>& use, double limit_mm,
@@ -35,8 +36,8 @@ class RapidWaits {
     double from_mm = 0.0;
     double to_mm = 0.0;
     double wait_s = 0.0;
-    double error_mm = 0.0;  ///< without a wait
-    int tries = 0;
+    double error_mm = 0.0;  ///< before the last addition to the wait
+    int in_vain = 0;        ///< additions that have won little, one after the other
     bool settled = false;
   };
 

@@ -68,6 +68,18 @@ TEST_F(RapidWaits, UntilTheRestOfTheRapidIsWithinTheLimit) {
   EXPECT_EQ(nc::rewrite::put_back(file())->text, text_);
 }
 
+// While the control waits for the spindle a dwell changes nothing, whatever part of it that is.
+TEST_F(RapidWaits, LongerThanTheControlWaitsForTheSpindle) {
+  std::size_t waits = 0;
+  for (const double acceleration_rev_s2 : {100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 600.0}) {
+    machine_.spindle.acceleration_rev_s2 = acceleration_rev_s2;
+    const auto done = held("G0 X0 Y0 Z10\nS3000 M3\nG0 Z2\nG1 X60 F3000\nG0 X0\n");
+    EXPECT_LE(done.after.nominal().max_mm, kHeld_mm) << acceleration_rev_s2;
+    waits += done.waits.size();
+  }
+  EXPECT_GE(waits, 2U);
+}
+
 TEST_F(RapidWaits, BeforeWhatIsShapedAnew) {
   const auto done = held("G0 X0 Y0\nG0 X60\nG1 Y10 F1200\nG3 X50 Y20 I-10 J0\nG1 X0\nG0 Y0\n");
   EXPECT_EQ(done.waits.size(), 1U);

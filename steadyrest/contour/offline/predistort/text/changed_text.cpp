@@ -9,6 +9,7 @@
 
 #include <steadyrest/contour/offline/predistort/text/changed_text.hpp>
 #include <steadyrest/contour/offline/predistort/text/text_map.hpp>
+#include <steadyrest/math/geometry/foot_point.hpp>
 #include <steadyrest/math/geometry/vector.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
