@@ -24,6 +24,7 @@ MOST_MM = "1"  # shift: the circle needs more than the usual 0.5 mm
 FINE_MM = 0.02
 COARSE_MM = 0.1
 APART_MM = 0.002  # of the figures: half of a fine step over a chord of the farthest, and four printed digits
+ALONG = 0.05  # of the whole way
 CELL_MM = 1.2
 SAME_MM = 2e-4  # start and end to the printed digits: a whole turn
 
@@ -38,6 +39,7 @@ def arc_points(start, values, step):
         sweep += 2 * math.pi
     while turn < 0 and sweep >= -same:
         sweep -= 2 * math.pi
+    sweep += math.copysign(2 * math.pi * (abs(turn) - 1), turn)
     grown = math.dist((x, y), (centre_x, centre_y)) - radius
     parts = max(2, math.ceil(abs(sweep) * radius / step))
     for i in range(parts + 1):
@@ -64,15 +66,17 @@ def points(listed, step):
 
 
 def farthest(of, path):
-    """The largest distance of these points from the nearest of the path's, as far as a cell."""
+    """The largest distance of these points from the nearest of the path's, as far as a cell and about as far along the way:
+    the way out of a circle passes the way in."""
     cells = collections.defaultdict(list)
-    for point in path:
-        cells[tuple(int(c // CELL_MM) for c in point)].append(point)
+    for i, point in enumerate(path):
+        cells[tuple(int(c // CELL_MM) for c in point)].append((point, i / len(path)))
     worst = 0.0
-    for point in of:
-        home = [int(c // CELL_MM) for c in point]
+    for i, point in enumerate(of):
+        home, share = [int(c // CELL_MM) for c in point], i / len(of)
         near = (cells.get(tuple(h + d for h, d in zip(home, by)), ()) for by in itertools.product((-1, 0, 1), repeat=3))
-        worst = max(worst, min((math.dist(point, other) for other in itertools.chain(*near)), default=math.inf))
+        beside = (math.dist(point, other) for other, at in itertools.chain(*near) if abs(at - share) < ALONG)
+        worst = max(worst, min(beside, default=math.inf))
     return worst
 
 
