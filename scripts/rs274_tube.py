@@ -24,7 +24,7 @@ MOST_MM = "1"  # shift: the circle needs more than the usual 0.5 mm
 FINE_MM = 0.02
 COARSE_MM = 0.1
 APART_MM = 0.002  # of the figures: half of a fine step over a chord of the farthest, and four printed digits
-ALONG = 0.05  # of the whole way
+ALONG, ALONG_MM = 0.05, 10.0  # of the whole way, or so much
 CELL_MM = 1.2
 SAME_MM = 2e-4  # start and end to the printed digits: a whole turn
 
@@ -65,17 +65,27 @@ def points(listed, step):
     return out
 
 
+def way(path):
+    """How far along the whole way each point is, mm; and the whole."""
+    out = [0.0]
+    for a, b in itertools.pairwise(path):
+        out.append(out[-1] + math.dist(a, b))
+    return out, out[-1]
+
+
 def farthest(of, path):
     """The largest distance of these points from the nearest of the path's, as far as a cell and about as far along the way:
     the way out of a circle passes the way in."""
+    (passed, whole), (passed_there, whole_there) = way(of), way(path)
     cells = collections.defaultdict(list)
-    for i, point in enumerate(path):
-        cells[tuple(int(c // CELL_MM) for c in point)].append((point, i / len(path)))
+    for point, at in zip(path, passed_there):
+        cells[tuple(int(c // CELL_MM) for c in point)].append((point, at))
+    apart, longer = max(ALONG_MM, ALONG * whole_there), whole_there / whole if whole > 0.0 else 0.0
     worst = 0.0
-    for i, point in enumerate(of):
-        home, share = [int(c // CELL_MM) for c in point], i / len(of)
+    for point, at_mm in zip(of, passed):
+        home = [int(c // CELL_MM) for c in point]
         near = (cells.get(tuple(h + d for h, d in zip(home, by)), ()) for by in itertools.product((-1, 0, 1), repeat=3))
-        beside = (math.dist(point, other) for other, at in itertools.chain(*near) if abs(at - share) < ALONG)
+        beside = (math.dist(point, other) for other, at in itertools.chain(*near) if abs(at - longer * at_mm) <= apart)
         worst = max(worst, min(beside, default=math.inf))
     return worst
 
