@@ -98,12 +98,12 @@ Result<void> Predistortion::try_text(Changed changed) {
   }
   progress_.ran();
   const auto& figures = run->figures.nominal();
-  // Who measures his parts wants the last micrometre: there a block costs nothing.
+  // Who measures his parts wants the last micrometre: there a block and time cost nothing.
   const double blocks =
       learnt_.empty() ? static_cast<double>(changed.path.segments.size()) /
                             static_cast<double>(std::max<std::size_t>(1, path_.segments.size()))
                       : 1.0;
-  const double score_mm = score_->of_mm(figures, blocks, run->seconds);
+  const double score_mm = score_->of_mm(figures, blocks, learnt_.empty() ? run->seconds : 0.0);
   // Holding a limit may begin from anything.
   const bool in_time = holds_ || (hold_mm_ > 0.0 && best_mm_ < 0.0) ||
                        score_->in_time(run->seconds, learnt_.refinements() > 0);
@@ -197,7 +197,8 @@ Result<void> Predistortion::polish() {
     task.price.time = PolishTask::kTimeToHold;
     task.price.over = kOverHeld;
   } else {
-    sweeps = {.patient = true, .unites_in = kUnitesLate};
+    // What parts have taught is there from the start.
+    sweeps = {.patient = true, .unites_in = learnt_.empty() ? kUnitesLate : 0};
     held_.emplace(path_, use(), how_.limit_mm, HeldStretches::Price::all_errors);
   }
   auto done = polish_rounds(
@@ -205,9 +206,11 @@ Result<void> Predistortion::polish() {
       [this](const std::vector<Piece>& made) { return try_pieces(made); }, sweeps);
   if (done && hold_mm_ == 0.0) {
     // What a sweep wins in one stretch it may lose in another.
-    const auto tried = try_pieces(held_->best());
+    if (const auto best = held_->best(); !best.empty()) {
+      const auto tried = try_pieces(best);
+      done = tried ? done : std::unexpected(tried.error());
+    }
     held_.reset();
-    done = tried ? done : std::unexpected(tried.error());
   }
   return done;
 }

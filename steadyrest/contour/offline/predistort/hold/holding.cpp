@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/contour/offline/predistort/polish/polish_rounds.hpp>
 #include <steadyrest/contour/offline/predistort/predistortion.hpp>
@@ -50,12 +52,17 @@ constexpr std::array kPasses = {Pass{From::expected, false}, Pass{From::rounds, 
 
 /// Slower between the tool and its command.
 void slow_down(std::vector<Piece>& pieces, const std::vector<ErrorPlace>& places) {
-  for (Piece& piece : pieces) {
-    const bool there = std::ranges::any_of(places, [&](const ErrorPlace& place) {
-      return piece.progress_end_mm > place.foot_mm - kNudged_mm &&
-             piece.progress_start_mm < place.progress_mm;
-    });
-    piece.segment.feed_mm_s *= there ? kNudge : 1.0;
+  std::vector<bool> there(pieces.size(), false);
+  for (const ErrorPlace& place : places) {
+    const auto first =
+        std::ranges::upper_bound(pieces, place.foot_mm - kNudged_mm, {}, &Piece::progress_end_mm);
+    for (auto i = static_cast<std::size_t>(first - pieces.begin());
+         i < pieces.size() && pieces[i].progress_start_mm < place.progress_mm; ++i) {
+      there[i] = true;
+    }
+  }
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    pieces[i].segment.feed_mm_s *= there[i] ? kNudge : 1.0;
   }
 }
 
@@ -102,7 +109,7 @@ Result<void> Predistortion::nudge() {
       return std::unexpected(tried.error());
     }
     std::erase_if(over_, &ErrorPlace::early);
-    if (over_.empty()) {
+    if (over_.empty() || pieces.size() > kMostPieces) {
       break;
     }
     slow_down(pieces, over_);

@@ -9,12 +9,11 @@
 namespace steadyrest::contour::offline {
 namespace {
 
-constexpr std::size_t kMostPieces = 5000;  ///< CAM programs of many lines stay
-constexpr double kDearer = 4.0;            ///< a second, where the program takes too long
-constexpr double kCheaper = 0.7;           ///< … and where it leaves time
-constexpr double kSpare = 0.99;            ///< of the time permitted
-constexpr int kSecants = 1;                ///< after each further sweep, until the legs are right
-constexpr double kWorth = 0.99;            ///< of the score: a sweep that wins less is the last
+constexpr double kDearer = 4.0;   ///< a second, where the program takes too long
+constexpr double kCheaper = 0.7;  ///< … and where it leaves time
+constexpr double kSpare = 0.99;   ///< of the time permitted
+constexpr int kSecants = 1;       ///< after each further sweep, until the legs are right
+constexpr double kWorth = 0.99;   ///< of the score: a sweep that wins less is the last
 static_assert(1 + PolishSweeps{}.first_secants + PolishSweeps{}.most * (2 + kSecants) ==
               kPolishRuns);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct TriedPieces {
 };
 using TryPieces = std::function<kernel::outcome::Result<TriedPieces>(const std::vector<Piece>&)>;
 
-inline constexpr int kPolishRuns = 27;  ///< sweeps and pieces tried, at most
+inline constexpr std::size_t kMostPieces = 5000;  ///< CAM programs of many lines stay
+inline constexpr int kPolishRuns = 27;            ///< sweeps and pieces tried, at most
 
 struct PolishSweeps {
   int most = 7;
