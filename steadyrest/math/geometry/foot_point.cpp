@@ -58,11 +58,6 @@ Local local_of(const PathSegment& segment, const ArcFrame& frame, const Point& q
   return {dot(from_centre, frame.e1), dot(from_centre, frame.e2), dot(from_centre, segment.axis)};
 }
 
-// Faster than hypot: no length here is near the ends of double's range.
-double length(double x, double y, double z) noexcept {
-  return std::sqrt(x * x + y * y + z * z);
-}
-
 Point global_of(const PathSegment& segment, const ArcFrame& frame, const Local& local) noexcept {
   Point point = add_scaled(segment.centre_mm, frame.e1, local.x);
   point = add_scaled(point, frame.e2, local.y);
@@ -74,7 +69,7 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
   const ArcFrame frame = arc_frame(segment);
   const Local q = local_of(segment, frame, query);
   // From its axis a circle is equally far everywhere; any of its points is nearest there.
-  const double rho = length(q.x, q.y, 0.0);
+  const double rho = norm({q.x, q.y, 0.0});
   const double angle = std::atan2(q.y, q.x);
   // The turn whose point at this angle lies nearest to u_near, then moved into the permitted part.
   const double near_angle = u_near * segment.sweep_rad;
@@ -89,14 +84,14 @@ Foot foot_on_circle(const PathSegment& segment, const Point& query, double u_low
   if (best >= low && best <= high && rho > 0.0) {
     const double grow = segment.radius_mm / rho;
     const Local foot{q.x * grow, q.y * grow, 0.0};
-    return {best / segment.sweep_rad, length(rho - segment.radius_mm, q.z, 0.0),
+    return {best / segment.sweep_rad, norm({rho - segment.radius_mm, q.z, 0.0}),
             global_of(segment, frame, foot)};
   }
   // No point at the query's angle within the permitted part: one of its ends is nearest.
   const auto at = [&](double u) {
     const double a = u * segment.sweep_rad;
     const Local p{segment.radius_mm * std::cos(a), segment.radius_mm * std::sin(a), 0.0};
-    return Foot{u, length(p.x - q.x, p.y - q.y, q.z), global_of(segment, frame, p)};
+    return Foot{u, norm({p.x - q.x, p.y - q.y, q.z}), global_of(segment, frame, p)};
   };
   const Foot first = at(u_low);
   const Foot last = at(u_high);
@@ -211,10 +206,10 @@ Foot foot_on_helix(const PathSegment& segment, const Point& query, double u_low,
   const Local local = local_of(segment, frame, query);
   const Curve curve(segment, local);
   if (is_nearly_round(segment, u_low, u_high) &&
-      length(local.x, local.y, 0.0) >= kOffCentre * segment.radius_mm) {
+      norm({local.x, local.y, 0.0}) >= kOffCentre * segment.radius_mm) {
     const double u = foot_from_circle(curve, segment, local, u_low, u_high);
     const Local foot = curve.point(u);
-    return {u, length(foot.x - local.x, foot.y - local.y, foot.z - local.z),
+    return {u, norm({foot.x - local.x, foot.y - local.y, foot.z - local.z}),
             global_of(segment, frame, foot)};
   }
   std::array<double, kMaxSamples> sample{};

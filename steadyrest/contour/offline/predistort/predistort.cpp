@@ -98,6 +98,7 @@ Result<Predistorted> Predistortion::run() {
   out_.slower = score_->slower(out_.after.nominal());
   if (!out_.kept_part) {
     out_.waits = std::move(waits_);
+    std::erase_if(out_.waits, [&](const auto& wait) { return !out_.lines.contains(wait.first); });
   }
   add_report(out_, how_.limit_mm);
   learnt_.unrefine(0);
@@ -130,15 +131,20 @@ Result<void> Predistortion::begin_with() {
 }
 
 Result<void> Predistortion::wait_behind_rapids() {
+  const OtherModels none;
   RapidWaits rapids(path_, use(), how_.hold_mm, softest_gain_1_s(model_));
-  for (int i = 0; i < kMostWaits && how_.hold_mm > 0.0 && rapids.adjust(first_->over); ++i) {
+  std::vector<ErrorPlace> over = first_->over;
+  for (int i = 0; i < kMostWaits && rapids.adjust(over); ++i) {
     waits_ = rapids.waits();
-    if (auto done = begin_with(); !done) {
-      return done;
+    const auto planned = write({});
+    auto run = planned ? follow(judging(model_, none), *planned, corners_)
+                       : std::unexpected(planned.error());
+    if (!run) {
+      return std::unexpected(run.error());
     }
+    over = std::move(run->over);
   }
-  hold_mm_ = first_->over.empty() ? 0.0 : how_.hold_mm;
-  return {};
+  return waits_.empty() ? Result<void>{} : begin_with();
 }
 
 Result<void> Predistortion::drop_waits() {
@@ -248,8 +254,8 @@ bool Predistortion::begin() {
   starts_ = first_->starts;
   begin_caps();
   holds_ = false;
-  if (hold_mm_ > 0.0) {
-    held_.emplace(path_, use(), hold_mm_);
+  if (hold_mm() > 0.0) {
+    held_.emplace(path_, use(), hold_mm());
     best_cost_s_ = std::numeric_limits<double>::infinity();
   }
   learnt_.unrefine(0);
@@ -288,7 +294,7 @@ Result<void> Predistortion::attempt(int revision) {
   if (auto done = refine(); !done) {
     return done;
   }
-  if (hold_mm_ > 0.0) {
+  if (hold_mm() > 0.0) {
     return hold();
   }
   progress_.phase("polishing the path", kPolishRuns);

@@ -105,10 +105,10 @@ Result<void> Predistortion::try_text(Changed changed) {
                       : 1.0;
   const double score_mm = score_->of_mm(figures, blocks, learnt_.empty() ? run->seconds : 0.0);
   // Holding a limit may begin from anything.
-  const bool in_time = holds_ || (hold_mm_ > 0.0 && best_mm_ < 0.0) ||
+  const bool in_time = holds_ || (hold_mm() > 0.0 && best_mm_ < 0.0) ||
                        score_->in_time(run->seconds, learnt_.refinements() > 0);
   last_ = {.score_mm = score_mm,
-           .time = hold_mm_ > 0.0 ? 1.0 : score_->time(run->seconds, learnt_.refinements() > 0)};
+           .time = hold_mm() > 0.0 ? 1.0 : score_->time(run->seconds, learnt_.refinements() > 0)};
   if (!in_time) {
     score_->note_slower(run->seconds, figures);
   }
@@ -193,7 +193,7 @@ Result<void> Predistortion::polish() {
   speed_ = best_mm_ < 0.0 ? first_->speed : best_speed_;
   PolishTask task = polish_task();
   PolishSweeps sweeps;
-  if (hold_mm_ > 0.0) {
+  if (hold_mm() > 0.0) {
     task.price.time = PolishTask::kTimeToHold;
     task.price.over = kOverHeld;
   } else {
@@ -204,7 +204,7 @@ Result<void> Predistortion::polish() {
   auto done = polish_rounds(
       std::move(task), coarse_pieces(), starts_,
       [this](const std::vector<Piece>& made) { return try_pieces(made); }, sweeps);
-  if (done && hold_mm_ == 0.0) {
+  if (done && hold_mm() == 0.0) {
     // What a sweep wins in one stretch it may lose in another.
     if (const auto best = held_->best(); !best.empty()) {
       const auto tried = try_pieces(best);

@@ -90,6 +90,10 @@ class Predistortion {
   Result<void> begin_with();
   /// Waits between rapids and the cut, where a limit is to be held (RapidWaits).
   Result<void> wait_behind_rapids();
+  /// The limit to be held; 0: none, or the program with its waits holds it.
+  [[nodiscard]] double hold_mm() const noexcept {
+    return first_->over.empty() ? 0.0 : how_.hold_mm;
+  }
   /// Those whose block must stay go.
   Result<void> drop_waits();
 
@@ -180,7 +184,6 @@ class Predistortion {
   std::optional<FeedCaps> caps_;
   double tolerance_mm_ = ShapeConfig{}.tolerance_mm;  ///< of the fit
   double smooth_ = ShapeConfig{}.smooth;
-  double hold_mm_ = 0.0;               ///< 0: the program, with its waits, holds what is asked
   bool holds_ = false;                 ///< feeds may fall
   std::optional<HeldStretches> held_;  ///< where a limit is to be held
   HeldStretches::By by_ = HeldStretches::By::feeds;

@@ -152,7 +152,7 @@ Result<void> Predistortion::hold_by_windows() {
                     kArcSpeed);
   for (const Pass& pass : kPasses) {
     if (pass.tightens &&
-        !caps_->tighten(held_->close_good(), speed_, hold_mm_, FeedCaps::Speed::highest)) {
+        !caps_->tighten(held_->close_good(), speed_, hold_mm(), FeedCaps::Speed::highest)) {
       return {};
     }
     if (pass.from == From::expected) {
@@ -201,7 +201,7 @@ Result<void> Predistortion::hold_by_feeds() {
   begin_caps();
   over_ = best_over_;
   speed_ = best_speed_;
-  for (int i = 0; i < kMostHolds && caps_->tighten(over_, speed_, hold_mm_); ++i) {
+  for (int i = 0; i < kMostHolds && caps_->tighten(over_, speed_, hold_mm()); ++i) {
     if (auto done = rounds(kHoldRounds); !done) {
       return done;
     }
