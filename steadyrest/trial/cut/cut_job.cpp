@@ -188,10 +188,21 @@ Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
        .cutting = job.cutting});
 }
 
+/// What the errors of this job refer to; null: the path that is cut, also where a tolerance of
+/// more than the widest tube leaves nothing to pair it with.
+std::shared_ptr<const Original> judged_by(const Job& job) {
+  if (job.against || !job.path->programmed) {
+    return job.against;
+  }
+  auto own = Original::make(*job.path, job.path, Original::kWidestTube_mm);
+  return own ? std::make_shared<const Original>(std::move(*own)) : nullptr;
+}
+
 Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
                  const OnSample& on_sample, MotionScore* motion = nullptr,
                  VibrationRecord* vibration = nullptr) {
-  auto error = TrueError::make(job.machine, job.against);
+  const auto against = judged_by(job);
+  auto error = TrueError::make(job.machine, against);
   if (!error) {
     return std::unexpected(error.error());
   }
@@ -223,7 +234,7 @@ Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& la
     }
     // The truth is that at the end of this cycle; the command acts in the next.
     Sample sample = sample_of(frame, arriving.update(frame.motion, frame.time_s), machine.truth(),
-                              error->update(frame, machine.truth()), job.against.get(), reason);
+                              error->update(frame, machine.truth()), against.get(), reason);
     sample.after_end = after_end;
     on_sample(sample);
     if (standstill.too_long(frame)) {

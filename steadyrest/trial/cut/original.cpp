@@ -20,10 +20,11 @@ kernel::outcome::Result<Original> Original::make(
                               kWidestTube_mm),
                   "give the largest distance that a correction may have");
   }
-  auto pairing = PathPairing::make(changed.segments, original->segments, {.tube_mm = tube_mm});
+  auto part = original->programmed ? original->programmed : original;
+  auto pairing = PathPairing::make(changed.segments, part->segments, {.tube_mm = tube_mm});
   if (!pairing) {
     const PathPairing::Parting& parting = pairing.error();
-    const std::uint32_t line = original->segments[parting.original_segment].line;
+    const std::uint32_t line = part->segments[parting.original_segment].line;
     const std::string what =
         parting.ended
             ? fmt::format("the cut ends here, but the original goes on in its line {}", line)
@@ -35,8 +36,9 @@ kernel::outcome::Result<Original> Original::make(
                   "give two programs for one part, or a wider tube");
   }
   const PathPairing::Farthest farthest = pairing->farthest();
-  const std::uint32_t original_line = original->segments[farthest.original_segment].line;
-  return Original{.path = std::move(original),
+  const std::uint32_t original_line = part->segments[farthest.original_segment].line;
+  return Original{.path = std::move(part),
+                  .as_cut = std::move(original),
                   .pairing = std::move(*pairing),
                   .tube_mm = tube_mm,
                   .farthest_mm = farthest.distance_mm,

@@ -16,15 +16,16 @@ struct Original {
   /// The search's window beside the servo lag is at most 10 mm.
   static constexpr double kWidestTube_mm = 5.0;
 
-  std::shared_ptr<const nc::plan::PlannedPath> path;
+  std::shared_ptr<const nc::plan::PlannedPath> path;    ///< PlannedPath::part() of the original
+  std::shared_ptr<const nc::plan::PlannedPath> as_cut;  ///< as the control plans the original
   math::geometry::PathPairing pairing;
   double tube_mm = 0.0;
   double farthest_mm = 0.0;  ///< of the changed path from the original, while both cut
   std::uint32_t changed_line = 0;
   std::uint32_t original_line = 0;  ///< there
 
-  /// Neither path is empty. Refuses programs that part by more than `tube_mm` while they cut, with
-  /// the lines of both.
+  /// `original` as the control plans it; neither path is empty. Refuses programs that part by more
+  /// than `tube_mm` while they cut, with the lines of both.
   static kernel::outcome::Result<Original> make(
       const nc::plan::PlannedPath& changed, std::shared_ptr<const nc::plan::PlannedPath> original,
       double tube_mm);

@@ -75,6 +75,33 @@ TEST(CutAgainst, OfAProgramAgainstItselfHasTheFiguresOfTheProgram) {
   EXPECT_EQ(answer["original"], alone["without"]);
 }
 
+// Which machine rounds a corner within a tolerance: both verbs judge by the corner itself.
+TEST(CutAgainst, JudgesATolerancesCornersAsCorrectDoes) {
+  const Scratch scratch;
+  const std::string mill = " --machine examples/machines/linuxcnc-mill.toml";
+  for (const char* const tolerance : {"0.02", "0.1", "0.4"}) {
+    const std::string name = std::string("p") + tolerance;
+    const std::string part = scratch.file(
+        name + ".ngc", std::string("G17 G21 G90 G94 G64 P") + tolerance +
+                           "\nG0 X0 Y0 Z5\nG1 Z0 F300\nX30 F1500\nY20\nX20 Y40\nX0\nM2\n");
+    const std::string out = scratch.at(name + "-out.ngc");
+    const json said =
+        answer_of("program correct " + part + mill + " --max-error-mm 0.01 -o " + out)["path"];
+    const json seen = answer_of("cut " + out + mill + " --quick");
+    // The model knows no friction: the largest error is that of one corner, the RMS that of all.
+    const auto same = [&](const char* cut, const char* key, const char* predicted, double within) {
+      EXPECT_NEAR(seen[cut][key].get<double>() / said[predicted].get<double>(), 1.0, within)
+          << tolerance << " " << predicted;
+    };
+    same("original", "contour_error_max_mm", "predicted_error_max_before_mm", 0.01);
+    same("original", "contour_error_rms_mm", "predicted_error_rms_before_mm", 0.01);
+    same("without", "contour_error_max_mm", "predicted_error_max_mm", 0.2);
+    same("without", "contour_error_rms_mm", "predicted_error_rms_mm", 0.03);
+    EXPECT_LT(said["predicted_error_rms_mm"],
+              0.4 * said["predicted_error_rms_before_mm"].get<double>());
+  }
+}
+
 TEST(CutAgainst, ShowsPeopleAllThreeCuts) {
   const Finished finished = run_line("cut " + kLarger + " --against " + kOriginal + kMachine);
   EXPECT_THAT(finished.out, HasSubstr("against the path of " + kOriginal));

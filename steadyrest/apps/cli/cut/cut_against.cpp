@@ -36,9 +36,10 @@ double tube_of(const AgainstOptions& options, const std::string& changed) {
 void add_against_options(Verb& verb, AgainstOptions& options) {
   CLI::Option* const against = verb.reads(
       "--against", options.file,
-      "The original of a changed FILE. Errors are the tool's distance from the original's path as "
-      "the control plans it, while both programs cut (G1 to G3); rapids and rotary axes do not "
-      "count. Of the original the layer knows what FILE's marks hold. Default: the original in "
+      "The original of a changed FILE. Errors are the tool's distance from the original's path "
+      "while both programs cut (G1 to G3); rapids, rotary axes and a rounding of corners by a "
+      "tolerance of up to 0.5 mm do not count. Of the original the layer knows what FILE's marks "
+      "hold. Default: the original in "
       "those marks, if any");
   verb.add_option(
           "--tube-mm", options.tube_mm,

@@ -40,16 +40,27 @@ RunPath run_path(const Corrected& text) {
           .origin = text.origin};
 }
 
+/// The program as it is, judged as its cut is.
+RunPath run_path(const PathPointer& path, const std::vector<std::uint32_t>& same) {
+  using trial::cut::Original;
+  const auto own = path->programmed ? Original::make(*path, path, Original::kWidestTube_mm)
+                                    : Result<Original>(std::unexpected(Refusal{}));
+  return own ? RunPath{.path = *path,
+                       .original = *own->path,
+                       .map = contour::offline::paired(*path, own->pairing),
+                       .origin = same}
+             : RunPath{.path = *path,
+                       .original = *path,
+                       .map = contour::offline::same_path(*path),
+                       .origin = same};
+}
+
 /// What the servo model leaves over the limit in the best way. `text`: null: as programmed.
 Result<std::vector<contour::offline::OverLine>> over_of(const Setup& setup, const PathPointer& path,
                                                         const CorrectedWays& corrected,
                                                         const Corrected* text) {
   const std::vector<std::uint32_t> same;
-  const RunPath run = text != nullptr ? run_path(*text)
-                                      : RunPath{.path = *path,
-                                                .original = *path,
-                                                .map = contour::offline::same_path(*path),
-                                                .origin = same};
+  const RunPath run = text != nullptr ? run_path(*text) : run_path(path, same);
   const auto found = std::ranges::find(corrected.ways, Way::text_held, &Corrected::way);
   std::optional<RunPath> held;
   if (found != corrected.ways.end() && &*found != text) {

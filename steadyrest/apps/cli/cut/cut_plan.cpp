@@ -6,6 +6,7 @@
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/nc/plan/check/idle_override.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/original/original_path.hpp>
 
 namespace steadyrest::apps::cli::cut {
@@ -56,6 +57,15 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   path->subprograms = report->subprograms;
   nc::rewrite::hold_against_original(nc::rewrite::read_text_marks(options.file, path->subprograms),
                                      options.file, *config, machine, *path);
+  if (path->tolerant) {
+    auto programmed = nc::plan::plan_programmed_file(options.file, *config, machine);
+    if (!programmed) {
+      answer.refusals.push_back(programmed.error());
+      answer.exit_code = kRefused;
+      return std::unexpected(std::move(answer));
+    }
+    path->programmed = std::make_shared<const PlannedPath>(std::move(*programmed));
+  }
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
               check.count(), *report};
   // If the feed override hardly acts because the axes never reach the programmed feed, the layer

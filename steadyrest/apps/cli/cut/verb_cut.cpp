@@ -162,13 +162,14 @@ Result<Cuts> cut_all(const Setup& setup, const PathPointer& path,
                      const Options& options, Progress& progress) {
   std::vector<Further> further;
   if (wants_ways(options, setup, against != nullptr)) {
-    further = further_runs(setup, against ? against->path : path, against != nullptr, options.ways);
+    further =
+        further_runs(setup, against ? against->as_cut : path, against != nullptr, options.ways);
   }
   const bool best = options.asks_best() && !against;
   CutRuns runs(setup, progress, (against ? 3 : 2) + further.size() + (best ? kMostEvery : 0));
   std::optional<Recorder> original;
   if (against) {
-    auto cut = runs.run({.what = "cutting the original", .path = against->path});
+    auto cut = runs.run({.what = "cutting the original", .path = against->as_cut});
     if (!cut) {
       return std::unexpected(cut.error());
     }

@@ -8,10 +8,10 @@
 #include <steadyrest/contour/offline/predistort/predistortion.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
 #include <steadyrest/contour/offline/predistort/shape/segment_use.hpp>
-#include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
 #include <steadyrest/contour/offline/predistort/uncertainty.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/math/geometry/moves.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/replace/at_worst.hpp>
 #include <steadyrest/nc/rewrite/tube/prove_made.hpp>
 
@@ -315,7 +315,7 @@ Result<void> Predistortion::read() {
     return std::unexpected(blocks.error());
   }
   blocks_ = std::move(*blocks);
-  auto path = shaped_path(file_, config_, machine_);
+  auto path = nc::plan::plan_programmed_file(file_, config_, machine_);
   if (!path) {
     return std::unexpected(path.error());
   }
@@ -364,7 +364,7 @@ Result<Predistorted> predistort(const std::string& program, const nc::interpret:
                          {.each = how.gain_uncertainty, .apart = how.gain_uncertainty})
         .run();
   }
-  const auto path = shaped_path(program, config, machine);
+  const auto path = nc::plan::plan_programmed_file(program, config, machine);
   if (!path) {
     return std::unexpected(path.error());
   }

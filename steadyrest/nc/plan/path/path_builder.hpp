@@ -113,7 +113,12 @@ class PathBuilder final : public interpret::Sink {
   /// `machine` must outlive the builder.
   explicit PathBuilder(const kernel::machine::Machine& machine) : stream_(machine, store_) {}
   explicit PathBuilder(kernel::machine::Machine&& machine) = delete;
-  void on_move(const interpret::Move& move) override { stream_.on_move(move); }
+  void on_move(const interpret::Move& move) override {
+    store_.path.tolerant =
+        store_.path.tolerant ||
+        (move.path_mode == interpret::PathMode::continuous && move.path_tolerance_mm > 0.0);
+    stream_.on_move(move);
+  }
   void on_event(const interpret::Event& event) override { stream_.on_event(event); }
   /// The path; call once after the last move.
   [[nodiscard]] kernel::outcome::Result<PlannedPath> take();

@@ -29,6 +29,17 @@ namespace steadyrest::nc::plan {
     const std::string& file, const interpret::Config& config,
     const kernel::machine::Machine& machine);
 
+/// The path as the program writes it: each block has its own segments, none is merged with its
+/// neighbours, and a small rounding of corners (kSmallRounding_mm) counts as none. A part is judged
+/// by it, and corrections are made for it.
+[[nodiscard]] kernel::outcome::Result<PlannedPath> plan_programmed(
+    kernel::machine::Machine machine, const std::string& file,
+    const std::function<kernel::outcome::Result<interpret::Report>(interpret::Sink&)>& run);
+
+[[nodiscard]] kernel::outcome::Result<PlannedPath> plan_programmed_file(
+    const std::string& file, const interpret::Config& config,
+    const kernel::machine::Machine& machine);
+
 /// The same for a text in memory; `file` is its name in a refusal.
 [[nodiscard]] kernel::outcome::Result<PlannedPath> plan_text(
     std::string_view text, const interpret::Config& config, const kernel::machine::Machine& machine,

@@ -48,16 +48,28 @@ struct PathEvent {
   double value = 0.0;
 };
 
+/// A tolerance of the control's continuous mode up to here (G64 P0.5) is there for speed: the part
+/// is judged by the corners that the program writes. A larger one is a path of its own.
+inline constexpr double kSmallRounding_mm = 0.5;
+
 /// A whole program in memory. segments[i] and plans[i] belong together; events ascend by segment.
 struct PlannedPath {
   std::vector<kernel::signal::PathSegment> segments;
   std::vector<SegmentPlan> plans;
   std::vector<PathEvent> events;
   std::vector<std::string> subprograms;  ///< files that it calls
+  bool tolerant = false;                 ///< the program gives a tolerance for corners and chords
+  /// What the part is judged by where `tolerant`, by plan_programmed(); null: the path itself.
+  std::shared_ptr<const PlannedPath> programmed;
   /// The path before the text was corrected, by rewrite::hold_against_original(); null: the same.
   std::shared_ptr<const PlannedPath> original;
   std::string original_unknown;  ///< why it is not known; empty: it is
   bool heat_in_text = false;     ///< the text corrects the drift by heat
+
+  /// The path that the part should have.
+  [[nodiscard]] const PlannedPath& part() const noexcept {
+    return programmed ? *programmed : *this;
+  }
 };
 
 /// What an interpolator reads: a whole program, or a window that moves along it. Element i is at

@@ -127,7 +127,16 @@ void hold_against_original(const TextMarks& marks, const std::string& file,
   }
   interpret::Config beside = config;  // a text finds no subprograms beside itself
   beside.subprogram_folders.push_back(std::filesystem::path(file).parent_path().string());
-  auto original = plan::plan_text(marks.original, beside, machine, "the original of " + file);
+  const std::string name = "the original of " + file;
+  auto original = plan::plan_text(marks.original, beside, machine, name);
+  if (original && original->tolerant) {
+    auto programmed = plan::plan_programmed(machine, name, [&](interpret::Sink& sink) {
+      return interpret::run_text(marks.original, beside, sink);
+    });
+    if (programmed) {  // what the planner has just taken
+      original->programmed = std::make_shared<const PlannedPath>(std::move(*programmed));
+    }
+  }
   if (!original) {
     path.original_unknown = kernel::outcome::text(original.error());
   } else if (original->segments.empty()) {

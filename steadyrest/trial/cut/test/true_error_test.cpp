@@ -15,6 +15,7 @@
 #include <steadyrest/math/geometry/segment.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/plan/path/path_builder.hpp>
+#include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/trial/cut/cut_job.hpp>
 #include <steadyrest/trial/test/examples.hpp>
 
@@ -118,6 +119,36 @@ TEST(AgainstTheOriginal, AShiftedPathIsWrongByTheShareAcrossIt) {
   const Range along = size_on(square(0.3, 0.1, 0), square(0, 0, 0), 16.0, 42.0);
   EXPECT_NEAR(along.least_mm, 0.1, 1e-9);
   EXPECT_NEAR(along.most_mm, 0.1, 1e-9);
+}
+
+/// The path of a square corner as the control rounds it within `tolerance_mm`, with what the
+/// program writes.
+PathPointer rounded_corner(double tolerance_mm, const Machine& machine) {
+  const std::string text =
+      fmt::format("G17 G21 G90 G94 G64 P{}\nG1 X20 F3000\nY20\nM2\n", tolerance_mm);
+  auto path = nc::plan::plan_text(text, {}, machine, "corner").value();
+  EXPECT_TRUE(path.tolerant);
+  path.programmed = std::make_shared<const PlannedPath>(
+      nc::plan::plan_programmed(machine, "corner", [&](nc::interpret::Sink& sink) {
+        return nc::interpret::run_text(text, {}, sink);
+      }).value());
+  return std::make_shared<const PlannedPath>(std::move(path));
+}
+
+// The middle of the arc that rounds the corner is R(1 − 1/√2) from the legs.
+TEST(AgainstTheOriginal, WhatTheControlRoundsALittleCounts) {
+  const Machine machine = machine_of("ideal-k50.toml");
+  for (const double tolerance_mm : {0.1, 0.3, 0.5}) {
+    const PathPointer corner = rounded_corner(tolerance_mm, machine);
+    const auto arc = std::ranges::find(corner->segments, kernel::signal::Geometry::arc,
+                                       &kernel::signal::PathSegment::geometry);
+    ASSERT_NE(arc, corner->segments.end());
+    const double from_legs_mm = arc->radius_mm * (1.0 - std::sqrt(0.5));
+    const Range size = size_on(corner, corner, 0.0, -0.1);
+    EXPECT_NEAR(size.most_mm, from_legs_mm, 0.05 * from_legs_mm) << tolerance_mm;
+  }
+  const PathPointer wide = rounded_corner(0.6, machine);
+  EXPECT_NEAR(size_on(wide, wide, 0.0, -0.1).most_mm, 0.0, 1e-9) << "a path of its own";
 }
 
 // On the fillet's middle the nearest leg is r(1 − 1/√2) away, while the corner is r(√2 − 1) from

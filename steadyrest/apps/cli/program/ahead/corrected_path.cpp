@@ -13,7 +13,6 @@
 #include <steadyrest/apps/cli/program/ahead/setting_words.hpp>
 #include <steadyrest/contour/offline/predict/paired.hpp>
 #include <steadyrest/contour/offline/predistort/report.hpp>
-#include <steadyrest/contour/offline/predistort/shape/shaped_path.hpp>
 #include <steadyrest/math/geometry/path_pairing.hpp>
 #include <steadyrest/nc/plan/path/plan_program.hpp>
 #include <steadyrest/nc/rewrite/tube/prove_made.hpp>
@@ -43,7 +42,7 @@ class Judge {
  public:
   static Result<Judge> make(const PathOptions& options, const SourceProgram& program,
                             const std::string& file) {
-    auto original = contour::offline::shaped_path(file, program.config, program.machine);
+    auto original = nc::plan::plan_programmed_file(file, program.config, program.machine);
     if (!original) {
       return std::unexpected(original.error());
     }

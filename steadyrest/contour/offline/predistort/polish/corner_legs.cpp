@@ -15,10 +15,10 @@ using kernel::signal::Point;
 
 constexpr double kSamePlace_mm = 1e-6;
 constexpr double kSameProgress_mm = 1e-3;
-constexpr double kNear_mm = 5.0;     ///< the last sample before a corner is nearer
-constexpr double kStraight = 0.985;  ///< cosine of 10°
-constexpr double kTurnsBack = 0.1;   ///< sine
-constexpr double kSettled = 0.1;     ///< of the limit
+constexpr double kNearCorner_mm = 5.0;  ///< the last sample before a corner is nearer
+constexpr double kStraight = 0.985;     ///< cosine of 10°
+constexpr double kTurnsBack = 0.1;      ///< sine
+constexpr double kSettled = 0.1;        ///< of the limit
 
 bool is_corner(const Piece& before, const Piece& after) {
   return !after.joined && !after.passes &&
@@ -47,7 +47,7 @@ bool CornerLegs::update(std::span<const Piece> pieces, std::span<const BlockStar
     const double at_mm = after.progress_start_mm;
     const auto next =
         std::ranges::upper_bound(starts, at_mm + kSameProgress_mm, {}, &BlockStart::progress_mm);
-    if (next == starts.begin() || std::prev(next)->progress_mm < at_mm - kNear_mm ||
+    if (next == starts.begin() || std::prev(next)->progress_mm < at_mm - kNearCorner_mm ||
         geometry::dot(from, to) > kStraight) {
       continue;
     }
