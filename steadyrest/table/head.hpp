@@ -16,7 +16,8 @@ struct Head {
   /// With their unit at the end, `z_um`, whether the file has `z [µm]` or names its units in a
   /// separate row; empty: ignored.
   std::vector<std::string> name;
-  std::size_t line = 0;  ///< 0 = the names come from the command line
+  std::vector<std::string> written;  ///< as the file or the command line has them; as many
+  std::size_t line = 0;              ///< 0 = the names come from the command line
   /// The only column whose values are dates with a time (stamp.hpp), if there is one; else the only
   /// one of dates, if there is also only one of times of day, `clocked`.
   std::optional<std::size_t> stamped;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include <steadyrest/table/fields.hpp>
 #include <steadyrest/table/row_reader.hpp>
 #include <steadyrest/table/stamp.hpp>
 
@@ -25,83 +25,6 @@ constexpr std::size_t kMostColumns = 256;
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return (byte < 0x20 && c != '\t') || byte == 0x7F;
-}
-
-/// The bytes of the field at the front of `text`, including quotes and their contents.
-std::size_t size_of_field(std::string_view text, char separator) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin != std::string_view::npos && text[begin] == '"') {
-    // A quote ends at one followed by the separator or the line's end.
-    for (std::size_t at = text.find('"', begin + 1); at != std::string_view::npos;
-         at = text.find('"', at + 1)) {
-      const std::size_t next = text.find_first_not_of(separator == '\t' ? " "sv : " \t"sv, at + 1);
-      // A tab is a separator there, so it must not be skipped like a blank.
-      if (next == std::string_view::npos) {
-        return text.size();
-      }
-      if (text[next] == separator) {
-        return next;
-      }
-    }
-  }
-  const void* const at = text.empty() ? nullptr : std::memchr(text.data(), separator, text.size());
-  return at == nullptr ? text.size()
-                       : static_cast<std::size_t>(static_cast<const char*>(at) - text.data());
-}
-
-// Quotes are decoration here: their contents are read like any other field.
-std::string_view field_of(std::string_view text) {
-  text = trimmed(text);
-  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-  return quoted ? trimmed(text.substr(1, text.size() - 2)) : text;
-}
-
-void split_by(std::string_view text, char separator, std::vector<std::string_view>& fields) {
-  fields.clear();
-  // Blanks separate only where the command line names the columns; any number of them counts as
-  // one.
-  if (separator == ' ') {
-    for (text = trimmed(text); !text.empty();) {
-      const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
-      fields.push_back(text.substr(0, end));
-      text = trimmed(text.substr(end));
-    }
-    return;
-  }
-  for (;;) {
-    const std::size_t size = size_of_field(text, separator);
-    fields.push_back(field_of(text.substr(0, size)));
-    if (size == text.size()) {
-      return;
-    }
-    text.remove_prefix(size + 1);
-  }
-}
-
-// A head has names, a row has at least one number or stamp.
-bool holds_value(std::string_view field) {
-  return like_a_number(field) || stamp_of(field).has_value();
-}
-
-/// The first mark of the head that splits head and first row alike, else the first one. A head may
-/// contain other marks in its names, a row may contain decimal commas: only a mark that cuts both
-/// into the same number of fields is believed.
-char separator_of(std::string_view head, std::string_view row) {
-  std::vector<std::string_view> of_head;
-  std::vector<std::string_view> of_row;
-  char first = '\0';
-  for (const char c : head) {
-    if (c != ',' && c != ';' && c != '\t') {
-      continue;
-    }
-    first = first == '\0' ? c : first;
-    split_by(head, c, of_head);
-    split_by(row, c, of_row);
-    if (of_head.size() == of_row.size() && of_row.size() > 1) {
-      return c;
-    }
-  }
-  return first == '\0' ? ',' : first;
 }
 
 }  // namespace
@@ -195,7 +118,7 @@ std::optional<Fault> RowReader::take_head(std::string_view text) {
 
 /// Splits by the separator: whether there are as many fields as names.
 bool RowReader::fits_names(std::string_view text, char separator) {
-  split_by(text, separator, fields_);
+  split_fields(text, separator, fields_);
   const std::size_t wanted = format_.columns.size();
   const std::size_t found =
       fields_.size() - (fields_.size() > wanted && fields_.back().empty() ? 1 : 0);
@@ -231,6 +154,7 @@ void RowReader::take_names(char separator) {
   separator_ = separator;
   for (const std::string& name : format_.columns) {
     head_.name.push_back(name == "-" ? std::string() : name_of(name));
+    head_.written.push_back(name == "-" ? std::string() : name);
   }
   have_names_ = true;
   units_may_follow_ = false;
@@ -280,14 +204,19 @@ std::optional<Fault> RowReader::before_rows(std::string_view text, std::size_t m
   return std::nullopt;
 }
 
+void RowReader::take_head_fields() {
+  for (const std::string_view field : fields_) {
+    head_.name.push_back(name_of(field));
+    head_.written.emplace_back(field);
+  }
+}
+
 /// The line after the head: the units, or the first row. Now the separator can be determined.
 std::optional<Fault> RowReader::behind_head(std::string_view text) {
   if (head_.name.empty()) {
     separator_ = separator_of(head_text_, text);
-    split_by(head_text_, separator_, fields_);
-    for (const std::string_view field : fields_) {
-      head_.name.push_back(name_of(field));
-    }
+    split_fields(head_text_, separator_, fields_);
+    take_head_fields();
   }
   split(text);
   if (units_may_follow_ && fields_.size() <= head_.name.size() && are_units(fields_)) {
@@ -321,7 +250,7 @@ std::optional<Fault> RowReader::give_head() {
 }
 
 void RowReader::split(std::string_view text) {
-  split_by(text, separator_, fields_);
+  split_fields(text, separator_, fields_);
 }
 
 // Exactly as many fields as names: a decimal comma in a comma-separated file shows here first.
@@ -351,10 +280,8 @@ std::optional<Fault> RowReader::finish() {
   if (have_names_ && !head_given_) {
     if (head_.name.empty()) {
       separator_ = separator_of(head_text_, "");
-      split_by(head_text_, separator_, fields_);
-      for (const std::string_view field : fields_) {
-        head_.name.push_back(name_of(field));
-      }
+      split_fields(head_text_, separator_, fields_);
+      take_head_fields();
     }
     if (auto fault = give_head()) {
       return fault;

@@ -91,6 +91,7 @@ class RowReader {
   [[nodiscard]] bool fits_names(std::string_view text, char separator);
   [[nodiscard]] bool has_words() const;
   void take_names(char separator);
+  void take_head_fields();
   std::optional<Fault> behind_head(std::string_view text);
   std::optional<Fault> give_head();
   std::optional<Fault> take_row(std::string_view text);
