@@ -11,6 +11,7 @@
 
 #include <steadyrest/chatter/offline/response/frf.hpp>
 #include <steadyrest/chatter/offline/response/uff58.hpp>
+#include <steadyrest/chatter/offline/response/uff_lines.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -151,16 +152,6 @@ class FrfSink final : public table::Sink {
   std::optional<std::size_t> coherence_;
 };
 
-/// The first line of a universal file, behind blank ones, has −1 in columns 5 and 6 and nothing
-/// else.
-bool universal(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
-  const std::string_view line = text.substr(0, text.find('\n'));
-  const std::size_t begin = line.find_first_not_of(' ');
-  return begin != std::string_view::npos && line.substr(begin, 2) == "-1" &&
-         line.find_first_not_of(" \r", begin + 2) == std::string_view::npos;
-}
-
 }  // namespace
 
 Result<Frf> parse_frf_csv(std::string_view text, const std::string& file,
@@ -192,7 +183,7 @@ Result<std::vector<Frf>> read_frf(const std::string& path, const table::Format& 
                   "export the response of the drive point alone");
   }
   std::vector<Frf> out;
-  if (universal(*text)) {
+  if (is_universal(*text)) {
     auto all = parse_uff58(*text, path);
     if (!all) {
       return std::unexpected(all.error());

@@ -25,15 +25,6 @@ using kernel::outcome::Result;
 constexpr double kSameFrequency = 1e-6;
 constexpr long kLastTranslation = 3;
 
-/// `node 1 +X`, `TOOL:1 -Z`.
-std::string name_of(const UffPoint& point) {
-  constexpr std::array kLetters = {"", "X", "Y", "Z", "RX", "RY", "RZ"};
-  const auto along = static_cast<std::size_t>(std::abs(point.direction));
-  std::string out = point.entity.empty() ? "node " : point.entity + ":";
-  out += fmt::format("{}", point.node);
-  return along == 0 ? out : out + (point.direction < 0 ? " −" : " +") + kLetters.at(along);
-}
-
 bool same_place(const UffPoint& a, const UffPoint& b) {
   const bool entity = a.entity.empty() || b.entity.empty() || a.entity == b.entity;
   return entity && a.node == b.node && std::abs(a.direction) == std::abs(b.direction);
@@ -102,7 +93,7 @@ class FrfMaker {
     if (drive.empty()) {
       return bad(cross->line,
                  fmt::format("the response of {} to a force at {}, and none at its own point{}",
-                             name_of(cross->response), name_of(cross->reference),
+                             uff_point_name(cross->response), uff_point_name(cross->reference),
                              crosses > 1 ? fmt::format(" among {}", crosses) : std::string()),
                  "export the drive point: hammer and sensor at the same point, in the same "
                  "direction");
@@ -124,17 +115,17 @@ class FrfMaker {
           (!other->points_read || !same_place(other->response, first.response))) {
         return bad(other->line,
                    fmt::format("responses at {} and at {}: they are not one measurement",
-                               name_of(first.response), name_of(other->response)),
+                               uff_point_name(first.response), uff_point_name(other->response)),
                    "export the point and the direction of the fit alone");
       }
     }
     if (std::abs(first.response.direction) > kLastTranslation) {
-      return bad(first.line, fmt::format("a rotation: {}", name_of(first.response)),
+      return bad(first.line, fmt::format("a rotation: {}", uff_point_name(first.response)),
                  "export the response of a displacement to a force");
     }
     if (crosses > 0) {
       notes_.push_back(fmt::format("{} taken, the drive point; {} {} of other points skipped",
-                                   name_of(first.response), crosses,
+                                   uff_point_name(first.response), crosses,
                                    crosses == 1 ? "response" : "responses"));
     }
     if (!first.points_read || !first.reference.stated()) {
@@ -170,7 +161,8 @@ class FrfMaker {
                         (function.response.direction < 0) != (function.reference.direction < 0);
     if (turned) {
       notes_.push_back(fmt::format("response along {} to a force along {}: sign reversed",
-                                   name_of(function.response), name_of(function.reference)));
+                                   uff_point_name(function.response),
+                                   uff_point_name(function.reference)));
     }
     return sampled(function, *hz, turned ? -scale->mm_n : scale->mm_n, scale->order);
   }
@@ -181,7 +173,7 @@ class FrfMaker {
     if (function.points_read && function.response.direction != 0) {
       UffPoint point = function.response;
       point.direction = std::abs(point.direction);
-      frf.point = name_of(point);
+      frf.point = uff_point_name(point);
     }
     double last = -1.0;
     for (std::size_t i = 0; i < function.at.size(); ++i) {
@@ -231,7 +223,7 @@ class FrfMaker {
       }
       const auto unfit = put(coherence, out[i]);
       if (!unfit) {
-        notes_.push_back(fmt::format("coherence of {} read", name_of(coherence.response)));
+        notes_.push_back(fmt::format("coherence of {} read", uff_point_name(coherence.response)));
         return;
       }
       why = *unfit;
@@ -273,7 +265,8 @@ class FrfMaker {
 }  // namespace
 
 Result<std::vector<Frf>> parse_uff58(std::string_view text, const std::string& file) {
-  auto functions = read_uff_functions(text, file);
+  constexpr std::array kFitTypes = {kUffFrequencyResponse, kUffCoherence};
+  auto functions = read_uff_functions(text, file, kFitTypes);
   if (!functions) {
     return std::unexpected(std::move(functions.error()));
   }

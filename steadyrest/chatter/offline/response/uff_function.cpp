@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 #include <utility>
 
@@ -25,7 +26,8 @@ using MaybeRefusal = std::optional<Refusal>;
 
 class FunctionReader {
  public:
-  FunctionReader(std::string_view text, const std::string& file) : lines_(text, file) {}
+  FunctionReader(std::string_view text, const std::string& file, std::span<const int> wanted)
+      : lines_(text, file), wanted_(wanted) {}
 
   Result<std::vector<UffFunction>> read() {
     while (lines_.next()) {
@@ -97,21 +99,24 @@ class FunctionReader {
 
   MaybeRefusal function(const UffForm& form) {
     constexpr int kTitles = 5;
+    UffFunction out;
     for (int i = 0; i < kTitles; ++i) {
       if (!lines_.next()) {
         return lines_.truncated();
       }
+      if (i == 0) {
+        out.title = std::string(uff_columns(lines_.line(), 0, 80));
+      }
     }
-    UffFunction out;
     out.units = units_;
     UffAxis z;
     if (auto fault = identity(out)) {
       return fault;
     }
-    if (out.type != kUffFrequencyResponse && out.type != kUffCoherence) {
+    if (std::ranges::find(wanted_, out.type) == wanted_.end()) {
       return unread(form, std::move(out));
     }
-    auto shape = uff_shape(lines_);
+    auto shape = uff_shape(lines_, out.type == kUffTimeResponse);
     if (!shape) {
       return std::move(shape.error());
     }
@@ -224,6 +229,7 @@ class FunctionReader {
   }
 
   UffLines lines_;
+  std::span<const int> wanted_;
   std::optional<UffUnits> units_;
   std::vector<UffFunction> out_;
 };
@@ -264,9 +270,17 @@ std::string_view uff_type_name(int type) noexcept {
              : std::string_view("unknown kind");
 }
 
-Result<std::vector<UffFunction>> read_uff_functions(std::string_view text,
-                                                    const std::string& file) {
-  return FunctionReader(text, file).read();
+std::string uff_point_name(const UffPoint& point) {
+  constexpr std::array kLetters = {"", "X", "Y", "Z", "RX", "RY", "RZ"};
+  const auto along = static_cast<std::size_t>(std::abs(point.direction));
+  std::string out = point.entity.empty() ? "node " : point.entity + ":";
+  out += fmt::format("{}", point.node);
+  return along == 0 ? out : out + (point.direction < 0 ? " −" : " +") + kLetters.at(along);
+}
+
+Result<std::vector<UffFunction>> read_uff_functions(std::string_view text, const std::string& file,
+                                                    std::span<const int> wanted) {
+  return FunctionReader(text, file, wanted).read();
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -4,6 +4,7 @@
 #include <complex>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,11 +43,13 @@ struct UffUnits {
   double per_n = 1.0;
 };
 
+inline constexpr int kUffTimeResponse = 1;
 inline constexpr int kUffFrequencyResponse = 4;
 inline constexpr int kUffCoherence = 6;
 
 struct UffFunction {
   int type = 0;
+  std::string title;     ///< first of the five ID lines, as written
   std::size_t line = 0;  ///< of its type
   std::size_t end = 0;   ///< last line of its data
   UffPoint response;
@@ -66,9 +69,12 @@ struct UffFunction {
 /// The word for a function type: "coherence".
 [[nodiscard]] std::string_view uff_type_name(int type) noexcept;
 
-/// All functions of the text. Refused by line: a truncated text, VAX and IBM numbers, counts that
-/// the text does not hold, no dataset 58 at all.
+/// `node 1 +X`, `TOOL:1 −Z`.
+[[nodiscard]] std::string uff_point_name(const UffPoint& point);
+
+/// All functions of the text, those of the `wanted` types with their values. Refused by line: a
+/// truncated text, VAX and IBM numbers, counts that the text does not hold, no dataset 58 at all.
 [[nodiscard]] kernel::outcome::Result<std::vector<UffFunction>> read_uff_functions(
-    std::string_view text, const std::string& file);
+    std::string_view text, const std::string& file, std::span<const int> wanted);
 
 }  // namespace steadyrest::chatter::offline

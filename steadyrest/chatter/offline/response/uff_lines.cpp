@@ -11,6 +11,14 @@ namespace steadyrest::chatter::offline {
 
 using kernel::outcome::Refusal;
 
+bool is_universal(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of("\r\n"), text.size()));
+  const std::string_view line = text.substr(0, text.find('\n'));
+  const std::size_t begin = line.find_first_not_of(' ');
+  return begin != std::string_view::npos && line.substr(begin, 2) == "-1" &&
+         line.find_first_not_of(" \r", begin + 2) == std::string_view::npos;
+}
+
 std::string_view uff_trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \r\t");
   if (begin == std::string_view::npos) {

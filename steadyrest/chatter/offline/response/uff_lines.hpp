@@ -41,6 +41,10 @@ class UffLines {
   const std::string& file_;
 };
 
+/// Whether a text is a universal file: its first line, behind blank ones, has −1 in columns 5 and 6
+/// and nothing else.
+[[nodiscard]] bool is_universal(std::string_view text);
+
 [[nodiscard]] std::string_view uff_trimmed(std::string_view text);
 /// The blank-separated words of a line.
 [[nodiscard]] std::vector<std::string_view> uff_words(std::string_view line);

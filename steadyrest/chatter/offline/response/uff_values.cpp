@@ -139,7 +139,7 @@ Result<UffForm> uff_form(std::string_view kind, const UffLines& lines) {
   return out;
 }
 
-Result<UffShape> uff_shape(UffLines& lines) {
+Result<UffShape> uff_shape(UffLines& lines, bool over_time) {
   if (!lines.next()) {
     return std::unexpected(lines.truncated());
   }
@@ -168,7 +168,7 @@ Result<UffShape> uff_shape(UffLines& lines) {
   };
   UffShape out{static_cast<int>(head[0]), static_cast<std::size_t>(head[1]), head[2] == 1, field(3),
                field(4)};
-  if (out.even && !(out.first >= 0.0 && out.step > 0.0)) {
+  if (out.even && !((over_time || out.first >= 0.0) && out.step > 0.0)) {
     return std::unexpected(lines.bad("even abscissa without a first value and a step above 0",
                                      "export the response again"));
   }

@@ -32,7 +32,8 @@ struct UffShape {
 /// Of the line that names the dataset. Refused: VAX and IBM numbers, an unknown byte order.
 [[nodiscard]] kernel::outcome::Result<UffForm> uff_form(std::string_view kind,
                                                         const UffLines& lines);
-[[nodiscard]] kernel::outcome::Result<UffShape> uff_shape(UffLines& lines);
+/// `over_time`: the abscissa may begin before 0, at a trigger.
+[[nodiscard]] kernel::outcome::Result<UffShape> uff_shape(UffLines& lines, bool over_time);
 
 /// Fills in number type, abscissa and values. Refused: fewer numbers than announced, words.
 /// Nothing is reserved that the text does not hold.
