@@ -215,8 +215,8 @@ TEST(ChatterDetect, Refuses) {
   expect_refused(detect(scratch.file("rate.wav", no_rate), " --teeth 2 --speed-rpm 5000"),
                  "0 samples a second; allowed: 1000 … 1000000; record at 1 kHz or more\n");
   expect_refused(detect(scratch.file("text.wav", "t_s,value\n")), "is not RIFF");
-  expect_refused(detect(scratch.file("gap.csv", "t_s,value\n0,1\n0.001,1\n0.002,1\n0.004,1\n")),
-                 "gap.csv:5: t_s advances by 0.002 s");
+  expect_refused(detect(scratch.file("gap.csv", "t_s,value\n0,1\n0.001,1\n0.002,1\n0.0035,1\n")),
+                 "gap.csv:5: t_s advances by 0.0015 s");
   expect_refused(detect(scratch.file("none.csv", "t_s,speed_rpm\n0,1\n")),
                  "none.csv:1: the column value is missing");
   expect_refused(detect(scratch.file("short.csv", "t_s,value,speed_rpm\n0,1,60\n0.001,1,60\n")),

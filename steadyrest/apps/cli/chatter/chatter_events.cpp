@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include <steadyrest/apps/cli/chatter/chatter_events.hpp>
@@ -46,6 +47,32 @@ class Stretch {
   double speeds_rev_s_ = 0.0;
 };
 
+/// The spindle turns on where samples are missing. The detector passes over those and would not see
+/// it turn, so the angle comes from here; without gaps it counts for itself.
+class GapAngle {
+ public:
+  explicit GapAngle(const chatter::offline::RecordedSignal& signal)
+      : signal_(signal),
+        gaps_(std::ranges::any_of(signal.value, unknown) ||
+              std::ranges::any_of(signal.speed_rev_s, unknown)) {}
+
+  /// Once for each sample, in order; NaN: the detector's own.
+  double at(std::size_t i) {
+    const double speed = signal_.speed_rev_s[i];
+    speed_rev_s_ = std::isfinite(speed) ? speed : speed_rev_s_;
+    angle_rev_ += i == 0 ? 0.0 : speed_rev_s_ / signal_.rate_hz;
+    return gaps_ ? angle_rev_ : std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  static bool unknown(double value) { return !std::isfinite(value); }
+
+  const chatter::offline::RecordedSignal& signal_;
+  bool gaps_;
+  double speed_rev_s_ = 0.0;
+  double angle_rev_ = 0.0;
+};
+
 }  // namespace
 
 std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal& signal,
@@ -53,6 +80,7 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   // Samples between two updates of the bar: a few seconds of signal, microseconds of bookkeeping.
   constexpr std::size_t kBetweenUpdates = 65536;
   const std::size_t samples = signal.value.size();
+  GapAngle angle(signal);
   std::vector<ChatterEvent> out;
   std::optional<Stretch> open;
   double t_s = signal.start_s;
@@ -60,8 +88,8 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
     // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new readings;
     // the samples between them repeat the last verdict and must not be counted again.
-    const auto& heard =
-        detector.update({.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i]});
+    const auto& heard = detector.update(
+        {.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i], .angle_rev = angle.at(i)});
     if (heard.fresh && heard.chatter) {
       if (!open) {
         open.emplace(t_s);

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/chatter/detect_channels.hpp>
+#include <steadyrest/chatter/offline/signal/signal_names.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
@@ -21,6 +23,39 @@ using kernel::units::rpm_from_rev_s;
 
 namespace {
 
+std::string list_of(const RecordedChannels& all) {
+  constexpr std::size_t kMostListed = 20;
+  std::vector<std::string> out;
+  for (const RecordedSignal& signal : all) {
+    if (out.size() == kMostListed) {
+      out.emplace_back("…");
+      break;
+    }
+    const std::string name =
+        chatter::offline::shown_name(signal.written.empty() ? signal.name : signal.written);
+    out.push_back(name.empty() ? fmt::format("{}", signal.channel)
+                               : fmt::format("{} {}", signal.channel, name));
+  }
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+/// The channels of a name, as the file writes it, else without its unit; capitals or not.
+std::vector<std::size_t> named(const RecordedChannels& all, const std::string& channel) {
+  const auto same = [&channel](const std::string& name) {
+    return !name.empty() && chatter::offline::same_name(name, channel);
+  };
+  std::vector<std::size_t> whole;
+  std::vector<std::size_t> part;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (same(all[i].written)) {
+      whole.push_back(i);
+    } else if (same(all[i].name) || same(chatter::offline::without_unit(all[i].name))) {
+      part.push_back(i);
+    }
+  }
+  return whole.empty() ? part : whole;
+}
+
 /// Takes out what has no signal.
 std::optional<Refusal> drop_dead(RecordedChannels& channels, const std::string& file,
                                  std::vector<std::string>& notes) {
@@ -32,7 +67,7 @@ std::optional<Refusal> drop_dead(RecordedChannels& channels, const std::string& 
       living.push_back(std::move(signal));
       continue;
     }
-    notes.push_back(fmt::format("channel {} is not judged: {}", signal.channel, dead->what));
+    notes.push_back(fmt::format("channel {} is not judged: {}", channel_label(signal), dead->what));
     if (!first) {
       first = std::move(dead);
     }
@@ -43,21 +78,37 @@ std::optional<Refusal> drop_dead(RecordedChannels& channels, const std::string& 
 
 }  // namespace
 
-Result<RecordedChannels> chosen_channels(RecordedChannels all, std::optional<std::size_t> channel,
+std::string channel_label(const RecordedSignal& signal) {
+  return signal.name.empty() ? fmt::format("{}", signal.channel)
+                             : chatter::offline::shown_name(signal.name);
+}
+
+// A column may be called 2: names come first.
+Result<RecordedChannels> chosen_channels(RecordedChannels all, const std::string& channel,
                                          const std::string& file) {
-  if (!channel) {
+  if (channel.empty()) {
     return all;
   }
-  if (*channel < 1 || *channel > all.size()) {
-    return kernel::outcome::refuse(
-        file,
-        fmt::format("has {} {}; --channel {} is none of them", all.size(),
-                    all.size() == 1 ? "channel" : "channels", *channel),
-        "count channels from 1: 1 is left, 2 right");
+  const auto chosen = [&all](std::size_t at) {
+    RecordedChannels out;
+    out.push_back(std::move(all[at]));
+    return out;
+  };
+  std::vector<std::size_t> found = named(all, channel);
+  if (found.size() == 1) {
+    return chosen(found.front());
   }
-  RecordedChannels out;
-  out.push_back(std::move(all[*channel - 1]));
-  return out;
+  for (const RecordedSignal& signal : all) {
+    if (found.empty() && fmt::format("{}", signal.channel) == channel) {
+      return chosen(signal.channel - 1);
+    }
+  }
+  return kernel::outcome::refuse(
+      file,
+      fmt::format("--channel {} is {} of {}: {}", channel,
+                  found.empty() ? "none" : fmt::format("the name of {}", found.size()), all.size(),
+                  list_of(all)),
+      "give one of these numbers or names, with or without its unit");
 }
 
 // Both at once would leave open which one wins.
@@ -65,12 +116,13 @@ std::optional<Refusal> set_speed(const GivenSpeeds& given, const kernel::machine
                                  const std::string& file, RecordedSignal& signal) {
   std::vector<double>& speed = signal.speed_rev_s;
   if (!speed.empty() && given.speed_rpm) {
-    return bad_input(file, "has a speed_rpm column, and --speed-rpm is given too",
-                     "leave out --speed-rpm");
+    return bad_input(file, fmt::format("has a speed_rpm column, and {} is given too", given.option),
+                     fmt::format("leave out {}", given.option));
   }
   if (speed.empty() && !given.speed_rpm) {
-    return bad_input(file, "has no spindle speed",
-                     "give --speed-rpm N, or a CSV with a speed_rpm column");
+    return bad_input(
+        file, "has no spindle speed",
+        "give --speed-rpm N or --speed-from-name PATTERN, or a CSV with a speed_rpm column");
   }
   // The first margin lets a speed pass that is the spindle's limit to the last digit printed, the
   // second a spindle that overshoots.
@@ -87,11 +139,12 @@ std::optional<Refusal> set_speed(const GivenSpeeds& given, const kernel::machine
   }
   if (given.speed_rpm) {
     if (*given.speed_rpm > most_rpm * kRounding) {
-      return above("--speed-rpm", *given.speed_rpm, {});
+      return above(given.option, *given.speed_rpm, {});
     }
     speed.assign(signal.value.size(), kernel::units::rev_s_from_rpm(*given.speed_rpm));
   }
-  if (const double most = rpm_from_rev_s(std::ranges::max(speed)); most > most_rpm * kOvershoot) {
+  if (const double most = rpm_from_rev_s(chatter::offline::finite_range(speed).most);
+      most > most_rpm * kOvershoot) {
     return above("speed_rpm", most, file);
   }
   // All frequencies are judged by their order (frequency over speed), and at speed 0 there is none.
@@ -119,6 +172,13 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::str
                                    fmt::format("has {} samples; one spectrum needs {}",
                                                channels.front().value.size(), out.window),
                                    "give a longer recording: a few tenths of a second");
+  }
+  for (const RecordedSignal& signal : channels) {
+    for (const std::string& note : signal.notes) {
+      if (std::ranges::find(out.notes, note) == out.notes.end()) {
+        out.notes.push_back(note);
+      }
+    }
   }
   if (auto refusal = drop_dead(channels, file, out.notes)) {
     return std::unexpected(std::move(*refusal));

@@ -15,15 +15,19 @@
 /// Several sensors at one cut: each channel is judged, the cut has one verdict.
 namespace steadyrest::apps::cli {
 
-/// The channel asked for, or all. Refused: a channel that the file does not have.
+/// What people call a channel: its name, else its number.
+[[nodiscard]] std::string channel_label(const chatter::offline::RecordedSignal& signal);
+
+/// The channel asked for by number or name, or all. A name may lack its unit and its capitals.
+/// Refused: a channel that the file does not have, a name that several have.
 [[nodiscard]] kernel::outcome::Result<chatter::offline::RecordedChannels> chosen_channels(
-    chatter::offline::RecordedChannels all, std::optional<std::size_t> channel,
-    const std::string& file);
+    chatter::offline::RecordedChannels all, const std::string& channel, const std::string& file);
 
 /// The speeds of the command line.
 struct GivenSpeeds {
   std::optional<double> speed_rpm;
   std::optional<double> programmed_rpm;
+  const char* option = "--speed-rpm";  ///< where speed_rpm comes from
 };
 
 /// A recording from the machine may contain its speed as a column. Otherwise the operator's number

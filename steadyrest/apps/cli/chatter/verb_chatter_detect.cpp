@@ -8,19 +8,19 @@
 #include <vector>
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
+#include <steadyrest/apps/cli/chatter/detect_answer.hpp>
 #include <steadyrest/apps/cli/chatter/detect_channels.hpp>
 #include <steadyrest/apps/cli/chatter/verb_chatter_detect.hpp>
 #include <steadyrest/apps/cli/shared/log_options.hpp>
 #include <steadyrest/apps/cli/shared/machine_option.hpp>
 #include <steadyrest/apps/cli/shared/report_option.hpp>
-#include <steadyrest/apps/cli/shared/table.hpp>
 #include <steadyrest/apps/page/chatter/detect_page.hpp>
 #include <steadyrest/chatter/offline/plan/planner.hpp>
 #include <steadyrest/chatter/offline/plan/speed_table_of.hpp>
 #include <steadyrest/chatter/offline/process/process_file.hpp>
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
+#include <steadyrest/chatter/offline/signal/signal_speed_name.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -36,7 +36,6 @@ namespace {
 namespace offline = chatter::offline;
 namespace online = chatter::online;
 using kernel::machine::Machine;
-using kernel::units::rpm_from_rev_s;
 
 constexpr double kMostDepthMm = 10.0;  // of the table, where the cut's depth is not given
 
@@ -48,17 +47,14 @@ struct Options {
   std::optional<double> speed_rpm;
   std::optional<double> programmed_rpm;
   std::optional<double> depth_mm;
-  std::optional<std::size_t> channel;
+  std::optional<double> rate_hz;
+  std::string channel;
+  std::string speed_pattern;
   std::string report;
   LogOptions format;
 };
 
-/// A stretch of chatter with the advice for it.
-struct Event : ChatterEvent {
-  online::SpeedTable::Advice advice;
-  std::vector<double> lobes_rpm;      ///< by the frequency alone, where no process is known
-  std::optional<offline::Plan> plan;  ///< where process and depth are known
-};
+using Event = DetectEvent;
 
 /// Combinations and ranges that are wrong whatever the files contain.
 std::optional<Refusal> unfit(const Options& options) {
@@ -68,7 +64,7 @@ std::optional<Refusal> unfit(const Options& options) {
   };
   for (const Given& given :
        {Given{"--speed-rpm", options.speed_rpm}, Given{"--programmed-rpm", options.programmed_rpm},
-        Given{"--depth-mm", options.depth_mm}}) {
+        Given{"--depth-mm", options.depth_mm}, Given{"--rate-hz", options.rate_hz}}) {
     if (given.value && !(*given.value > 0.0 && std::isfinite(*given.value))) {
       return bad_input(fmt::format("{} {} is not above 0", given.option, *given.value),
                        "give a number above 0");
@@ -174,95 +170,6 @@ std::optional<Refusal> advise(const Options& options, const Machine& machine, st
   return std::nullopt;
 }
 
-/// Where the advice comes from, best first: a plan for this very cut, the border alone, the
-/// frequency alone.
-const char* adviser(const Options& options) {
-  return options.process.empty() ? "chatter frequency"
-         : options.depth_mm      ? "planner"
-                                 : "deepest step";
-}
-
-/// The request is neutral when nothing is better; a speed of 0 says so.
-std::string better_words(const Event& event) {
-  const auto& advice = event.advice;
-  if (advice.speed_rev_s > 0.0) {
-    return fmt::format("{:.0f} rpm ({:.4g} %)", rpm_from_rev_s(advice.speed_rev_s),
-                       100.0 * advice.request.ratio);
-  }
-  if (event.plan && event.plan->decision == offline::PlanDecision::law) {
-    const auto& law = event.plan->chosen.modulation;
-    return fmt::format("{} law of ±{:.4g} %, RVF {:.4g}", online::name(law.law), 100.0 * law.rva,
-                       law.rvf);
-  }
-  if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
-    return "none: by the process file the cut is stable";
-  }
-  if (!event.lobes_rpm.empty()) {
-    return fmt::format("unchecked: {:.0f} rpm", fmt::join(event.lobes_rpm, ", "));
-  }
-  return "none";
-}
-
-Answer answer_of(const offline::RecordedChannels& channels, const std::vector<Event>& events,
-                 const Options& options, const std::vector<std::string>& notes) {
-  const offline::RecordedSignal& signal = channels.front();
-  Answer answer;
-  answer.json["advice_by"] = adviser(options);
-  answer.json["events"] = Json::array();
-  Table table({"from", "to", "frequency", "type", "at",
-               options.process.empty() ? "lobes, by the chatter frequency"
-                                       : fmt::format("better speed, by the {}", adviser(options))});
-  for (const Event& event : events) {
-    const auto& advice = event.advice;
-    const bool better = advice.speed_rev_s > 0.0;
-    const double percent = 100.0 * advice.request.ratio;
-    const char* type = event.flip ? "flip" : "hopf";
-    const std::string where = channels.size() > 1
-                                  ? fmt::format(", channel {}", fmt::join(event.channels, ", "))
-                                  : std::string();
-    answer.json["events"].push_back(
-        {{"start_s", event.start_s},
-         {"end_s", event.end_s},
-         {"frequency_hz", event.frequency_hz},
-         {"type", type},
-         {"channels", event.channels},
-         {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
-         {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
-         {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
-         {"lobe_speeds_rpm", event.lobes_rpm},
-         {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}});
-    table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
-               fmt::format("{:.1f} Hz", event.frequency_hz), type,
-               fmt::format("{:.0f} rpm{}", rpm_from_rev_s(event.speed_rev_s), where),
-               better_words(event)});
-  }
-  const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
-  answer.json["seconds"] = length_s;
-  answer.json["sample_rate_hz"] = signal.recorded_hz;
-  answer.json["judged_rate_hz"] = signal.rate_hz;
-  answer.json["channels"] = Json::array();
-  for (const offline::RecordedSignal& channel : channels) {
-    answer.json["channels"].push_back(channel.channel);
-  }
-  answer.json["notes"] = notes;
-  answer.text = events.empty()
-                    ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
-                                  channels.size() > 1
-                                      ? fmt::format(", on none of {} channels", channels.size())
-                                      : std::string())
-                    : table.text();
-  if (options.process.empty() && !events.empty()) {
-    answer.json["notes"].push_back(
-        "the speeds rest on the chatter frequency alone: 60·f/(teeth·k). They lie near the lobes, "
-        "but whether the cut is stable there depends on the tool and the depth; --process FILE "
-        "--depth-mm MM checks that and names a step");
-  }
-  for (const Json& note : answer.json["notes"]) {
-    answer.text += note.get<std::string>() + "\n";
-  }
-  return answer;
-}
-
 /// What the page needs beyond the answer: the recording itself, the teeth for its order lines, and
 /// how far up the spectrogram must go.
 Json page_of(const Json& answer, const Options& options, const Machine& machine,
@@ -290,20 +197,51 @@ const offline::RecordedSignal& shown_channel(const offline::RecordedChannels& ch
   return found == channels.end() ? channels.front() : *found;
 }
 
-/// Reads, listens to each channel, then asks for advice on each stretch.
-Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
-               const std::optional<offline::Process>& process, Progress& progress) {
-  auto read = offline::read_signals(options.signal, format_of(options.format));
+DetectAdviser adviser(const Options& options) {
+  return options.process.empty() ? DetectAdviser::frequency
+         : options.depth_mm      ? DetectAdviser::planner
+                                 : DetectAdviser::step;
+}
+
+/// The channels to be judged, each with its speed; what was assumed is noted.
+Result<offline::RecordedChannels> recording(const Options& options, const Machine& machine,
+                                            std::vector<std::string>& notes) {
+  GivenSpeeds given{options.speed_rpm, options.programmed_rpm};
+  if (!options.speed_pattern.empty()) {
+    const auto rpm = offline::speed_rpm_in_name(options.signal, options.speed_pattern);
+    if (!rpm) {
+      return std::unexpected(rpm.error());
+    }
+    given.speed_rpm = *rpm;
+    given.option = "--speed-from-name";
+    notes.push_back(fmt::format("{:.6g} rpm by the file's name", *rpm));
+  }
+  table::Format format = format_of(options.format);
+  if (options.rate_hz) {
+    format.sample_hz = *options.rate_hz;
+    format.rows_are_samples = true;
+  }
+  auto read = offline::read_signals(options.signal, format);
   auto channels = read ? chosen_channels(std::move(*read), options.channel, options.signal)
                        : std::unexpected(read.error());
   if (!channels) {
-    return refused(channels.error());
+    return channels;
   }
   for (offline::RecordedSignal& signal : *channels) {
-    if (auto refusal = set_speed({options.speed_rpm, options.programmed_rpm}, machine,
-                                 options.signal, signal)) {
-      return refused(*refusal);
+    if (auto refusal = set_speed(given, machine, options.signal, signal)) {
+      return std::unexpected(std::move(*refusal));
     }
+  }
+  return channels;
+}
+
+/// Reads, listens to each channel, then asks for advice on each stretch.
+Outcome detect(const Options& options, const Machine& machine, std::size_t teeth,
+               const std::optional<offline::Process>& process, Progress& progress) {
+  std::vector<std::string> notes;
+  auto channels = recording(options, machine, notes);
+  if (!channels) {
+    return refused(channels.error());
   }
   auto heard = hear(*channels, teeth, options.signal, progress);
   if (!heard) {
@@ -324,7 +262,8 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
       return refused(*refusal);
     }
   }
-  Answer answer = answer_of(*channels, events, options, heard->notes);
+  notes.insert(notes.end(), heard->notes.begin(), heard->notes.end());
+  Answer answer = detect_answer(*channels, events, adviser(options), notes);
   if (!options.report.empty()) {
     put_report(answer, options.report,
                page_of(answer.json, options, machine, shown_channel(*channels, events), teeth,
@@ -361,7 +300,9 @@ Outcome run(const Options& options, Progress& progress) {
 void add_verb_chatter_detect(Session& session, Verb& verb) {
   auto options = std::make_shared<chatter_detect::Options>();
   verb.reads("signal", options->signal,
-             "CSV (t_s, value, optional speed_rpm) or WAV, 1 kHz … 1 MHz")
+             "CSV, WAV or UFF (time responses), 1 kHz … 1 MHz. CSV: a column of times (t_s, "
+             "Time (s) …), if recorded the speed (speed_rpm, n (1/min) …), all others of numbers "
+             "are channels, or the one named value")
       ->required();
   add_machine_option(verb, options->machine);
   CLI::Option* const teeth =
@@ -374,10 +315,19 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
           "the chatter frequency alone names the lobes' speeds")
       ->excludes(teeth);
   verb.also_reads([options] { return chatter::offline::response_files(options->process); });
+  verb.add_option("--rate-hz", options->rate_hz,
+                  "Samples per second, for a CSV without a column of times; its header may be "
+                  "missing too")
+      ->excludes(verb.get_option("--sample-hz"));
   verb.add_option("--channel", options->channel,
-                  "Judge this channel of a WAV alone, from 1 (left); default: all");
-  verb.add_option("--speed-rpm", options->speed_rpm,
-                  "Spindle speed in rev/min, for a signal without a speed_rpm column");
+                  "Judge this channel alone, by its number from 1 or its name; default: all");
+  CLI::Option* const speed =
+      verb.add_option("--speed-rpm", options->speed_rpm,
+                      "Spindle speed in rev/min, for a signal without a column of it");
+  verb.add_option("--speed-from-name", options->speed_pattern,
+                  "The same, from the file's name: {rpm} is the number, * anything, as in "
+                  "S{rpm}_f*.csv")
+      ->excludes(speed);
   verb.add_option("--programmed-rpm", options->programmed_rpm,
                   "Spindle speed at 100 % override; default: the signal's");
   verb.add_option("--depth-mm", options->depth_mm,

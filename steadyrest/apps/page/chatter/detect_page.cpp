@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <steadyrest/apps/page/chatter/detect_page.hpp>
@@ -22,10 +24,36 @@ constexpr double kChatterShown = 2.2;  ///< … and times the chatter's frequenc
 constexpr double kLeastShown_hz = 1000.0;
 
 double shown_hz(const DetectPage& page, const RecordedSignal& signal) {
-  const double tooth_hz = static_cast<double>(page.teeth) * std::ranges::max(signal.speed_rev_s);
+  const double tooth_hz =
+      static_cast<double>(page.teeth) * chatter::offline::finite_range(signal.speed_rev_s).most;
   return std::min(
       0.5 * signal.rate_hz,
       std::max({kTeethShown * tooth_hz, kChatterShown * page.chatter_hz, kLeastShown_hz}));
+}
+
+struct Stretch {
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+  double speed_rev_s = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What was recorded between two samples; NaN where nothing was.
+Stretch stretch_of(const RecordedSignal& signal, std::size_t begin, std::size_t end) {
+  Stretch out;
+  double speeds = 0.0;
+  double known = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    out.low = std::fmin(out.low, signal.value[i]);
+    out.high = std::fmax(out.high, signal.value[i]);
+    if (std::isfinite(signal.speed_rev_s[i])) {
+      speeds += signal.speed_rev_s[i];
+      known += 1.0;
+    }
+  }
+  if (known > 0.0) {
+    out.speed_rev_s = speeds / known;
+  }
+  return out;
 }
 
 /// The signal's extremes and its mean speed within even stretches, of any length of recording.
@@ -38,17 +66,11 @@ Json course_json(const RecordedSignal& signal) {
   const std::size_t stretch = std::max<std::size_t>(1, samples / kCourseStretches);
   for (std::size_t begin = 0; begin < samples; begin += stretch) {
     const std::size_t end = std::min(begin + stretch, samples);
-    const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-    const auto [least, most] =
-        std::minmax_element(signal.value.begin() + at(begin), signal.value.begin() + at(end));
-    double speed = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-      speed += signal.speed_rev_s[i];
-    }
+    const Stretch all = stretch_of(signal, begin, end);
     t_s.push_back(signal.start_s + 0.5 * static_cast<double>(begin + end - 1) / signal.rate_hz);
-    low.push_back(*least);
-    high.push_back(*most);
-    speed_rpm.push_back(rpm_from_rev_s(speed / static_cast<double>(end - begin)));
+    low.push_back(all.low);
+    high.push_back(all.high);
+    speed_rpm.push_back(rpm_from_rev_s(all.speed_rev_s));
   }
   return {{"t_s", short_numbers(t_s)},
           {"low", short_numbers(low)},

@@ -73,8 +73,14 @@ Spectrogram spectrogram(const std::vector<double>& signal, const SpectrogramConf
   std::vector<std::complex<double>> spectrum;
   Eigen::FFT<double> fft;
   for (std::size_t w = 0; w < windows; ++w) {
+    // One missing sample and the whole spectrum is unknown: nothing is shown there.
+    bool whole = true;
     for (std::size_t i = 0; i < n; ++i) {
       piece[i] = signal[w * hop + i] * window[i];
+      whole = whole && std::isfinite(piece[i]);
+    }
+    if (!whole) {
+      continue;
     }
     fft.fwd(spectrum, piece);
     for (std::size_t bin = 0; bin < bins; ++bin) {

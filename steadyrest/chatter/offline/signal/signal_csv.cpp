@@ -1,132 +1,215 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include <steadyrest/chatter/offline/signal/signal_columns.hpp>
+#include <steadyrest/chatter/offline/signal/signal_layout.hpp>
 #include <steadyrest/chatter/offline/signal/signal_parts.hpp>
-#include <steadyrest/kernel/units/convert.hpp>
-#include <steadyrest/table/clock.hpp>
+#include <steadyrest/chatter/offline/signal/signal_times.hpp>
 #include <steadyrest/table/row_reader.hpp>
 
 namespace steadyrest::chatter::offline {
 namespace {
 
-constexpr double kUneven = 0.25;  // of a step
+constexpr double kUnknown_rev_s = std::numeric_limits<double>::quiet_NaN();
 
-/// Snaps a rate that is nearly on a bound to the bound.
-double rate_of(double rate_hz) {
-  return std::clamp(rate_hz, kLeastRateHz, kMostRateHz);
-}
+/// A column of the file as it fills.
+struct Sensor {
+  enum class Kind : std::uint8_t { empty, numbers, words };
+  std::size_t column = 0;
+  Kind kind = Kind::empty;  ///< by its first field that is not empty
+  std::vector<double> value;
+  std::size_t gaps = 0;
+  std::size_t first_gap = 0;  ///< row
+};
 
 class SignalSink final : public table::Sink {
  public:
   explicit SignalSink(const table::Format& format) : format_(format) {}
 
   std::optional<SignalFault> head(const table::Head& head) override {
-    for (const std::string_view name : {"t_s", "value", "speed_rpm"}) {
-      if (auto fault = head.twice(name)) {
-        return fault;
-      }
+    auto columns = columns_of(head, format_);
+    if (!columns) {
+      return columns.error();
     }
-    const auto missing = [](std::string_view name) {
-      return SignalFault{0, fmt::format("the column {} is missing in the header", name),
-                         "name the columns t_s, value and, if recorded, speed_rpm in the first "
-                         "line, or with --columns"};
-    };
-    clock_ = table::Clock::of(head, format_);
-    if (!clock_) {
-      return missing("t_s");
+    columns_ = std::move(*columns);
+    for (const std::size_t column : columns_.signal) {
+      // What is called a value must be one from the first row on.
+      const bool value = head.name[column] == "value";
+      sensors_.push_back({column, value ? Sensor::Kind::numbers : Sensor::Kind::empty, {}, 0, 0});
     }
-    const auto value = head.place("value");
-    if (!value) {
-      return missing("value");
-    }
-    value_ = *value;
-    speed_ = head.place("speed_rpm");
     return std::nullopt;
   }
 
   std::optional<SignalFault> row(const table::Row& row) override {
-    const auto t_s = clock_->seconds(row);
+    const auto t_s = columns_.clock->seconds(row);
     if (!t_s) {
       return t_s.error();
     }
-    const auto value = row.number(value_);
-    if (!value) {
-      return value.error();
+    for (Sensor& sensor : sensors_) {
+      if (auto fault = take_field(row, sensor)) {
+        return fault;
+      }
     }
     time_s_.push_back(*t_s);
     lines_.push_back(row.line());
-    out_.value.push_back(*value);
-    if (speed_) {
-      const auto speed_rpm = row.number(*speed_);
-      if (!speed_rpm) {
-        return speed_rpm.error();
-      }
-      out_.speed_rev_s.push_back(kernel::units::rev_s_from_rpm(std::abs(*speed_rpm)));
-    }
-    return std::nullopt;
+    return columns_.speed ? take_speed(row) : std::nullopt;
   }
 
-  OrFault<RecordedSignal> take() {
-    if (time_s_.size() < 2) {
-      return std::unexpected(SignalFault{0, fmt::format("holds {} samples", time_s_.size()),
-                                         "give a CSV with columns t_s and value, or a WAV"});
+  OrFault<RecordedChannels> take(const SignalLayout& layout) {
+    const std::string& clock = layout.time.empty() ? columns_.time : layout.time;
+    const auto times = even_times(time_s_, lines_, clock);
+    if (!times) {
+      return std::unexpected(times.error());
     }
-    std::vector<double> steps(time_s_.size() - 1);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      steps[i] = time_s_[i + 1] - time_s_[i];
-    }
-    std::vector<double> sorted = steps;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
-    const double median_s = *middle;
-    // A missing sample shifts the phase of every later order and looks like chatter: refused rather
-    // than filled. A few gaps do not move the median step.
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      if (!(steps[i] > 0.0 && std::abs(steps[i] - median_s) <= kUneven * median_s)) {
-        return std::unexpected(SignalFault{
-            lines_[i + 1],
-            fmt::format("t_s advances by {:.6g} s here and by {:.6g} s elsewhere", steps[i],
-                        median_s),
-            "give samples at an even rate with none missing, and t_s with enough digits"});
+    std::vector<std::string> notes = layout.notes;
+    notes.insert(notes.end(), columns_.notes.begin(), columns_.notes.end());
+    notes.insert(notes.end(), times->notes.begin(), times->notes.end());
+    RecordedChannels out;
+    for (Sensor& sensor : sensors_) {
+      const ColumnName& name = columns_.name[sensor.column];
+      if (sensor.kind == Sensor::Kind::numbers) {
+        out.push_back(channel_of(sensor, name, *times));
+        out.back().channel = out.size();
+      } else {
+        notes.push_back(fmt::format("column {} {} and is not read", shown_name(name.written),
+                                    sensor.kind == Sensor::Kind::words ? "has words" : "is empty"));
       }
     }
-    out_.start_s = time_s_.front();
-    // Over the whole record: a single step has only the digits of its stamps.
-    out_.rate_hz = static_cast<double>(steps.size()) / (time_s_.back() - time_s_.front());
-    if (auto fault = unfit_rate(out_.rate_hz)) {
-      if (out_.rate_hz < kLeastRateHz) {
-        fault->to_do += "; t_s is in seconds";
-      }
-      return std::unexpected(std::move(*fault));
+    if (out.empty()) {
+      return std::unexpected(SignalFault{0, "no column beside time and speed has numbers",
+                                         "give a recording with a sensor's readings"});
     }
-    out_.rate_hz = rate_of(out_.rate_hz);
-    return std::move(out_);
+    if (columns_.speed) {
+      hold_speed(*times);
+    }
+    for (RecordedSignal& signal : out) {
+      signal.speed_rev_s = speed_rev_s_;
+      signal.notes.insert(signal.notes.begin(), notes.begin(), notes.end());
+    }
+    return out;
   }
 
  private:
+  std::optional<SignalFault> take_field(const table::Row& row, Sensor& sensor) const {
+    const std::string_view field = row.field(sensor.column);
+    const bool gap = is_gap(field);
+    if (sensor.kind == Sensor::Kind::empty && !gap) {
+      sensor.kind = is_number(field) ? Sensor::Kind::numbers : Sensor::Kind::words;
+    }
+    if (sensor.kind == Sensor::Kind::words) {
+      return std::nullopt;
+    }
+    if (gap) {
+      sensor.first_gap = sensor.gaps++ == 0 ? lines_.size() : sensor.first_gap;
+      sensor.value.push_back(std::numeric_limits<double>::quiet_NaN());
+      return std::nullopt;
+    }
+    const auto value = row.number(sensor.column);
+    if (!value) {
+      return value.error();
+    }
+    sensor.value.push_back(*value);
+    return std::nullopt;
+  }
+
+  std::optional<SignalFault> take_speed(const table::Row& row) {
+    if (is_gap(row.field(*columns_.speed))) {
+      speed_rev_s_.push_back(kUnknown_rev_s);
+      return std::nullopt;
+    }
+    const auto speed = row.number(*columns_.speed);
+    if (!speed) {
+      return speed.error();
+    }
+    speed_rev_s_.push_back(std::abs(*speed) * columns_.speed_rev_s);
+    return std::nullopt;
+  }
+
+  /// A speed is read less often than a vibration: it holds for up to a second.
+  void hold_speed(const EvenTimes& times) {
+    spread(times, speed_rev_s_);
+    const auto longest = static_cast<std::size_t>(times.rate_hz);
+    const auto known =
+        std::ranges::find_if(speed_rev_s_, [](double s) { return std::isfinite(s); });
+    std::size_t since = 0;
+    double last = known != speed_rev_s_.end() &&
+                          static_cast<std::size_t>(known - speed_rev_s_.begin()) <= longest
+                      ? *known
+                      : kUnknown_rev_s;
+    for (double& speed : speed_rev_s_) {
+      since = std::isfinite(speed) ? 0 : since + 1;
+      last = std::isfinite(speed) ? speed : since > longest ? kUnknown_rev_s : last;
+      speed = last;
+    }
+  }
+
+  RecordedSignal channel_of(Sensor& sensor, const ColumnName& name, const EvenTimes& times) const {
+    RecordedSignal out;
+    out.name = name.name;
+    out.unit = name.unit;
+    out.written = name.written;
+    out.rate_hz = times.rate_hz;
+    out.start_s = times.start_s;
+    if (sensor.gaps > 0) {
+      out.notes.push_back(fmt::format(
+          "{}: {} {} no number, the first in line {} ({:.6g} s); nothing is heard there",
+          shown_name(name.written), sensor.gaps, sensor.gaps == 1 ? "sample is" : "samples are",
+          lines_[sensor.first_gap], time_s_[sensor.first_gap]));
+    }
+    spread(times, sensor.value);
+    out.value = std::move(sensor.value);
+    return out;
+  }
+
   const table::Format& format_;
-  std::optional<table::Clock> clock_;
-  std::size_t value_ = 0;
-  std::optional<std::size_t> speed_;
+  SignalColumns columns_;
+  std::vector<Sensor> sensors_;
   std::vector<double> time_s_;
   std::vector<std::size_t> lines_;
-  RecordedSignal out_;
+  std::vector<double> speed_rev_s_;
 };
+
+/// The lines from the head on; those before it keep their numbers.
+std::optional<SignalFault> read_lines(std::string_view text, const SignalLayout& layout,
+                                      table::RowReader& rows) {
+  for (std::size_t line = 1; line <= layout.head_line && !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const bool named = line == layout.head_line && layout.columns.empty();
+    if (auto fault = rows.line(named ? std::string_view(layout.head) : std::string_view())) {
+      return fault;
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return table::read_rows(text, rows);
+}
 
 }  // namespace
 
-OrFault<RecordedSignal> parse_csv_signal(std::string_view text, const table::Format& format) {
-  SignalSink signal(format);
-  table::RowReader rows(format, signal);
-  if (auto fault = table::read_rows(text, rows)) {
+OrFault<RecordedChannels> parse_csv_signals(std::string_view text, const table::Format& format) {
+  auto layout = layout_of(text, format);
+  if (!layout) {
+    return std::unexpected(std::move(layout.error()));
+  }
+  table::Format used = format;
+  if (!layout->columns.empty()) {
+    used.columns = layout->columns;
+  }
+  SignalSink signal(used);
+  table::RowReader rows(used, signal);
+  if (auto fault = read_lines(text, *layout, rows)) {
     return std::unexpected(std::move(*fault));
   }
-  return signal.take();
+  for (const SignalFault& note : rows.notes()) {
+    layout->notes.push_back(fmt::format("line {} {}; {}", note.line, note.what, note.to_do));
+  }
+  return signal.take(*layout);
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <steadyrest/chatter/offline/response/uff_lines.hpp>
 #include <steadyrest/chatter/offline/signal/signal_parts.hpp>
 #include <steadyrest/chatter/offline/signal/signal_rate.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
@@ -24,7 +26,7 @@ constexpr double kRateSlack = 1e-6;  // stamps are rounded
 OrFault<std::string> bytes_of(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return std::unexpected(SignalFault{0, "is a folder", "give a recording as CSV or WAV"});
+    return std::unexpected(SignalFault{0, "is a folder", "give a recording as CSV, WAV or UFF"});
   }
   std::ifstream in(path, std::ios::binary);
   std::string out;
@@ -37,7 +39,7 @@ OrFault<std::string> bytes_of(const std::string& path) {
   }
   if (in.bad() || (!in.eof() && out.size() <= kMaxBytes)) {
     return std::unexpected(
-        SignalFault{0, "cannot be read", "give the path of a recording as CSV or WAV"});
+        SignalFault{0, "cannot be read", "give the path of a recording as CSV, WAV or UFF"});
   }
   return out;
 }
@@ -68,20 +70,41 @@ OrFault<RecordedChannels> parse(std::string_view bytes, const std::string& file,
         0, "is not RIFF: its first bytes are \"" + table::shown(bytes.substr(0, 4)) + "\"",
         "save the recording as WAV (RIFF, PCM)"});
   }
+  if (is_universal(bytes)) {
+    return parse_uff_signals(bytes);
+  }
   if (bytes.find('\0') != std::string_view::npos) {
-    return std::unexpected(
-        SignalFault{0, "is neither text nor RIFF", "give CSV in UTF-8, or WAV (RIFF, PCM)"});
+    return std::unexpected(SignalFault{0, "is neither text nor RIFF",
+                                       "give CSV in UTF-8, WAV (RIFF, PCM) or UFF (dataset 58)"});
   }
-  auto one = parse_csv_signal(bytes, format);
-  if (!one) {
-    return std::unexpected(std::move(one.error()));
+  return parse_csv_signals(bytes, format);
+}
+
+/// The rate that the file has and another that was given: one of them is wrong.
+std::optional<SignalFault> contradicts(const RecordedSignal& signal, const table::Format& format) {
+  constexpr double kSameRate = 0.01;
+  if (!format.rows_are_samples ||
+      std::abs(signal.rate_hz - format.sample_hz) <= kSameRate * signal.rate_hz) {
+    return std::nullopt;
   }
-  RecordedChannels out;
-  out.push_back(std::move(*one));
-  return out;
+  return SignalFault{0,
+                     fmt::format("has {:.6g} samples a second by itself, {:.6g} are given",
+                                 signal.rate_hz, format.sample_hz),
+                     "leave out --rate-hz or --sample-hz"};
 }
 
 }  // namespace
+
+FiniteRange finite_range(const std::vector<double>& values) noexcept {
+  FiniteRange out;
+  for (const double value : values) {
+    if (std::isfinite(value)) {
+      out.least = std::min(out.least, value);
+      out.most = std::max(out.most, value);
+    }
+  }
+  return out;
+}
 
 std::optional<SignalFault> unfit_rate(double rate_hz) {
   if (rate_hz >= kLeastRateHz * (1.0 - kRateSlack) && rate_hz <= kMostRateHz * (1.0 + kRateSlack)) {
@@ -97,6 +120,9 @@ Result<RecordedChannels> parse_signals(std::string_view bytes, const std::string
   auto out = parse(bytes, file, format);
   if (!out) {
     return std::unexpected(refusal_of(std::move(out.error()), file));
+  }
+  if (auto fault = contradicts(out->front(), format)) {
+    return std::unexpected(refusal_of(std::move(*fault), file));
   }
   for (RecordedSignal& signal : *out) {
     reduce_rate(signal);
@@ -115,7 +141,11 @@ Result<RecordedChannels> read_signals(const std::string& path, const table::Form
 std::optional<Refusal> no_signal(const RecordedSignal& signal, const std::string& file) {
   constexpr double kLargest = 1e100;
   constexpr double kSmallest = 1e-100;
-  const auto [least, most] = std::ranges::minmax(signal.value);
+  const auto [least, most] = finite_range(signal.value);
+  if (!(least <= most)) {
+    return bad_input(file, "value is not a number in any sample: no signal",
+                     "check the column, and the sensor's cable");
+  }
   if (least == most) {
     return bad_input(file, fmt::format("value is {:.6g} in every sample: no signal", least),
                      "check the sensor, its supply and the channel that was recorded");

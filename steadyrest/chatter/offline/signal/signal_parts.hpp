@@ -8,7 +8,7 @@
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
 #include <steadyrest/table/text.hpp>
 
-/// The two formats of a recorded signal, and what their readers share.
+/// The three formats of a recorded signal, and what their readers share.
 namespace steadyrest::chatter::offline {
 
 inline constexpr double kLeastRateHz = 1e3;
@@ -21,8 +21,10 @@ using OrFault = std::expected<T, SignalFault>;
 /// A rate that is not read, with room for rounded time stamps.
 [[nodiscard]] std::optional<SignalFault> unfit_rate(double rate_hz);
 
-[[nodiscard]] OrFault<RecordedSignal> parse_csv_signal(std::string_view text,
-                                                       const table::Format& format);
+[[nodiscard]] OrFault<RecordedChannels> parse_csv_signals(std::string_view text,
+                                                          const table::Format& format);
+/// A universal file.
+[[nodiscard]] OrFault<RecordedChannels> parse_uff_signals(std::string_view text);
 /// `bytes` begin with RIFF.
 [[nodiscard]] OrFault<RecordedChannels> parse_wav_signals(std::string_view bytes);
 

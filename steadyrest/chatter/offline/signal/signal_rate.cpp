@@ -46,14 +46,15 @@ void reduce_rate(RecordedSignal& signal) {
   }
   const std::vector<double> half = low_pass(divisor);
   const std::vector<double>& from = signal.value;
-  const auto [least, most] = std::ranges::minmax(from);
+  const auto [least, most] = finite_range(from);
   std::vector<double> value;
   for (std::size_t at = 0; at < from.size(); at += divisor) {
     double sum = half[0] * from[at];
     for (std::size_t j = 1; j < half.size(); ++j) {
       sum += half[j] * (from[at - std::min(j, at)] + from[std::min(at + j, from.size() - 1)]);
     }
-    value.push_back(least == most ? least : sum);  // a dead sensor stays one
+    // A dead sensor stays one. A gap widens by the filter's length.
+    value.push_back(least == most && std::isfinite(sum) ? least : sum);
     if (!signal.speed_rev_s.empty()) {
       signal.speed_rev_s[at / divisor] = signal.speed_rev_s[at];
     }

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -14,12 +15,16 @@ namespace {
 constexpr std::size_t kRiffHead = 12;
 constexpr std::size_t kChunkHead = 8;
 
-std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t size) {
-  std::uint32_t out = 0;
+std::uint64_t little_endian_64(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint64_t out = 0;
   for (std::size_t i = size; i > 0; --i) {
     out = (out << 8U) | static_cast<unsigned char>(bytes[at + i - 1]);
   }
   return out;
+}
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t size) {
+  return static_cast<std::uint32_t>(little_endian_64(bytes, at, size));
 }
 
 struct WavFormat {
@@ -56,11 +61,11 @@ OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t
   out.channels = little_endian(bytes, at + 2, 2);
   out.sample_bytes = bits / 8;
   out.rate_hz = little_endian(bytes, at + 4, 4);
-  const bool pcm = tag == 1 && (bits == 16 || bits == 24 || bits == 32);
-  if (!pcm && !(out.floats && bits == 32)) {
+  const bool pcm = tag == 1 && (bits == 8 || bits == 16 || bits == 24 || bits == 32);
+  if (!pcm && !(out.floats && (bits == 32 || bits == 64))) {
     return std::unexpected(
         SignalFault{0, fmt::format("byte {}: format {} of {} bits is not supported", at, tag, bits),
-                    "save it as 16, 24 or 32-bit PCM, or as 32-bit float"});
+                    "save it as 8, 16, 24 or 32-bit PCM, or as 32 or 64-bit float"});
   }
   if (out.channels == 0 || little_endian(bytes, at + 12, 2) != out.channels * out.sample_bytes) {
     return std::unexpected(
@@ -76,12 +81,36 @@ OrFault<WavFormat> format_of(std::string_view bytes, std::size_t at, std::size_t
 }
 
 double sample_at(std::string_view bytes, std::size_t at, const WavFormat& format) {
+  if (format.sample_bytes == 8) {
+    return std::bit_cast<double>(little_endian_64(bytes, at, 8));
+  }
   const std::uint32_t word = little_endian(bytes, at, format.sample_bytes);
   if (format.floats) {
     return static_cast<double>(std::bit_cast<float>(word));
   }
+  if (format.sample_bytes == 1) {  // the only one without a sign
+    return (static_cast<double>(word) - 128.0) / 128.0;
+  }
   const std::size_t shift = 32 - 8 * format.sample_bytes;  // the sign to the top
   return static_cast<double>(static_cast<std::int32_t>(word << shift)) / 2147483648.0;
+}
+
+/// Floats may be none: gaps, as in text.
+void note_gaps(RecordedSignal& signal) {
+  std::size_t gaps = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < signal.value.size(); ++i) {
+    if (!std::isfinite(signal.value[i])) {
+      first = gaps++ == 0 ? i : first;
+      signal.value[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  if (gaps > 0) {
+    signal.notes.push_back(fmt::format(
+        "channel {}: {} {} no number, the first is number {} ({:.6g} s); nothing is heard there",
+        signal.channel, gaps, gaps == 1 ? "sample is" : "samples are", first + 1,
+        static_cast<double>(first) / signal.rate_hz));
+  }
 }
 
 OrFault<RecordedChannels> samples_of(std::string_view bytes, std::size_t at, std::size_t size,
@@ -106,12 +135,10 @@ OrFault<RecordedChannels> samples_of(std::string_view bytes, std::size_t at, std
     for (std::size_t c = 0; c < out.size(); ++c) {
       const std::size_t place = at + i * frame + c * format.sample_bytes;
       out[c].value[i] = sample_at(bytes, place, format);
-      if (!std::isfinite(out[c].value[i])) {
-        return std::unexpected(
-            SignalFault{0, fmt::format("byte {}: sample {} is not a finite number", place, i + 1),
-                        "fix the recorder"});
-      }
     }
+  }
+  for (RecordedSignal& signal : out) {
+    note_gaps(signal);
   }
   return out;
 }

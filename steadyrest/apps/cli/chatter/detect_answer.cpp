@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <steadyrest/apps/cli/chatter/detect_answer.hpp>
+#include <steadyrest/apps/cli/chatter/detect_channels.hpp>
+#include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/kernel/units/convert.hpp>
+
+namespace steadyrest::apps::cli {
+
+namespace offline = chatter::offline;
+namespace online = chatter::online;
+using kernel::units::rpm_from_rev_s;
+
+namespace {
+
+const char* adviser_name(DetectAdviser by) {
+  return by == DetectAdviser::planner ? "planner"
+         : by == DetectAdviser::step  ? "deepest step"
+                                      : "chatter frequency";
+}
+
+/// The request is neutral when nothing is better; a speed of 0 says so.
+std::string better_words(const DetectEvent& event) {
+  const auto& advice = event.advice;
+  if (advice.speed_rev_s > 0.0) {
+    return fmt::format("{:.0f} rpm ({:.4g} %)", rpm_from_rev_s(advice.speed_rev_s),
+                       100.0 * advice.request.ratio);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::law) {
+    const auto& law = event.plan->chosen.modulation;
+    return fmt::format("{} law of ±{:.4g} %, RVF {:.4g}", online::name(law.law), 100.0 * law.rva,
+                       law.rvf);
+  }
+  if (event.plan && event.plan->decision == offline::PlanDecision::keep) {
+    return "none: by the process file the cut is stable";
+  }
+  if (!event.lobes_rpm.empty()) {
+    return fmt::format("unchecked: {:.0f} rpm", fmt::join(event.lobes_rpm, ", "));
+  }
+  return "none";
+}
+
+/// The channels by their numbers, the names for all of them.
+const offline::RecordedSignal* channel_of(const offline::RecordedChannels& channels,
+                                          std::size_t number) {
+  const auto found = std::ranges::find(channels, number, &offline::RecordedSignal::channel);
+  return found == channels.end() ? nullptr : &*found;
+}
+
+Json name_or_null(const std::string& name) {
+  return name.empty() ? Json(nullptr) : Json(name);
+}
+
+Json names_of(const offline::RecordedChannels& channels, const std::vector<std::size_t>& numbers) {
+  Json out = Json::array();
+  for (const std::size_t number : numbers) {
+    const auto* const channel = channel_of(channels, number);
+    out.push_back(name_or_null(channel == nullptr ? std::string() : channel->name));
+  }
+  return out;
+}
+
+std::string labels_of(const offline::RecordedChannels& channels,
+                      const std::vector<std::size_t>& numbers) {
+  std::vector<std::string> out;
+  for (const std::size_t number : numbers) {
+    const auto* const channel = channel_of(channels, number);
+    out.push_back(channel == nullptr ? fmt::format("{}", number) : channel_label(*channel));
+  }
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+Json event_json(const offline::RecordedChannels& channels, const DetectEvent& event) {
+  const auto& advice = event.advice;
+  const bool better = advice.speed_rev_s > 0.0;
+  const double percent = 100.0 * advice.request.ratio;
+  return {{"start_s", event.start_s},
+          {"end_s", event.end_s},
+          {"frequency_hz", event.frequency_hz},
+          {"type", event.flip ? "flip" : "hopf"},
+          {"channels", event.channels},
+          {"channel_names", names_of(channels, event.channels)},
+          {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
+          {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
+          {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
+          {"lobe_speeds_rpm", event.lobes_rpm},
+          {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}};
+}
+
+void add_recording(const offline::RecordedChannels& channels, Json& json) {
+  const offline::RecordedSignal& signal = channels.front();
+  json["seconds"] = static_cast<double>(signal.value.size()) / signal.rate_hz;
+  json["sample_rate_hz"] = signal.recorded_hz;
+  json["judged_rate_hz"] = signal.rate_hz;
+  for (const char* key : {"channels", "channel_names", "channel_units"}) {
+    json[key] = Json::array();
+  }
+  for (const offline::RecordedSignal& channel : channels) {
+    json["channels"].push_back(channel.channel);
+    json["channel_names"].push_back(name_or_null(channel.name));
+    json["channel_units"].push_back(name_or_null(channel.unit));
+  }
+}
+
+}  // namespace
+
+Answer detect_answer(const offline::RecordedChannels& channels,
+                     const std::vector<DetectEvent>& events, DetectAdviser by,
+                     const std::vector<std::string>& notes) {
+  const offline::RecordedSignal& signal = channels.front();
+  Answer answer;
+  answer.json["advice_by"] = adviser_name(by);
+  answer.json["events"] = Json::array();
+  Table table({"from", "to", "frequency", "type", "at",
+               by == DetectAdviser::frequency
+                   ? "lobes, by the chatter frequency"
+                   : fmt::format("better speed, by the {}", adviser_name(by))});
+  // A file with one `value` has nothing to tell apart.
+  const std::string& only = channels.front().name;
+  const bool named = channels.size() > 1 || (!only.empty() && only != "value");
+  for (const DetectEvent& event : events) {
+    answer.json["events"].push_back(event_json(channels, event));
+    const std::string where =
+        named ? ", channel " + labels_of(channels, event.channels) : std::string();
+    table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
+               fmt::format("{:.1f} Hz", event.frequency_hz), event.flip ? "flip" : "hopf",
+               fmt::format("{:.0f} rpm{}", rpm_from_rev_s(event.speed_rev_s), where),
+               better_words(event)});
+  }
+  const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
+  add_recording(channels, answer.json);
+  answer.json["notes"] = notes;
+  answer.text = events.empty()
+                    ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
+                                  channels.size() > 1
+                                      ? fmt::format(", on none of {} channels", channels.size())
+                                      : std::string())
+                    : table.text();
+  if (by == DetectAdviser::frequency && !events.empty()) {
+    answer.json["notes"].push_back(
+        "the speeds rest on the chatter frequency alone: 60·f/(teeth·k). They lie near the lobes, "
+        "but whether the cut is stable there depends on the tool and the depth; --process FILE "
+        "--depth-mm MM checks that and names a step");
+  }
+  for (const Json& note : answer.json["notes"]) {
+    answer.text += note.get<std::string>() + "\n";
+  }
+  return answer;
+}
+
+}  // namespace steadyrest::apps::cli
