@@ -3,11 +3,13 @@
 #include <utility>
 
 #include <steadyrest/chatter/online/better_speed.hpp>
-#include <steadyrest/chatter/online/detector_refusal.hpp>
+#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
 
+constexpr double kFallen = 0.7;  // of the lines' energy
+constexpr double kPause = 10.0;
 constexpr double kSameSpeed = 0.01;  // rounding of S words; override steps are 5 % apart
 
 }  // namespace
@@ -41,6 +43,7 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
     state_.programmed_rev_s = input.programmed_rev_s;
     state_.out.request = {};
     state_.answer = kernel::outcome::Reason::none;
+    state_.gave_up = false;
   }
   const bool before = state_.out.chatter;
   const auto& heard = state_.detector.update(
@@ -53,31 +56,38 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   state_.since_asked += 1.0;
   // At once when chatter begins, then at intervals: the frequency moves with the speed, and another
   // step may help where the first did not.
-  if (state_.out.chatter && (!before || state_.since_asked >= again_samples_)) {
-    ask(input);
+  state_.gave_up = state_.gave_up && state_.since_asked < kPause * again_samples_;
+  if (state_.out.chatter && !state_.gave_up && (!before || state_.since_asked >= again_samples_)) {
+    ask(input, heard.line_energy);
   }
   const bool answered = state_.answer != kernel::outcome::Reason::none;
   state_.out.reason = answered ? state_.answer : heard.reason;
   return state_.out;
 }
 
-void BetterSpeed::ask(const Input& input) noexcept {
+void BetterSpeed::ask(const Input& input, double line_energy) noexcept {
   state_.since_asked = 0.0;
   const SpeedTable::Advice advice = table_.ask({.programmed_rev_s = input.programmed_rev_s,
                                                 .ratio = input.ratio,
                                                 .depth_mm = input.depth_mm,
                                                 .frequency_hz = state_.out.frequency_hz});
   state_.answer = advice.reason;
-  // No better step: the last request stays. Dropping it would lead back to a speed that chattered.
   if (advice.speed_rev_s > 0.0) {
     state_.out.request = advice.request;
+    state_.line_energy = line_energy;
+  } else if (line_energy > kFallen * state_.line_energy) {
+    // Both speeds chatter, so the operator's own is as good. A step that has taken something away
+    // stays.
+    state_.gave_up = state_.out.request.ratio != 1.0;
+    state_.out.request = {};
   }
 }
 
 void BetterSpeed::reset() noexcept {
   state_.detector.reset();
-  state_.programmed_rev_s = state_.since_asked = 0.0;
+  state_.programmed_rev_s = state_.since_asked = state_.line_energy = 0.0;
   state_.answer = kernel::outcome::Reason::none;
+  state_.gave_up = false;
   state_.out = {};
 }
 

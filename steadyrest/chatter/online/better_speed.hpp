@@ -18,9 +18,10 @@ namespace steadyrest::chatter::online {
 /// Law. When chatter begins, and again every `again_s` while it lasts, the table is queried from
 /// the ratio in force; its answer is requested from then on. An answer stays after the chatter is
 /// over, because the old speed would chatter again; it is dropped by `reset` or when the programmed
-/// speed changes by more than 1 % (another cut). Where no step is better, the request stays the
-/// same and `reason` is chatter_no_better_speed. Without chatter or an answer the request is
-/// neutral.
+/// speed changes by more than 1 % (another cut). A step that leaves more than kFallen of the lines'
+/// energy has not helped: where no other is better, it is taken back, and nothing is asked for
+/// during ten times `again_s`. Where no step is better,
+/// `reason` is chatter_no_better_speed. Without chatter or an answer the request is neutral.
 ///
 /// Cost: Detector and SpeedTable::ask, one answer per sample, no allocation.
 class BetterSpeed {
@@ -55,6 +56,8 @@ class BetterSpeed {
     Detector detector;  ///< a value: a copy continues as the original would
     double programmed_rev_s = 0.0;
     double since_asked = 0.0;  ///< samples
+    double line_energy = 0.0;  ///< as the present step was asked for
+    bool gave_up = false;      ///< a step was taken back
     kernel::outcome::Reason answer = kernel::outcome::Reason::none;
     Output out;
   };
@@ -74,7 +77,7 @@ class BetterSpeed {
 
  private:
   BetterSpeed(const Config& config, Detector detector, SpeedTable table);
-  void ask(const Input& input) noexcept;
+  void ask(const Input& input, double line_energy) noexcept;
 
   double again_samples_;
   double threshold_;

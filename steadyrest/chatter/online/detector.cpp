@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <steadyrest/chatter/online/detector.hpp>
-#include <steadyrest/chatter/online/detector_refusal.hpp>
+#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // A sample passes the order filter, the once-per-revolution check and the energies; the filter's
@@ -19,8 +19,8 @@
 //   any speed       F − bound, summed up, never below 0 ───────────────── evidence ≥ enough() ┴ on
 //   over            R < off, or F < half of free while the speed moves, for a whole window
 //
-// floor and bound are the levels of this cut so far: learn(), free_bound(). While a line is
-// suspicious, for at most two seconds, `hold` keeps the order filter from learning it as forced.
+// floor and bound: CutLevels. While a line is suspicious `hold` keeps it from being learnt as
+// forced.
 namespace steadyrest::chatter::online {
 
 using kernel::outcome::Reason;
@@ -35,9 +35,8 @@ constexpr double kSteady = 0.003;   // relative spread of the speed that still c
 constexpr double kGuardBins = 1.5;  // half width of a line in the spectrum
 constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap
 constexpr double kJump = 4.0;       // in the tooth orders' energy: the tool enters or leaves
-constexpr double kFirstJump =
-    2.5;                          // the same, of the first cut: air has no tooth orders that sweep
-constexpr double kAllJump = 2.5;  // in the whole signal's energy
+constexpr double kFirstJump = 2.5;  // the same from air, which has no tooth orders that sweep
+constexpr double kAllJump = 2.5;    // in the whole signal's energy
 constexpr double kNoiseJump = 7.0;  // the same into the first cut, over the noise's own spread
 constexpr double kSlowRev = 20.0;   // memory of the energy that a jump is measured against
 constexpr double kWitnessShare = 0.25;
@@ -48,9 +47,6 @@ constexpr double kFreeNoise = 2.0;    // the noise's spread
 constexpr double kFreeSteady = 0.05;  // of a line that the energy ratio finds suspect
 constexpr double kFreeSure = 0.25;    // at constant speed chatter without the other witnesses
 constexpr double kFreeMargin = 1.2;   // over what the cut has shown
-constexpr double kFreeLearnS = 0.5;
-constexpr double kFreeRiseS = 0.13;
-constexpr double kFreeFallS = 30.0;
 constexpr double kFreeOff = 0.5;
 constexpr double kEvidenceStep = 0.2;  // most that one spectrum gives
 constexpr double kEvidenceFall = 0.1;  // most that one spectrum takes
@@ -59,9 +55,13 @@ constexpr double kLaterS = 0.17;  // a cut stable this long is trusted more
 constexpr double kLaterEvidence = 0.45;
 constexpr double kLaterBound = 1.5;
 constexpr double kLongestHoldS = 2.0;
-constexpr double kFloorRiseS = 0.5;
-constexpr double kFloorFallS = 2.0;
 constexpr double kHop = 1.0 / 8.0;  // of the window, between spectra
+constexpr double kSameTeeth = 1.3;  // energy of the tooth orders, now over lately
+constexpr std::size_t kGateOrders = 64;
+constexpr double kRingPeriods = 30.0;  // at a damping of 3 % nothing is left
+constexpr double kLowHz = 300.0;
+constexpr double kFoldsRev = 20.0;  // until the folds that a cut has are learnt
+constexpr double kProvedS = 0.2;    // a line that its phase has shown to be no order for so long
 
 }  // namespace
 
@@ -74,14 +74,16 @@ kernel::outcome::Result<Detector> Detector::make(const Config& config) {
   if (!(config.line_ratio >= 10.0 && config.margin >= 1.0 && config.confirm >= 1)) {
     return refuse_detector("line ratio below 10, margin or confirmations below 1");
   }
-  if (!(config.least_energy >= 0.0 && config.learn_s >= 0.0 && config.settle_rev >= 0.0)) {
-    return refuse_detector("an energy or a time is negative");
+  if (!(config.least_energy >= 0.0 && config.learn_s >= 0.0 && config.settle_rev >= 0.0 &&
+        config.speed_sd >= 0.0 && config.speed_sd <= 0.02)) {
+    return refuse_detector("an energy or a time is negative, or speed_sd is not within 0…0.02");
   }
   auto filter = OrderFilter::make({.sample_rate_hz = config.sample_rate_hz,
                                    .teeth = config.teeth,
                                    .tooth_harmonics = config.tooth_harmonics,
                                    .spindle_harmonics = config.spindle_harmonics,
-                                   .moving_memory_rev = config.moving_memory_rev});
+                                   .moving_memory_rev = config.moving_memory_rev,
+                                   .folds = config.folds});
   if (!filter) {
     return std::unexpected(filter.error());
   }
@@ -102,12 +104,23 @@ Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectr
     : config_(config),
       filter_(std::move(filter)),
       spectrum_(std::move(spectrum)),
-      share_(std::move(share)) {}
+      share_(std::move(share)),
+      sensor_(config.sample_rate_hz),
+      track_(config.speed_sd, filter_.orders().size()),
+      gate_({.sample_rate_hz = config.sample_rate_hz,
+             .bin_hz = spectrum_.resolution_hz(),
+             .teeth = config.teeth,
+             .orders = std::max<std::size_t>(kGateOrders, config.spindle_harmonics),
+             .tooth_orders = config.tooth_harmonics,
+             .folds = config.folds}) {}
+
+double Detector::speed_of(const Input& input) const noexcept {
+  return std::isnan(input.angle_rev) ? track_.ratio() * input.speed_rev_s : input.speed_rev_s;
+}
 
 const Detector::Output& Detector::update(const Input& input) noexcept {
   out_.fresh = false;
-  if (!std::isfinite(input.value) || !std::isfinite(input.speed_rev_s) ||
-      std::isinf(input.angle_rev)) {
+  if (!std::isfinite(input.speed_rev_s) || std::isinf(input.angle_rev)) {
     out_.reason = Reason::input_not_finite;
     return out_;
   }
@@ -118,14 +131,21 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
     return out_;
   }
   follow_speed(input);
-  // First of all: the spectrum and the energies use the filter's residual.
+  const double speed_rev_s = speed_of(input);
+  const bool gap = sensor_.update(input.value);
+  out_.reason = !std::isfinite(input.value) ? Reason::input_not_finite : state_.reason;
   const OrderFilter::Output forced =
-      filter_.update(input.value, state_.angle_rev, input.speed_rev_s,
-                     state_.speed_spread >= kSteady, state_.hold);
+      filter_.update(gap ? std::numeric_limits<double>::quiet_NaN() : input.value, state_.angle_rev,
+                     speed_rev_s, state_.speed_spread >= kSteady, state_.hold);
+  const double value = gap ? forced.estimate : input.value;
+  if (std::isnan(input.angle_rev) && state_.speed_spread < kSteady) {
+    track_.update(filter_, state_.angle_rev, speed_rev_s, config_.sample_rate_hz,
+                  state_.residual_energy);
+  }
   out_.residual = forced.residual;
-  revolution_ = spread_.update(input.value - forced.mean, state_.angle_rev);
-  follow_energy(forced, input.value - forced.mean, turn_share);
-  // What the filter has not learnt yet is not a line.
+  revolution_ = spread_.update(value - forced.mean, state_.angle_rev);
+  follow_energy(forced, value - forced.mean, turn_share);
+  // What the filter has not learnt is no line.
   const double shown = state_.settled_rev > kLearnRev ? forced.residual : 0.0;
   const double tooth_hz = static_cast<double>(config_.teeth) * state_.mean_speed_rev_s;
   const bool gaps = tooth_hz > kWideBins * spectrum_.resolution_hz();
@@ -134,33 +154,48 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   // is wide, nothing would remain, and while the speed moves they sweep.
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
   // A spectrum that finds FreeShare still busy is dropped: the next comes 13 ms later.
-  if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz);
-      lines.fresh && !share_.busy()) {
-    lines_ = lines;
-    share_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
+  if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz); lines.fresh) {
+    const OrderGate::Output& line =
+        gate_.look({.frequency_hz = lines.frequency_hz,
+                    .advance_turns = lines.advance_turns,
+                    .seconds = lines.advance_s,
+                    .energy = lines.line_energy},
+                   {.orders = filter_.orders(),
+                    .learning = state_.settled_rev < kFoldsRev,
+                    .clipped = sensor_.clips()},
+                   state_.mean_speed_rev_s, std::isnan(input.angle_rev) ? track_.sd() : 0.0);
+    if (!share_.busy()) {
+      lines_ = lines;
+      line_ = line;
+      share_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
+    }
   }
-  if (const auto& share = share_.update(input.value, state_.angle_rev); share.fresh) {
+  if (const auto& share = share_.update(value, state_.angle_rev); share.fresh) {
     judge(lines_, share);
   }
   return out_;
 }
 
 void Detector::follow_speed(const Input& input) noexcept {
+  const double speed_rev_s = speed_of(input);
   if (!state_.started) {
     state_.started = true;
-    state_.mean_speed_rev_s = input.speed_rev_s;
+    state_.mean_speed_rev_s = speed_rev_s;
+    state_.told_rev_s = input.speed_rev_s;
     state_.angle_rev = std::isnan(input.angle_rev) ? 0.0 : input.angle_rev;
   } else if (std::isnan(input.angle_rev)) {
     // Without an angle the speed is integrated. The error only turns all orders together, slowly,
     // and the filter follows.
-    state_.angle_rev += input.speed_rev_s / config_.sample_rate_hz;
+    state_.angle_rev += speed_rev_s / config_.sample_rate_hz;
   } else {
     state_.angle_rev = input.angle_rev;
   }
   // Memory of half a window: mean and spread match what the spectrum sees.
   const double keep = 2.0 / static_cast<double>(spectrum_.length());
-  state_.mean_speed_rev_s += keep * (input.speed_rev_s - state_.mean_speed_rev_s);
-  const double off = std::abs(input.speed_rev_s / state_.mean_speed_rev_s - 1.0);
+  state_.mean_speed_rev_s += keep * (speed_rev_s - state_.mean_speed_rev_s);
+  // What is told moves or does not; what the orders add is no modulation.
+  state_.told_rev_s += keep * (input.speed_rev_s - state_.told_rev_s);
+  const double off = std::abs(input.speed_rev_s / state_.told_rev_s - 1.0);
   state_.speed_spread += keep * (off - state_.speed_spread);
 }
 
@@ -197,10 +232,21 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
     filter_.open(state_.speed_spread >= kSteady);
     state_.settled_rev = 0.0;
     state_.settled = 0;
-    state_.judged_s = 0.0;
-    state_.floor_energy = 0.0;
-    state_.floor_free = 0.0;
+    levels_.begin();
   }
+}
+
+/// Period doubling that runout cannot give: what is at half tooth orders has grown beyond all that
+/// this cut has shown, while the teeth's own orders have stayed as they were.
+bool Detector::doubles(double line_energy) const noexcept {
+  const auto teeth = static_cast<double>(config_.teeth);
+  const bool half = std::fmod(2.0 * out_.line.order, teeth) == 0.0 &&
+                    std::fmod(out_.line.order, teeth) != 0.0 && !out_.line.folded;
+  const double changed = state_.tooth_energy / std::max(state_.slow_energy, 1e-300);
+  return half && levels_.judged_s() > config_.learn_s &&
+         line_energy > config_.margin * levels_.line_energy() &&
+         out_.energy_ratio > config_.sure_ratio && changed > 1.0 / kSameTeeth &&
+         changed < kSameTeeth;
 }
 
 bool Detector::witnessed(double line_energy, double order) const noexcept {
@@ -226,6 +272,8 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   const double all = lines.line_energy + state_.forced_energy;
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
+  out_.line = line_;
+  out_.line_energy = lines.line_energy;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
   // Two fits, by tooth orders and by all spindle orders; the smaller residual counts. Any fit
   // leaves noise, so twice its expected share is subtracted first.
@@ -239,9 +287,15 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
                           : 0.0;
   const bool cuts = all > config_.least_energy;
   const bool settled = state_.settled_rev > config_.settle_rev;
-  state_.judged_s += settled ? hop_s : 0.0;
-  const bool strong = cuts && settled && lines.peak_ratio > config_.line_ratio;
-  const bool line = strong && (!steady || lasts(lines) || state_.evidence > 0.0);
+  levels_.judge(settled ? hop_s : 0.0);
+  // What the tool's entry has struck rings; below, FreeShare takes its own image for free.
+  const bool rung =
+      lines.frequency_hz > kLowHz || static_cast<double>(state_.settled) * lines.frequency_hz >
+                                         kRingPeriods * config_.sample_rate_hz;
+  const bool strong = cuts && settled && rung && lines.peak_ratio > config_.line_ratio;
+  // Vibration at an order of the spindle is forced, whatever its course.
+  state_.forced = steady && out_.line.forced && !doubles(lines.line_energy);
+  const bool line = strong && !state_.forced && (!steady || lasts(lines) || state_.evidence > 0.0);
   // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide like a few
   // strong ones, and a single spectrum, which gives at most 0.2, never does.
   const double over =
@@ -258,18 +312,22 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
       suspicious && state_.held_s < kLongestHoldS && (!out_.chatter || out_.kind == Kind::flip);
   state_.suspects = suspect ? state_.suspects + 1 : state_.suspects - std::min(state_.suspects, 1U);
   if (settled && !out_.chatter) {
-    learn(lines.line_energy, suspect);
+    levels_.learn(
+        {.line_energy = lines.line_energy, .free_ratio = out_.free_ratio, .suspect = suspect},
+        hop_s);
   }
-  // Hysteresis plus a whole window of quiet: one spectrum between two bursts does not end chatter.
+  // One spectrum between two bursts does not end chatter.
   const bool below = steady ? out_.energy_ratio < config_.off_ratio
                             : out_.free_ratio < kFreeOff * config_.free_ratio;
   state_.quiet = below || !line ? state_.quiet + 1 : 0;
   decide(steady);
   name(lines, line, cuts);
+  out_.speed_rev_s = state_.mean_speed_rev_s;
+  out_.speed_sd = track_.sd();
 }
 
 void Detector::decide(bool steady) noexcept {
-  if (!out_.chatter &&
+  if (!out_.chatter && !state_.forced &&
       (state_.evidence >= enough() || (steady && state_.suspects >= config_.confirm))) {
     out_.chatter = true;
     state_.quiet = 0;
@@ -277,9 +335,7 @@ void Detector::decide(bool steady) noexcept {
     out_.chatter = false;
     state_.suspects = 0;
     state_.evidence = 0.0;
-    state_.judged_s = 0.0;
-    state_.floor_energy = 0.0;
-    state_.floor_free = 0.0;
+    levels_.begin();
   }
 }
 
@@ -291,9 +347,10 @@ void Detector::name(const LineSpectrum::Output& lines, bool line, bool cuts) noe
     out_.frequency_hz = line ? lines.frequency_hz : 0.0;
     out_.kind = cuts && state_.forced_energy > lines.noise_energy ? Kind::forced : Kind::none;
   }
-  out_.reason = out_.chatter ? Reason::chatter_detected
-                : !cuts      ? Reason::not_cutting
-                             : Reason::none;
+  state_.reason = out_.chatter ? Reason::chatter_detected
+                  : !cuts      ? Reason::not_cutting
+                               : Reason::none;
+  out_.reason = state_.reason;
 }
 
 /// The line is still in the last revolution, and the second check does not contradict it.
@@ -304,18 +361,17 @@ bool Detector::lasts(const LineSpectrum::Output& lines) const noexcept {
 
 bool Detector::suspect_steady(const LineSpectrum::Output& lines,
                               const FreeShare::Output& share) const noexcept {
-  const bool grown =
-      state_.judged_s > config_.learn_s && lines.line_energy > config_.margin * state_.floor_energy;
+  const bool grown = levels_.judged_s() > config_.learn_s &&
+                     lines.line_energy > config_.margin * levels_.line_energy();
   return (out_.energy_ratio > config_.sure_ratio ||
           (out_.energy_ratio > config_.on_ratio && grown)) &&
-         (!share.known || out_.free_ratio > kFreeSteady);
+         (!share.known || out_.free_ratio > kFreeSteady || out_.line.followed_s > kProvedS);
 }
 
-/// Levels that the cut has shown so far count as normal for it.
 double Detector::free_bound() const noexcept {
   // Even a stable cut has some free ratio, from noise or slow ringing; only more than that counts.
   const double least = state_.speed_spread < kSteady ? kFreeSure : config_.free_ratio;
-  return std::max(later() ? kLaterBound * least : least, kFreeMargin * state_.floor_free);
+  return std::max(later() ? kLaterBound * least : least, kFreeMargin * levels_.free_ratio());
 }
 
 bool Detector::later() const noexcept {
@@ -326,28 +382,17 @@ double Detector::enough() const noexcept {
   return later() ? kLaterEvidence : kEvidence;
 }
 
-void Detector::learn(double line_energy, bool suspect) noexcept {
-  const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
-  const double rise = out_.free_ratio - state_.floor_free;
-  const double free_s = rise > 0.0 ? kFreeRiseS : kFreeFallS;
-  // Quick up, slow down: a stable cut may repeat any level it has shown once.
-  state_.floor_free += state_.judged_s > kFreeLearnS ? std::min(hop_s / free_s, 1.0) * rise : 0.0;
-  if (suspect) {
-    return;
-  }
-  const double memory_s = line_energy > state_.floor_energy ? kFloorRiseS : kFloorFallS;
-  // The first judgements are averaged with equal weight.
-  const double weight = std::max(hop_s / memory_s, hop_s / std::max(state_.judged_s, hop_s));
-  state_.floor_energy += std::min(weight, 1.0) * (line_energy - state_.floor_energy);
-}
-
 void Detector::reset() noexcept {
   filter_.reset();
   spectrum_.reset();
   share_.reset();
   lines_ = {};
+  sensor_.reset();
+  track_.reset();
+  gate_.reset();
   spread_.reset();
   revolution_ = {};
+  levels_.begin();
   state_ = {};
   out_ = {};
 }

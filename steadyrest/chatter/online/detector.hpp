@@ -5,10 +5,14 @@
 #include <cstdint>
 #include <limits>
 
+#include <steadyrest/chatter/online/cut_levels.hpp>
 #include <steadyrest/chatter/online/free_share.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
-#include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/chatter/online/orders/order_filter.hpp>
+#include <steadyrest/chatter/online/orders/order_gate.hpp>
+#include <steadyrest/chatter/online/orders/spindle_track.hpp>
 #include <steadyrest/chatter/online/revolution_spread.hpp>
+#include <steadyrest/chatter/online/sensor_faults.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
 
@@ -32,16 +36,23 @@ namespace steadyrest::chatter::online {
 ///   (learnt while nothing is suspect, from `learn_s` on), in `confirm` spectra, minus those in
 ///   between that were not; unless F is below 0.05, the last revolution has less than 70 % of the
 ///   line (it dies away), or the revolution's spread is below a quarter of what a line of this
-///   order and energy gives.
-/// Chatter is over once R (while the speed moves, F) has been below `off_ratio` (half of
-/// `free_ratio`) for a whole window. For `settle_rev` revolutions after a jump of the signal's
-/// energy (the tool enters; from air, a jump of seven times the spread of the noise energy counts,
-/// so that noise as loud as the cut does not hide it) nothing is judged.
+///   order and energy gives; a line whose phase has shown for 0.2 s that it is no order needs no F.
+/// Vibration at an order of the spindle is forced: at constant speed a strongest line that
+/// OrderGate does not tell from an order, or the fold of one, is never chatter, with one exception.
+/// Period doubling, at half tooth orders, is claimed where the line stands `margin` times above all
+/// that the cut has shown and R above `sure_ratio`, while the energy of the tooth orders is what it
+/// was lately (within a factor of 1.3): runout grows with the engagement, and so do they. The speed
+/// is that of SpindleTrack where it is not exact (`speed_sd`). Chatter is over once R (while the
+/// speed moves, F) has been below `off_ratio` (half of `free_ratio`) for a whole window. For
+/// `settle_rev` revolutions after a jump of the signal's energy (the tool enters; from air, a jump
+/// of seven times the spread of the noise energy counts, so that noise as loud as the cut does not
+/// hide it) nothing is judged, and below 300 Hz for 30 periods of the line: what the entry has
+/// struck rings.
 ///
 /// The frequency is that of the residual's strongest line; see LineSpectrum for its accuracy. Flip:
 /// within a line's width of a half-odd tooth order; lines there are learnt as forced only in
 /// OrderFilter's long memory. Otherwise Hopf. With an even number of teeth, flip chatter present
-/// from the first tooth cannot be told from runout.
+/// from the first tooth cannot be told from runout and counts as runout.
 ///
 /// Source: Caliskan, Kilic, Altintas 2018 (Kalman filter, energy ratio); Zhao 2019 (once a
 /// revolution).
@@ -65,6 +76,8 @@ class Detector {
     double settle_rev = 3.0;             ///< ≥ 0
     unsigned confirm = 2;                ///< ≥ 1
     double moving_memory_rev = 0.7;      ///< of the tooth orders while the speed moves, OrderFilter
+    double speed_sd = 0.0;  ///< of the speed that is told, relative, 0 … 0.02; 0: it is exact
+    bool folds = false;     ///< the sensor has no filter before the samples: orders fold
   };
 
   struct Input {
@@ -90,17 +103,25 @@ class Detector {
     double free_ratio = 0.0;    ///< 0 … 1, the free share of it; 0 while not known
     double spread_ratio = 0.0;  ///< 0 … 2, RevolutionSpread; 0 while not known
     double residual = 0.0;      ///< the signal minus the forced vibration
+    OrderGate::Output line;     ///< the strongest line and the order nearest to it
+    double line_energy = 0.0;   ///< of all lines, unit²
+    double speed_rev_s = 0.0;   ///< of the spindle, as its orders say
+    double speed_sd = 0.0;      ///< the standard deviation of that, relative
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;
   };
 
   [[nodiscard]] static kernel::outcome::Result<Detector> make(const Config& config);
 
-  /// One sample. A sample with a value, speed or angle that is not finite, or a speed not above 0,
-  /// is skipped: the output stays, with its reason, until the next good sample.
+  /// One sample. A value that is not finite, or repeated again and again, is a gap of the sensor:
+  /// the spindle turns on and the forced vibration is taken to go on. A sample with a speed or
+  /// angle that is not finite, or a speed not above 0, is skipped: the output stays, with its
+  /// reason, until the next good sample.
   const Output& update(const Input& input) noexcept;
   void reset() noexcept;
 
   [[nodiscard]] double resolution_hz() const noexcept { return spectrum_.resolution_hz(); }
+  /// The sensor's largest values are cut off.
+  [[nodiscard]] bool clips() const noexcept { return sensor_.clips(); }
   /// Samples in the spectrum's window.
   [[nodiscard]] std::size_t window() const noexcept { return spectrum_.length(); }
 
@@ -108,6 +129,7 @@ class Detector {
   struct State {
     double angle_rev = 0.0;
     double mean_speed_rev_s = 0.0;
+    double told_rev_s = 0.0;       ///< the same of the speed that is told
     double speed_spread = 0.0;     ///< mean |Ω − mean|/mean
     double forced_energy = 0.0;    ///< P, mean over about a revolution
     double residual_energy = 0.0;  ///< the same of e²
@@ -117,20 +139,20 @@ class Detector {
     double slow_energy = 0.0;      ///< the same over some ten revolutions
     double seen_rev = 0.0;         ///< since the start, up to the memory of those
     double settled_rev = 0.0;      ///< since the cut began
-    double judged_s = 0.0;         ///< since then
-    double floor_energy = 0.0;     ///< C of the present cut, learnt
-    double floor_free = 0.0;       ///< its largest free ratio, learnt
     double evidence = 0.0;         ///< sum of the free ratio's excess over its bound
     std::size_t settled = 0;       ///< samples since the cut began
     double held_s = 0.0;           ///< how long the slow orders have been held
+    kernel::outcome::Reason reason = kernel::outcome::Reason::none;  ///< of the last judgement
     unsigned suspects = 0;
     unsigned quiet = 0;
     bool hold = false;
+    bool forced = false;  ///< the strongest line is an order
     bool opened = false;  ///< the filter, for a cut that began
     bool started = false;
   };
 
   Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare share);
+  [[nodiscard]] double speed_of(const Input& input) const noexcept;
   void follow_speed(const Input& input) noexcept;
   void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
   void judge(const LineSpectrum::Output& lines, const FreeShare::Output& share) noexcept;
@@ -142,17 +164,22 @@ class Detector {
   [[nodiscard]] double free_bound() const noexcept;
   [[nodiscard]] bool later() const noexcept;
   [[nodiscard]] double enough() const noexcept;
+  [[nodiscard]] bool doubles(double line_energy) const noexcept;
   [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
   [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;
-  void learn(double line_energy, bool suspect) noexcept;
 
   Config config_;
   OrderFilter filter_;
   LineSpectrum spectrum_;
   FreeShare share_;
   LineSpectrum::Output lines_;  ///< for which share_ was queried
+  OrderGate::Output line_;      ///< the strongest of them
+  SensorFaults sensor_;
+  SpindleTrack track_;
+  OrderGate gate_;
   RevolutionSpread spread_;
   RevolutionSpread::Output revolution_;
+  CutLevels levels_;
   State state_;
   Output out_;
 };

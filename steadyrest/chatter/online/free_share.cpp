@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/free_share.hpp>
+#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // shift() moves the line to 0 Hz and thins signal and orders to 625 rows a second; rate() projects

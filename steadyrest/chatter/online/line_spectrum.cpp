@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <steadyrest/chatter/online/detector_refusal.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // Copy, butterflies, power, noise floor and sum of the lines are steps of a state machine: each
@@ -45,12 +45,14 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
     : config_(config),
       n_(n),
       bin_hz_(config.sample_rate_hz / static_cast<double>(n)),
-      first_bin_(std::max<std::size_t>(2, static_cast<std::size_t>(config.lowest_hz / bin_hz_))),
+      first_bin_(std::max<std::size_t>(
+          2, static_cast<std::size_t>(std::ceil(config.lowest_hz / bin_hz_)))),
       ring_(2 * n),
       window_(n),
       reversed_(n),
       twiddle_(n / 2),
       bins_(n),
+      before_(n),
       power_(n / 2) {
   const auto bits = static_cast<unsigned>(std::countr_zero(n));
   for (std::size_t i = 0; i < n; ++i) {
@@ -77,8 +79,10 @@ const LineSpectrum::Output& LineSpectrum::update(double value, double spacing_hz
   seen_ = std::min(seen_ + 1, n_);
   ++since_;
   if (step_ == Step::idle && seen_ == n_ && since_ >= n_ / 8) {
+    passed_ = known_ ? since_ : 0;
     since_ = 0;
     step_ = Step::copy;
+    std::swap(bins_, before_);
     at_ = 0;
     start_ = head_ >= n_ ? head_ - n_ : head_ + n_;  // the ring holds 2n
   }
@@ -140,6 +144,11 @@ void LineSpectrum::transform() noexcept {
       if (half_ == n_) {
         step_ = Step::power;
         at_ = first_bin_;
+        falls_ = ignores_ = true;
+        rises_ = false;
+        peak_below_ = first_bin_;
+        before_bin_ = 2.0 / (kHannEnergy * static_cast<double>(n_) * static_cast<double>(n_)) *
+                      std::norm(bins_[first_bin_ - 1]);
         sum_ = 0.0;
         looked_at_ = 0;
         peak_ = first_bin_;
@@ -159,10 +168,21 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
     const bool skipped =
         guard_hz > 0.0 && std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) <= guard_hz;
     const double p = scale * std::norm(bins_[at_]);
+    // The skirt of a line that is ignored, or lies below the lowest frequency, is no line.
+    falls_ = (falls_ || ignores_) && !skipped && p < before_bin_;
+    if (skipped && !ignores_ && rises_ && p > before_bin_) {
+      peak_ = peak_below_;
+    }
+    if (!rises_) {
+      peak_below_ = peak_;
+    }
+    rises_ = !skipped && p >= before_bin_;
+    ignores_ = skipped;
+    before_bin_ = p;
     // Kept with its sign reversed: the interpolation of a peak beside a gap still needs the
     // neighbour.
-    power_[at_] = skipped ? -p : p;
-    if (!skipped) {
+    power_[at_] = skipped || falls_ ? -p : p;
+    if (!skipped && !falls_) {
       sum_ += p;
       ++looked_at_;
       peak_ = p > power_[peak_] ? at_ : peak_;
@@ -229,12 +249,16 @@ void LineSpectrum::finish() noexcept {
   out_.line_energy = sum_;
   out_.noise_energy = level_ * static_cast<double>(looked_at_);
   out_.peak_ratio = std::max(power_[peak_], 0.0) / level_;
+  out_.advance_turns = std::arg(bins_[peak_] * std::conj(before_[peak_])) / kTurn;
+  out_.advance_s = static_cast<double>(passed_) / config_.sample_rate_hz;
+  known_ = true;
   out_.fresh = true;
 }
 
 void LineSpectrum::reset() noexcept {
   std::ranges::fill(ring_, 0.0);
-  head_ = seen_ = since_ = 0;
+  head_ = seen_ = since_ = passed_ = 0;
+  known_ = false;
   step_ = Step::idle;
   out_ = {};
 }

@@ -31,11 +31,13 @@ class LineSpectrum {
 
   /// Energies in unit² (a line of amplitude a has a²/2).
   struct Output {
-    bool fresh = false;         ///< this sample completed a spectrum
-    double frequency_hz = 0.0;  ///< of the strongest line; 0 = none yet
-    double line_energy = 0.0;   ///< all lines together
-    double noise_energy = 0.0;  ///< the rest, over the whole band
-    double peak_ratio = 0.0;    ///< strongest bin over the noise of a bin
+    bool fresh = false;          ///< this sample completed a spectrum
+    double frequency_hz = 0.0;   ///< of the strongest line; 0 = none yet
+    double line_energy = 0.0;    ///< all lines together
+    double noise_energy = 0.0;   ///< the rest, over the whole band
+    double peak_ratio = 0.0;     ///< strongest bin over the noise of a bin
+    double advance_turns = 0.0;  ///< of the strongest bin's phase since the spectrum before, −½ … ½
+    double advance_s = 0.0;      ///< since then; 0: there was none
   };
 
   [[nodiscard]] static kernel::outcome::Result<LineSpectrum> make(const Config& config);
@@ -71,7 +73,10 @@ class LineSpectrum {
   std::vector<std::uint32_t> reversed_;
   std::vector<std::complex<double>> twiddle_;
   std::vector<std::complex<double>> bins_;
-  std::vector<double> power_;  ///< of each bin; negative = ignored
+  std::vector<std::complex<double>> before_;  ///< of the spectrum before
+  std::size_t passed_ = 0;                    ///< samples since that; 0: there was none
+  bool known_ = false;                        ///< a spectrum was finished
+  std::vector<double> power_;                 ///< of each bin; negative = ignored
   std::size_t head_ = 0;
   std::size_t seen_ = 0;
   std::size_t since_ = 0;
@@ -80,6 +85,9 @@ class LineSpectrum {
   std::size_t start_ = 0;
   std::size_t half_ = 1;
   int pass_ = 0;
+  bool falls_ = false, rises_ = false, ignores_ = false;  ///< as the bins go up
+  std::size_t peak_below_ = 0;                            ///< before they began to rise
+  double before_bin_ = 0.0;
   double level_ = 0.0, sum_ = 0.0;
   std::size_t count_ = 0, looked_at_ = 0, peak_ = 0;
   Output out_;

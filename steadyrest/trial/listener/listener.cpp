@@ -16,7 +16,8 @@ using kernel::machine::Machine;
 using kernel::outcome::refuse;
 using kernel::outcome::Result;
 
-constexpr double kMostDepth = 5.0;     ///< of the wanted one: the planner's search depth
+constexpr double kSpeedOfControl = 0.001;  // what a control says of it may be off, relative
+constexpr double kMostDepth = 5.0;         ///< of the wanted one: the planner's search depth
 constexpr double kSlowestShare = 0.2;  ///< of the fastest speed: slower ones have countless lobes
 constexpr double kSilence_mm_s = 0.1;
 
@@ -91,6 +92,7 @@ Result<supervisor::ListeningStage::Config> stage_for(const chatter::offline::Pro
   better.detector.sample_rate_hz = sensor.rate_hz;
   better.detector.teeth = process.tool.teeth;
   better.detector.least_energy = sensor.silence * sensor.silence;
+  better.detector.speed_sd = kSpeedOfControl;
   better.table.teeth = process.tool.teeth;
   put_limits(machine, stage.acts, better.table);
   const double most_depth_mm = kMostDepth * depth_mm;

@@ -37,6 +37,8 @@ void each(Config& of, const Visit& visit) {
   visit("settle_rev", of.settle_rev);
   visit("confirm", of.confirm);
   visit("moving_memory_rev", of.moving_memory_rev);
+  visit("speed_sd", of.speed_sd);
+  visit("folds", of.folds);
 }
 
 template <class Config, class Visit>

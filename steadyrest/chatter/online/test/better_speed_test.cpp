@@ -86,6 +86,32 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   EXPECT_EQ(out.request.ratio, 1.0);
 }
 
+// The step is written, and the line stays what it was: the operator's speed is no worse.
+TEST(BetterSpeed, TakesBackAStepThatDoesNotHelp) {
+  BetterSpeed::Config once = config(1.2);
+  once.again_s = 0.2;
+  once.table.step_ratio = {1.0, 1.1};
+  auto better = BetterSpeed::make(once);
+  ASSERT_TRUE(better);
+  const CutSignal signal = slot_signal(0.6);
+  double ratio = 1.0;
+  int changes = 0;
+  BetterSpeed::Output out;
+  for (std::size_t i = 0; i < signal.value.size(); ++i) {
+    out = better->update({.value = signal.value[i],
+                          .speed_rev_s = signal.speed_rev_s[i],
+                          .programmed_rev_s = kProgrammed,
+                          .ratio = ratio,
+                          .depth_mm = 0.6});
+    changes += out.request.ratio != ratio ? 1 : 0;
+    ratio = out.request.ratio;
+  }
+  EXPECT_TRUE(out.chatter);
+  EXPECT_EQ(changes, 2) << "there and back";
+  EXPECT_EQ(out.request.ratio, 1.0);
+  EXPECT_EQ(out.reason, Reason::chatter_no_better_speed);
+}
+
 // 110 % of another speed would be a speed that was never queried.
 TEST(BetterSpeed, DropsTheAnswerWithTheNextProgrammedSpeed) {
   auto better = BetterSpeed::make(config(1.2));

@@ -274,6 +274,7 @@ TEST(Detector, RefusesWhatIsOutOfRange) {
   EXPECT_FALSE(Detector::make({.on_ratio = 0.5}));
   EXPECT_FALSE(Detector::make({.confirm = 0}));
   EXPECT_FALSE(Detector::make({.free_ratio = 2.0}));
+  EXPECT_FALSE(Detector::make({.speed_sd = 0.03}));
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include <steadyrest/chatter/online/detector_refusal.hpp>
-#include <steadyrest/chatter/online/order_filter.hpp>
+#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
+#include <steadyrest/chatter/online/orders/order_filter.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // A Kalman filter whose states are cosine and sine of each order. Between samples they turn with
@@ -16,9 +16,10 @@ namespace {
 
 using kernel::units::kTurn;
 
-constexpr double kUnknown = 10.0;    // p at the start, as in the source
-constexpr double kSlowStart = 0.01;  // the same for runout, as if 100 samples had been seen
-constexpr double kHighest = 0.45;    // of the sample rate; 0.5 is the Nyquist limit
+constexpr double kUnknown = 10.0;     // p at the start, as in the source
+constexpr double kSlowStart = 0.01;   // the same for runout, as if 100 samples had been seen
+constexpr double kHighest = 0.45;     // of the sample rate; 0.5 is the Nyquist limit
+constexpr double kLowestFold = 0.01;  // the same: a fold below is a drift of the sensor
 
 bool is_memory(double revolutions) {
   return revolutions >= 0.1 && revolutions <= 1000.0;
@@ -77,14 +78,25 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   // q goes with 1/memory²: a memory shorter by the factor `quick` has quick² times the drift.
   const double quick = config_.tooth_memory_rev / config_.moving_memory_rev;
   const double tooth_unrest = moving ? unrest * quick * quick : unrest;
+  const double folded_drift = 2.0 / (config_.half_memory_rev * config_.half_memory_rev);
   double cos_k = 1.0;
   double sin_k = 0.0;
   double at = 0.0;
   double sum_p = 1.0;
   double estimate = 0.0;
   std::size_t used = 0;
-  for (; used < orders_.size() && orders_[used].order * turn_share < kHighest; ++used) {
+  for (; used < orders_.size(); ++used) {
     Order& o = orders_[used];
+    o.used = is_heard(o.order * turn_share);
+    if (!o.used) {
+      if (config_.folds) {
+        continue;
+      }
+      for (std::size_t i = used + 1; i < orders_.size() && orders_[i].used; ++i) {
+        orders_[i].used = false;
+      }
+      break;
+    }
     // cos kθ and sin kθ by rotation: one sine and cosine per sample instead of one per order.
     while (at < o.order) {  // at most one extra turn for each omitted order
       const double next = cos_k * cos_step - sin_k * sin_step;
@@ -94,28 +106,52 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
     }
     o.cos = cos_k;
     o.sin = sin_k;
-    o.p += o.drift * (o.tooth ? tooth_unrest : unrest);
+    o.folded = o.order * turn_share >= kHighest;
+    o.p += o.folded ? folded_drift * unrest : o.drift * (o.tooth ? tooth_unrest : unrest);
     sum_p += o.p;
     estimate += o.c * cos_k + o.s * sin_k;
   }
   Output out;
-  out.residual = value - estimate;
+  out.estimate = estimate;
+  const bool gap = std::isnan(value);
+  out.residual = gap ? 0.0 : value - estimate;
   const double share = 1.0 / sum_p;
   for (std::size_t i = 0; i < used; ++i) {
     Order& o = orders_[i];
+    if (!o.used) {
+      continue;
+    }
     const double gain = o.p * share;
-    if (!hold || o.tooth) {
-      o.c += gain * out.residual * o.cos;
-      o.s += gain * out.residual * o.sin;
+    const double along = out.residual * o.cos;
+    const double across = out.residual * o.sin;
+    o.block_c += along;
+    o.block_s += across;
+    if (!gap && (!hold || (o.tooth && !o.folded))) {
+      o.c += gain * along;
+      o.s += gain * across;
     }
     // Half: over a revolution cos² and sin² average to ½.
-    o.p -= 0.5 * gain * o.p;
+    o.p -= gap ? 0.0 : 0.5 * gain * o.p;
     const double energy = 0.5 * (o.c * o.c + o.s * o.s);
     out.forced_energy += i == 0 ? 0.0 : energy;
     out.tooth_energy += i == 0 || !o.tooth ? 0.0 : energy;
   }
   out.mean = orders_.front().c;
   return out;
+}
+
+bool OrderFilter::is_heard(double turn) const noexcept {
+  if (turn < kHighest) {
+    return true;
+  }
+  const double folded = std::abs(turn - std::round(turn));
+  return config_.folds && folded > kLowestFold && folded < kHighest;
+}
+
+void OrderFilter::begin_block() noexcept {
+  for (Order& o : orders_) {
+    o.block_c = o.block_s = 0.0;
+  }
 }
 
 void OrderFilter::open(bool moving) noexcept {

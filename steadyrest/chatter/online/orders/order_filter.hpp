@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -19,7 +20,9 @@ namespace steadyrest::chatter::online {
 ///
 /// Orders midway between two multiples of N come from runout and also from period-doubling chatter.
 /// They and runout's other orders forget slowly, and freeze while the caller sets `hold`. Orders
-/// beyond 0.45·fs do nothing. O(orders) per sample.
+/// beyond 0.45·fs do nothing; with `folds` they are taken where the samples show them, which cos kθ
+/// itself does. There they lie close to one another and forget as slowly as half orders do.
+/// O(orders) per sample.
 class OrderFilter {
  public:
   struct Config {
@@ -31,6 +34,7 @@ class OrderFilter {
     double moving_memory_rev = 1.0;      ///< the same while the speed moves
     double runout_memory_rev = 16.0;     ///< of spindle orders other than tooth orders
     double half_memory_rev = 40.0;       ///< of orders midway between tooth orders
+    bool folds = false;  ///< orders beyond half of the rate are heard too, folded about it
   };
 
   struct Output {
@@ -38,12 +42,13 @@ class OrderFilter {
     double forced_energy = 0.0;  ///< Σ (c² + s²)/2 without order 0, unit²
     double tooth_energy = 0.0;   ///< the part of the tooth orders
     double mean = 0.0;           ///< order 0
+    double estimate = 0.0;       ///< ŷ
   };
 
   [[nodiscard]] static kernel::outcome::Result<OrderFilter> make(const Config& config);
 
-  /// `angle_rev` any real number, `speed_rev_s` > 0, all finite; `moving`: the speed is not
-  /// constant.
+  /// `value` NaN: the sensor gave none; nothing is learnt and the residual is 0. `angle_rev` any
+  /// real number, `speed_rev_s` > 0, all finite; `moving`: the speed is not constant.
   Output update(double value, double angle_rev, double speed_rev_s, bool moving,
                 bool hold) noexcept;
   /// A new cut has begun: learns as at the start, from the present values. At constant speed
@@ -52,15 +57,23 @@ class OrderFilter {
   void open(bool moving) noexcept;
   void reset() noexcept;
 
- private:
   struct Order {
     double order = 0.0;
     double drift = 0.0;  ///< 2/memory²
     bool tooth = false;
+    bool used = false;    ///< it is within the sensor's reach …
+    bool folded = false;  ///< … though beyond half of the rate
     double c = 0.0, s = 0.0, p = 0.0;
     double cos = 1.0, sin = 0.0;
+    double block_c = 0.0, block_s = 0.0;  ///< Σ e·cos kθ, Σ e·sin kθ of the block
   };
+  [[nodiscard]] std::span<const Order> orders() const noexcept { return orders_; }
+  void begin_block() noexcept;
+
+ private:
   OrderFilter(const Config& config, std::vector<Order> orders);
+  /// `turn`: of the order's angle in a sample.
+  [[nodiscard]] bool is_heard(double turn) const noexcept;
 
   Config config_;
   std::vector<Order> orders_;  ///< rising

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <steadyrest/chatter/offline/signal/order_check.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
+
+namespace steadyrest::chatter::offline {
+namespace {
+
+constexpr double kRateHz = 8e3;
+
+/// A cut of 6 s at 53 rev/s: tooth orders, a tenth of them runout, noise, and a line of chatter.
+std::vector<double> cut(int teeth, double chatter, double orders = 1.0) {
+  std::mt19937_64 rng(9);
+  std::normal_distribution<double> noise(0.0, 0.2);
+  std::vector<double> out;
+  for (int i = 0; i < 6 * static_cast<int>(kRateHz); ++i) {
+    const double t = i / kRateHz;
+    double value = noise(rng) + chatter * std::cos(kernel::units::kTurn * 911.3 * t);
+    for (int k = 1; k <= 30; ++k) {
+      const double size = orders * (k % teeth == 0 ? 1.0 : 0.1) / (1.0 + 0.05 * k);
+      value += size * std::cos(kernel::units::kTurn * 53.0 * k * t + k * k);
+    }
+    out.push_back(value);
+  }
+  return out;
+}
+
+TEST(OrderCheck, BelievesWhatIsRight) {
+  for (const double told : {53.0, 53.2, 52.4}) {
+    const auto found = check_orders(cut(4, 0.5), kRateHz, told, 4);
+    EXPECT_TRUE(found.known);
+    EXPECT_FALSE(found.other_speed) << told;
+    EXPECT_EQ(found.other_teeth, 0U);
+    EXPECT_NEAR(found.speed_rev_s, 53.0, 0.05);
+  }
+}
+
+TEST(OrderCheck, NamesAnotherSpeed) {
+  for (const double told : {48.0, 58.5, 64.0}) {
+    const auto found = check_orders(cut(4, 0.3), kRateHz, told, 4);
+    EXPECT_TRUE(found.other_speed) << told;
+    EXPECT_NEAR(found.speed_rev_s, 53.0, 0.05) << told;
+  }
+}
+
+TEST(OrderCheck, NamesAnotherNumberOfTeeth) {
+  EXPECT_EQ(check_orders(cut(3, 0.0), kRateHz, 53.0, 4).other_teeth, 3U);
+  EXPECT_EQ(check_orders(cut(5, 0.0), kRateHz, 53.0, 2).other_teeth, 5U);
+  EXPECT_EQ(check_orders(cut(4, 0.0), kRateHz, 53.0, 2).other_teeth, 0U) << "multiples of 2 too";
+  EXPECT_EQ(check_orders(cut(2, 0.0), kRateHz, 53.0, 2).other_teeth, 0U);
+}
+
+// A cut that only chatters, air, and less than a window say nothing.
+TEST(OrderCheck, SaysNothingWhereNoOrdersStandOut) {
+  EXPECT_FALSE(check_orders(cut(4, 3.0, 0.05), kRateHz, 48.0, 4).other_speed);
+  EXPECT_FALSE(check_orders(cut(4, 0.0, 0.0), kRateHz, 48.0, 4).known);
+  EXPECT_FALSE(check_orders(std::vector<double>(4000, 0.1), kRateHz, 48.0, 4).known);
+}
+
+}  // namespace
+}  // namespace steadyrest::chatter::offline

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <steadyrest/chatter/online/orders/spindle_track.hpp>
+#include <steadyrest/kernel/units/constants.hpp>
+
+namespace steadyrest::chatter::online {
+namespace {
+
+using kernel::units::kTurn;
+
+constexpr double kBlock_s = 0.02;        // of whole revolutions, about
+constexpr double kLeastSamples = 100.0;  // of a block
+constexpr double kUnsure = 0.002;        // then blocks are no longer than that
+constexpr double kLeastSnr = 8.0;        // of an order's energy over its noise's
+constexpr double kRestless = 0.015;      // rad: phases of orders wander with the engagement
+constexpr double kWithinTurns = 0.4;     // that an order may have turned by
+constexpr double kSigmasOfReach = 2.0;
+constexpr double kForget = 0.15;          // of a block, of how an order strays from the others
+constexpr double kUnknownStrange = 0.03;  // rad²
+constexpr double kOutlier = 2.0;          // standard deviations
+constexpr double kMostApart = 30.0;
+constexpr double kWalk = 0.0003;  // relative, in a second
+constexpr double kInAir = 0.005;  // relative: what a load may change
+constexpr double kMostGain = 0.5;
+constexpr double kRestlessBlocks = 8.0;
+constexpr double kMostRestless = 1e4;
+constexpr double kAgree = 1.5;
+constexpr std::size_t kFewToAgree = 2;
+constexpr double kOutlierVariance = 4.0;  // an innovation counts for two standard deviations
+constexpr double kLeastVariance = 1e-12;
+
+std::complex<double> phasor(const OrderFilter::Order& order) {
+  return {order.c, -order.s};
+}
+
+}  // namespace
+
+SpindleTrack::SpindleTrack(double told_sd, std::size_t orders)
+    : told_sd_(told_sd),
+      at_begin_(orders),
+      before_(orders),
+      now_(orders),
+      strange_(orders, kUnknownStrange),
+      variance_(told_sd * told_sd) {
+  turned_.reserve(orders);
+}
+
+double SpindleTrack::sd() const noexcept {
+  return std::sqrt(variance_);
+}
+
+void SpindleTrack::begin_block(OrderFilter& filter, double angle_rev, double speed_rev_s,
+                               double rate_hz) noexcept {
+  filter.begin_block();
+  const auto orders = filter.orders();
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    at_begin_[i] = phasor(orders[i]);
+  }
+  begin_rev_ = angle_rev;
+  const double least_s = kLeastSamples / rate_hz;
+  const double block_s = sd() > kUnsure ? least_s : std::max(kBlock_s, least_s);
+  const double block_rev = std::max(1.0, std::round(block_s * speed_rev_s));
+  comparable_ = comparable_ && block_rev == block_rev_;
+  block_rev_ = block_rev;
+  samples_ = 0;
+}
+
+bool SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
+                          double noise_energy) noexcept {
+  if (told_sd_ <= 0.0) {
+    return false;
+  }
+  if (!started_) {
+    started_ = true;
+    begin_block(filter, angle_rev, speed_rev_s, rate_hz);
+    return false;
+  }
+  ++samples_;
+  if (angle_rev - begin_rev_ < block_rev_) {
+    return false;
+  }
+  const auto orders = filter.orders();
+  const double each = 2.0 / static_cast<double>(samples_);
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const OrderFilter::Order& order = orders[i];
+    now_[i] = 0.5 * (at_begin_[i] + phasor(order)) + each * Complex(order.block_c, -order.block_s);
+  }
+  // Of white noise with that energy |Y|² has 4/n.
+  const Fit found = comparable_ ? fit(orders, 2.0 * each * noise_energy) : Fit{};
+  follow(found, static_cast<double>(samples_) / rate_hz);
+  std::swap(now_, before_);
+  comparable_ = true;
+  begin_block(filter, angle_rev, speed_rev_s, rate_hz);
+  return true;
+}
+
+void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
+                          double noise_energy) noexcept {
+  const double reach = kSigmasOfReach * sd() * block_rev_;
+  turned_.clear();
+  for (std::size_t i = 1; i < orders.size(); ++i) {
+    const double k = orders[i].order;
+    if (k * reach > kWithinTurns) {
+      break;
+    }
+    if (!orders[i].used || !orders[i].tooth || orders[i].folded) {
+      continue;
+    }
+    const double energy = std::min(std::norm(now_[i]), std::norm(before_[i]));
+    if (!(energy > kLeastSnr * noise_energy)) {
+      strange_[i] += kForget * (kUnknownStrange - strange_[i]);
+      continue;
+    }
+    const double turned = std::arg(now_[i] * std::conj(before_[i]));
+    const double v = noise_energy / energy + std::max(kRestless * kRestless, strange_[i]);
+    turned_.push_back({.at = i, .order = k, .turned = turned, .sd = std::sqrt(v)});
+  }
+}
+
+/// What has Σ |aₖ − k·δ|/√vₖ least: the median of aₖ/k, weighted with k/√vₖ. Chatter beside some of
+/// the orders does not move it.
+double SpindleTrack::median() noexcept {
+  std::ranges::sort(turned_, {}, [](const Turned& t) { return t.turned / t.order; });
+  double all = 0.0;
+  for (const Turned& t : turned_) {
+    all += t.order / t.sd;
+  }
+  double sum = 0.0;
+  for (const Turned& t : turned_) {
+    sum += t.order / t.sd;
+    if (2.0 * sum >= all) {
+      return t.turned / t.order;
+    }
+  }
+  return 0.0;
+}
+
+SpindleTrack::Fit SpindleTrack::fit(std::span<const OrderFilter::Order> orders,
+                                    double noise_energy) noexcept {
+  gather(orders, noise_energy);
+  if (turned_.empty()) {
+    return {};
+  }
+  const double middle = median();
+  double above = 0.0;
+  double below = 0.0;
+  double apart = 0.0;
+  for (const Turned& t : turned_) {
+    const double alone = t.turned - t.order * middle;
+    strange_[t.at] += kForget * (alone * alone - strange_[t.at]);
+    const double off = std::abs(alone) / t.sd;
+    const double weight = 1.0 / (t.sd * t.sd * std::max(1.0, off / kOutlier));
+    above += weight * t.order * t.turned;
+    below += weight * t.order * t.order;
+    apart += std::min(off, kMostApart);
+  }
+  // Of a normal distribution the mean of |x| is 0.8.
+  const double spread = std::max(1.0, apart / (0.8 * static_cast<double>(turned_.size())));
+  const double per_block = 1.0 / (kTurn * block_rev_);
+  return {.off = above / below * per_block,
+          .variance = spread * spread / below * per_block * per_block,
+          .known = true,
+          .agrees = spread < kAgree && turned_.size() >= kFewToAgree};
+}
+
+void SpindleTrack::follow(const Fit& found, double seconds) noexcept {
+  const double walk = kWalk * kWalk * seconds;
+  if (!found.known) {
+    variance_ = std::max(variance_, std::min(variance_ + walk, kInAir * kInAir));
+    locked_s_ = 0.0;
+    return;
+  }
+  const double innovation = found.off * found.off;
+  // Innovations say that the spindle moves only where its orders say so together; else they are
+  // outliers.
+  const bool moves = found.agrees;
+  const double usual = variance_ + walk + found.variance;
+  restless_ += ((moves ? innovation / usual : 1.0) - restless_) / kRestlessBlocks;
+  const double prior = variance_ + walk * std::clamp(restless_ * restless_, 1.0, kMostRestless);
+  const double measured =
+      moves ? found.variance : std::max(found.variance, innovation / kOutlierVariance);
+  const double gain = std::min(kMostGain, prior / (prior + measured));
+  off_ = std::clamp(off_ + gain * found.off, -kMost, kMost);
+  variance_ = std::clamp((1.0 - gain) * prior, kLeastVariance, kMost * kMost);
+  locked_s_ += seconds;
+}
+
+void SpindleTrack::reset() noexcept {
+  off_ = 0.0;
+  variance_ = told_sd_ * told_sd_;
+  restless_ = 1.0;
+  std::ranges::fill(strange_, kUnknownStrange);
+  locked_s_ = 0.0;
+  started_ = comparable_ = false;
+}
+
+}  // namespace steadyrest::chatter::online

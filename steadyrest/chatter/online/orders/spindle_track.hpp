@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <steadyrest/chatter/online/orders/order_filter.hpp>
+
+namespace steadyrest::chatter::online {
+
+/// The spindle's real speed, from the phases of the orders in the signal.
+///
+/// Law. What is said of the speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
+/// revolutions, as integrated, order k has the phasor Yₖ; from block to block it turns by
+/// aₖ = 2π·k·B·ε. All orders that stand clear of the noise are weighted together,
+///   ε̂ = Σ k·aₖ/vₖ / (2π·B·Σ k²/vₖ),  vₖ = 1/SNRₖ + kRestless²,
+/// orders only as far up as the present uncertainty leaves aₖ within a turn, once more without
+/// those that do not agree (Huber). A Kalman filter with one state follows: ε is a random walk of
+/// kWalk·√t, faster where the innovations say so (a spindle that droops as it enters). What it
+/// finds turns the angle that the orders refer to, so later blocks see what is left. In air there
+/// is no order: the uncertainty grows.
+class SpindleTrack {
+ public:
+  static constexpr double kMost = 0.025;
+
+  /// `told_sd`: of what is said of the speed, relative; 0: it is exact and stays as it is.
+  explicit SpindleTrack(double told_sd, std::size_t orders);
+
+  /// To be called with each sample, after the filter has used it. `angle_rev`: as integrated with
+  /// ratio(). True where a block was finished.
+  bool update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
+              double noise_energy) noexcept;
+  void reset() noexcept;
+
+  /// 1 + ε̂
+  [[nodiscard]] double ratio() const noexcept { return 1.0 + off_; }
+  /// Its standard deviation.
+  [[nodiscard]] double sd() const noexcept;
+  /// Seconds for which orders have confirmed it without a break; 0: none does.
+  [[nodiscard]] double locked_s() const noexcept { return locked_s_; }
+
+ private:
+  using Complex = std::complex<double>;
+  struct Fit {
+    double off = 0.0;
+    double variance = 0.0;
+    bool known = false;
+    bool agrees = false;  ///< the orders with one another
+  };
+  void begin_block(OrderFilter& filter, double angle_rev, double speed_rev_s,
+                   double rate_hz) noexcept;
+  struct Turned {
+    std::size_t at = 0;
+    double order = 0.0;
+    double turned = 0.0;  ///< rad
+    double sd = 0.0;
+  };
+  void gather(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
+  [[nodiscard]] double median() noexcept;
+  [[nodiscard]] Fit fit(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
+  void follow(const Fit& fit, double seconds) noexcept;
+
+  double told_sd_;
+  std::vector<Complex> at_begin_;  ///< the filter's phasors as the block began
+  std::vector<Complex> before_;    ///< Yₖ of the block before
+  std::vector<Complex> now_;
+  std::vector<Turned> turned_;
+  std::vector<double> strange_;  ///< of each order: mean square by which it strays from the others
+  double off_ = 0.0;
+  double variance_;
+  double restless_ = 1.0;  ///< mean of innovation²/its variance
+  double locked_s_ = 0.0;
+  double begin_rev_ = 0.0;
+  double block_rev_ = 1.0;
+  std::size_t samples_ = 0;
+  bool started_ = false;
+  bool comparable_ = false;  ///< the block before was as long as this one
+};
+
+}  // namespace steadyrest::chatter::online
