@@ -84,6 +84,14 @@ export interface ChatterEvent {
   frequency_hz: number;
   type: string;
   speed_rpm: number;
+  /** Frequency over the spindle's. */
+  order: number;
+  /** That it is no forced vibration, 0 … 1. */
+  confidence: number;
+  /** Of each channel that hears it. */
+  evidence: { channel: number; nearest_order: number; order_folded: boolean; from_order_hz: number; from_order_sd_hz: number; confidence: number }[];
+  /** Of the process file; null: there is none. */
+  nearest_mode: { frequency_hz: number; off_hz: number } | null;
   advised_speed_rpm: Maybe;
   advised_override_percent: Maybe;
   /** By the chatter frequency alone, unchecked; empty with a process. */
@@ -98,7 +106,7 @@ export interface DetectPage extends Head {
   teeth: number;
   bin_hz: number;
   start_s: number;
-  answer: { advice_by: string; events: ChatterEvent[]; seconds: number; sample_rate_hz: number };
+  answer: { advice_by: string; events: ChatterEvent[]; seconds: number; sample_rate_hz: number; sensor: string[] };
   course: Record<'t_s' | 'low' | 'high' | 'speed_rpm', number[]>;
   spectrogram: {
     start_s: number;

@@ -141,12 +141,26 @@ function advice(e: ChatterEvent): string {
   return e.advised_speed_rpm === null ? DECISIONS[e.decision ?? 'constant'] : `${rpm(e.advised_speed_rpm)} (${plain(e.advised_override_percent)}\u00a0%)`;
 }
 
+/** Where the line is among the spindle's orders, or what else makes it chatter. */
+function evidence(e: ChatterEvent): string {
+  const first = e.evidence[0];
+  if (e.type === 'flip' || !first) {
+    return 'half tooth orders, grown while the tooth orders stayed';
+  }
+  const fold = first.order_folded ? ', folded' : '';
+  return `${fixed(Math.abs(first.from_order_hz), 1)} ± ${fixed(first.from_order_sd_hz, 1)}\u00a0Hz from order ${first.nearest_order}${fold}`;
+}
+
+function mode(e: ChatterEvent): string {
+  return e.nearest_mode ? `${hertz(e.nearest_mode.frequency_hz)} (${e.nearest_mode.off_hz < 0 ? '−' : '+'}${fixed(Math.abs(e.nearest_mode.off_hz), 1)})` : '–';
+}
+
 function eventsTable({ events, advice_by }: DetectPage['answer']): string {
   return table({
     id: 'events',
     sortable: true,
-    columns: [numeric('From, s'), numeric('To, s'), numeric('Frequency, Hz'), { head: 'Type' }, numeric('Speed, rpm'), { head: `Better speed, by the ${advice_by}` }],
-    rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), typeName(e.type), fixed(e.speed_rpm, 0), advice(e)]),
+    columns: [numeric('From, s'), numeric('To, s'), numeric('Frequency, Hz'), { head: 'Type' }, numeric('Order of the spindle'), { head: 'Evidence' }, numeric('Confidence, %'), { head: 'Nearest mode' }, numeric('Speed, rpm'), { head: `Better speed, by the ${advice_by}` }],
+    rows: events.map((e) => [fixed(e.start_s, 3), fixed(e.end_s, 3), fixed(e.frequency_hz, 1), typeName(e.type), fixed(e.order, 2), evidence(e), fixed(100 * e.confidence, 0), mode(e), fixed(e.speed_rpm, 0), advice(e)]),
   });
 }
 
@@ -171,10 +185,12 @@ export function detectView(page: DetectPage): View {
     verdict: verdict(page),
     body:
       section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
-      (page.answer.events.length > 0 ? section('Where it chatters', eventsTable(page.answer)) : ''),
+      (page.answer.events.length > 0 ? section('Where it chatters', eventsTable(page.answer)) : '') +
+      (page.answer.sensor.length > 0 ? section('What this recording shows and does not', `<ul>${page.answer.sensor.map((words) => `<li>${escapeHtml(words)}</li>`).join('')}</ul>`) : ''),
     explanation: [
       ['Spectrogram', 'Signal power over time and frequency, in dB relative to the strongest cell. Forced vibration lies on multiples of the tooth-passing frequency; chatter lies between them.'],
-      ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself. With runout, forced vibration lies on the spindle orders.'],
+      ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself, which is that of the orders in the signal where they show it. With runout, forced vibration lies on the spindle orders.'],
+      ['Evidence', 'How far the line is from the nearest order of the spindle that it could be, with the standard deviation of that. Vibration at an order is forced by definition. Confidence: the probability that the line is not there, over the spectra of the stretch, less for few of them; for flip, the share of its energy.'],
       TYPES,
       ['Better speed', 'By the chatter frequency: the lobes’ speeds, at which a whole number of chatter waves fits between two teeth; it knows neither depth nor border, so no step is advised. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, the answer of <code>chatter plan</code>.'],
     ],

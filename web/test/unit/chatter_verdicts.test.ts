@@ -58,10 +58,11 @@ describe('a plan', () => {
 
 describe('a signal', () => {
   const event = (more: Partial<ChatterEvent> = {}): ChatterEvent => ({
-    start_s: 1.25, end_s: 2, frequency_hz: 411, type: 'hopf', speed_rpm: 4000, advised_speed_rpm: 4400, advised_override_percent: 110, decision: null, ...more,
+    start_s: 1.25, end_s: 2, frequency_hz: 411, type: 'hopf', speed_rpm: 4000, order: 6.165, confidence: 0.98, nearest_mode: null, advised_speed_rpm: 4400, advised_override_percent: 110, decision: null,
+    evidence: [{ channel: 1, nearest_order: 6, order_folded: false, from_order_hz: 11, from_order_sd_hz: 0.5, confidence: 0.98 }], ...more,
   });
   const page = (events: ChatterEvent[]) =>
-    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'planner', events, seconds: 3, sample_rate_hz: 20_000 } } as unknown as DetectPage);
+    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'planner', events, seconds: 3, sample_rate_hz: 20_000, sensor: [] } } as unknown as DetectPage);
   it('without chatter says so and has no table', () => {
     expect(page([]).verdict).toBe('No chatter in 3 s.');
     expect(page([]).body).not.toContain('Where it chatters');
@@ -77,6 +78,11 @@ describe('a signal', () => {
     expect(page([event({ ...none, lobe_speeds_rpm: [4110, 3082.5] })]).verdict).toContain(`unchecked: 4110, 3083${NB}rpm.`);
     expect(page([event({ ...none, decision: 'law' })]).verdict).toContain('modulate the speed');
     expect(page([event({ ...none, decision: 'nothing' })]).verdict).toContain('nothing helps at this depth');
+  });
+  it('shows by what evidence it is chatter', () => {
+    expect(page([event()]).body).toContain(`11.0 ± 0.5${NB}Hz from order 6`);
+    expect(page([event({ type: 'flip' })]).body).toContain('grown while the tooth orders stayed');
+    expect(page([event({ nearest_mode: { frequency_hz: 420, off_hz: -9 } })]).body).toContain('(−9.0)');
   });
   it('keeps the name of a type that it does not know', () => expect(['hopf', 'flip', 'fold'].map(typeName)).toEqual(['Hopf', 'flip', 'fold']));
 });

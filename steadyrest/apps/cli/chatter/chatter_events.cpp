@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <numbers>
 #include <optional>
 
 #include <steadyrest/apps/cli/chatter/chatter_events.hpp>
@@ -19,84 +19,115 @@ class Stretch {
  public:
   explicit Stretch(double start_s) : start_s_(start_s) {}
 
-  void add(const online::Detector::Output& heard, double speed_rev_s) {
+  void add(const online::Detector::Output& heard, double told_rev_s) {
     frequency_hz_.push_back(heard.frequency_hz);
-    flips_ += heard.kind == online::Detector::Kind::flip ? 1 : 0;
-    speeds_rev_s_ += speed_rev_s;
+    const bool flip = heard.kind == online::Detector::Kind::flip;
+    flips_ += flip ? 1 : 0;
+    speeds_rev_s_ += told_rev_s;
+    spindle_rev_s_ += heard.speed_rev_s;
+    const double sds = std::abs(heard.line.off_hz) / std::max(heard.line.sd_hz, 1e-9);
+    sure_ += flip ? heard.energy_ratio : std::erf(sds / std::numbers::sqrt2);
+    lines_.push_back(heard.line);
   }
 
   // The median frequency, because a spectrum now and then locks onto a side line of the chatter (fc
   // ± k tooth frequencies) and one such reading would pull a mean off. The kind goes by majority
   // for the same reason: flip is judged within one line width and flickers near its edge.
-  [[nodiscard]] ChatterEvent finished(double end_s) {
+  [[nodiscard]] ChatterEvent finished(double end_s, std::size_t channel) {
     const auto half = static_cast<std::ptrdiff_t>(frequency_hz_.size() / 2);
     std::ranges::nth_element(frequency_hz_, frequency_hz_.begin() + half);
+    const auto count = static_cast<double>(frequency_hz_.size());
     ChatterEvent event;
     event.start_s = start_s_;
     event.end_s = end_s;
     event.frequency_hz = frequency_hz_[static_cast<std::size_t>(half)];
-    event.speed_rev_s = speeds_rev_s_ / static_cast<double>(frequency_hz_.size());
+    event.speed_rev_s = speeds_rev_s_ / count;
+    event.spindle_rev_s = spindle_rev_s_ / count;
     event.flip = 2 * flips_ > frequency_hz_.size();
+    event.channels = {channel};
+    // Of the spectra the one whose line is nearest to the median.
+    const auto& line = *std::ranges::min_element(
+        lines_, {}, [&](const auto& of) { return std::abs(of.frequency_hz - event.frequency_hz); });
+    event.evidence = {{.channel = channel,
+                       .start_s = start_s_,
+                       .frequency_hz = event.frequency_hz,
+                       .from_order_hz = line.off_hz,
+                       .from_order_sd_hz = line.sd_hz,
+                       .order = static_cast<std::size_t>(line.order),
+                       .folded = line.folded,
+                       .confidence = sure_ / count * (1.0 - std::exp2(-count))}};
     return event;
   }
 
  private:
   double start_s_;
   std::vector<double> frequency_hz_;
+  std::vector<online::OrderGate::Output> lines_;
   std::size_t flips_ = 0;
   double speeds_rev_s_ = 0.0;
+  double spindle_rev_s_ = 0.0;
+  double sure_ = 0.0;
 };
 
-/// The spindle turns on where samples are missing. The detector passes over those and would not see
-/// it turn, so the angle comes from here; without gaps it counts for itself.
-class GapAngle {
+/// The speed by the orders, as long as they show it.
+class FoundSpeed {
  public:
-  explicit GapAngle(const chatter::offline::RecordedSignal& signal)
-      : signal_(signal),
-        gaps_(std::ranges::any_of(signal.value, unknown) ||
-              std::ranges::any_of(signal.speed_rev_s, unknown)) {}
-
-  /// Once for each sample, in order; NaN: the detector's own.
-  double at(std::size_t i) {
-    const double speed = signal_.speed_rev_s[i];
-    speed_rev_s_ = std::isfinite(speed) ? speed : speed_rev_s_;
-    angle_rev_ += i == 0 ? 0.0 : speed_rev_s_ / signal_.rate_hz;
-    return gaps_ ? angle_rev_ : std::numeric_limits<double>::quiet_NaN();
+  void add(const online::Detector::Output& heard, double told_rev_s) {
+    told_ += told_rev_s;
+    ++samples_;
+    if (heard.speed_sd > 0.0 && heard.speed_sd < kShown) {
+      found_ += heard.speed_rev_s;
+      variance_ += heard.speed_sd * heard.speed_sd;
+      ++shown_;
+    }
+  }
+  void put(HeardChannel& out) const {
+    out.told_rev_s = told_ / std::max(1.0, samples_);
+    if (shown_ > 0.0) {
+      out.found_rev_s = found_ / shown_;
+      out.found_sd_rev_s = out.found_rev_s * std::sqrt(variance_ / shown_);
+    }
   }
 
  private:
-  static bool unknown(double value) { return !std::isfinite(value); }
+  static constexpr double kShown = 0.001;
 
-  const chatter::offline::RecordedSignal& signal_;
-  bool gaps_;
-  double speed_rev_s_ = 0.0;
-  double angle_rev_ = 0.0;
+  double told_ = 0.0;
+  double samples_ = 0.0;
+  double found_ = 0.0;
+  double variance_ = 0.0;
+  double shown_ = 0.0;
 };
 
 }  // namespace
 
-std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal& signal,
-                                         chatter::online::Detector& detector, Progress& progress) {
+HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
+                          chatter::online::Detector& detector, Progress& progress) {
   // Samples between two updates of the bar: a few seconds of signal, microseconds of bookkeeping.
   constexpr std::size_t kBetweenUpdates = 65536;
   const std::size_t samples = signal.value.size();
-  GapAngle angle(signal);
-  std::vector<ChatterEvent> out;
+  HeardChannel out;
+  FoundSpeed found;
   std::optional<Stretch> open;
   double t_s = signal.start_s;
+  double told_rev_s = 0.0;
   for (std::size_t i = 0; i < samples; ++i) {
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
+    told_rev_s = std::isfinite(signal.speed_rev_s[i]) ? signal.speed_rev_s[i] : told_rev_s;
     // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new readings;
     // the samples between them repeat the last verdict and must not be counted again.
-    const auto& heard = detector.update(
-        {.value = signal.value[i], .speed_rev_s = signal.speed_rev_s[i], .angle_rev = angle.at(i)});
+    const auto& heard = detector.update({.value = signal.value[i], .speed_rev_s = told_rev_s});
+    if (heard.fresh) {
+      found.add(heard, told_rev_s);
+    }
+    signal.speed_rev_s[i] = heard.speed_rev_s > 0.0 ? heard.speed_rev_s : told_rev_s;
     if (heard.fresh && heard.chatter) {
       if (!open) {
         open.emplace(t_s);
       }
-      open->add(heard, signal.speed_rev_s[i]);
+      open->add(heard, told_rev_s);
     } else if (heard.fresh && open) {
-      out.push_back(open->finished(t_s));
+      out.events.push_back(open->finished(t_s, signal.channel));
       open.reset();
     }
     if (i % kBetweenUpdates == 0) {
@@ -105,11 +136,10 @@ std::vector<ChatterEvent> chatter_events(const chatter::offline::RecordedSignal&
   }
   // A recording may end while the cut still chatters.
   if (open) {
-    out.push_back(open->finished(t_s));
+    out.events.push_back(open->finished(t_s, signal.channel));
   }
-  for (ChatterEvent& event : out) {
-    event.channels = {signal.channel};
-  }
+  found.put(out);
+  out.clips = detector.clips();
   return out;
 }
 

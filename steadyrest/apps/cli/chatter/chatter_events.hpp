@@ -11,20 +11,45 @@
 
 namespace steadyrest::apps::cli {
 
+/// What one channel hears of a stretch.
+struct ChatterEvidence {
+  std::size_t channel = 0;
+  double start_s = 0.0;
+  double frequency_hz = 0.0;
+  double from_order_hz = 0.0;     ///< of the nearest order that it could be, or the fold of one
+  double from_order_sd_hz = 0.0;  ///< standard deviation of that
+  std::size_t order = 0;
+  bool folded = false;
+  /// That it is no forced vibration, 0 … 1: the probability that the line is not at that order (for
+  /// flip, its share of the energy), over the spectra, less for few of them: 1 − 2⁻ⁿ.
+  double confidence = 0.0;
+};
+
 /// One stretch of chatter in a recorded signal.
 struct ChatterEvent {
   double start_s = 0.0;
   double end_s = 0.0;
-  double frequency_hz = 0.0;          ///< median over the stretch
-  double speed_rev_s = 0.0;           ///< mean over the stretch
-  bool flip = false;                  ///< majority of the spectra
-  std::vector<std::size_t> channels;  ///< that hear it, the first to do so in front
+  double frequency_hz = 0.0;              ///< median over the stretch
+  double speed_rev_s = 0.0;               ///< as told, mean over the stretch
+  double spindle_rev_s = 0.0;             ///< the same as the orders show it
+  bool flip = false;                      ///< majority of the spectra
+  std::vector<std::size_t> channels;      ///< that hear it, the first to do so in front
+  std::vector<ChatterEvidence> evidence;  ///< of each
 };
 
-/// What the detector hears from the signal's first sample to its last; the signal has a speed.
-[[nodiscard]] std::vector<ChatterEvent> chatter_events(
-    const chatter::offline::RecordedSignal& signal, chatter::online::Detector& detector,
-    Progress& progress);
+/// A channel as it was heard.
+struct HeardChannel {
+  std::vector<ChatterEvent> events;
+  double told_rev_s = 0.0;   ///< mean of what is said of the speed
+  double found_rev_s = 0.0;  ///< mean by the orders, while they show it; 0: they never do
+  double found_sd_rev_s = 0.0;
+  bool clips = false;
+};
+
+/// What the detector hears from the signal's first sample to its last. The signal has a speed; it
+/// becomes that of the orders where they show it.
+[[nodiscard]] HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
+                                        chatter::online::Detector& detector, Progress& progress);
 
 /// Speeds at which k whole waves of the chatter fit between two teeth, falling; within the
 /// override's and the spindle's reach.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
@@ -75,21 +76,63 @@ std::string labels_of(const offline::RecordedChannels& channels,
   return fmt::format("{}", fmt::join(out, ", "));
 }
 
-Json event_json(const offline::RecordedChannels& channels, const DetectEvent& event) {
+/// "12.31 × spindle, 4.1 Hz from 12": what makes it no forced vibration.
+std::string evidence_words(const DetectEvent& event) {
+  const ChatterEvidence& first = event.evidence.front();
+  const double order = event.frequency_hz / std::max(event.spindle_rev_s, 1e-9);
+  const std::string by = event.flip
+                             ? "grown with steady tooth orders"
+                             : fmt::format("{:.1f} Hz from {}{}", std::abs(first.from_order_hz),
+                                           first.order, first.folded ? ", folded" : "");
+  return fmt::format("{:.2f} × spindle, {}", order, by);
+}
+
+Json evidence_json(const ChatterEvidence& of) {
+  return {{"channel", of.channel},
+          {"start_s", of.start_s},
+          {"frequency_hz", of.frequency_hz},
+          {"nearest_order", of.order},
+          {"order_folded", of.folded},
+          {"from_order_hz", of.from_order_hz},
+          {"from_order_sd_hz", of.from_order_sd_hz},
+          {"confidence", of.confidence}};
+}
+
+/// The mode of the process file that is nearest; null: there is no process.
+Json mode_json(const DetectEvent& event, const std::vector<double>& modes_hz) {
+  if (modes_hz.empty()) {
+    return nullptr;
+  }
+  const double nearest = *std::ranges::min_element(
+      modes_hz, {}, [&](double hz) { return std::abs(hz - event.frequency_hz); });
+  return {{"frequency_hz", nearest}, {"off_hz", event.frequency_hz - nearest}};
+}
+
+Json event_json(const offline::RecordedChannels& channels, const DetectEvent& event,
+                const std::vector<double>& modes_hz) {
   const auto& advice = event.advice;
   const bool better = advice.speed_rev_s > 0.0;
   const double percent = 100.0 * advice.request.ratio;
-  return {{"start_s", event.start_s},
-          {"end_s", event.end_s},
-          {"frequency_hz", event.frequency_hz},
-          {"type", event.flip ? "flip" : "hopf"},
-          {"channels", event.channels},
-          {"channel_names", names_of(channels, event.channels)},
-          {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
-          {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
-          {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
-          {"lobe_speeds_rpm", event.lobes_rpm},
-          {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}};
+  Json evidence = Json::array();
+  for (const ChatterEvidence& of : event.evidence) {
+    evidence.push_back(evidence_json(of));
+  }
+  return {
+      {"start_s", event.start_s},
+      {"end_s", event.end_s},
+      {"frequency_hz", event.frequency_hz},
+      {"type", event.flip ? "flip" : "hopf"},
+      {"channels", event.channels},
+      {"channel_names", names_of(channels, event.channels)},
+      {"speed_rpm", rpm_from_rev_s(event.speed_rev_s)},
+      {"order", event.frequency_hz / std::max(event.spindle_rev_s, 1e-9)},
+      {"confidence", std::ranges::max(event.evidence, {}, &ChatterEvidence::confidence).confidence},
+      {"evidence", std::move(evidence)},
+      {"nearest_mode", mode_json(event, modes_hz)},
+      {"advised_speed_rpm", better ? Json(rpm_from_rev_s(advice.speed_rev_s)) : Json(nullptr)},
+      {"advised_override_percent", better ? Json(percent) : Json(nullptr)},
+      {"lobe_speeds_rpm", event.lobes_rpm},
+      {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}};
 }
 
 void add_recording(const offline::RecordedChannels& channels, Json& json) {
@@ -110,13 +153,13 @@ void add_recording(const offline::RecordedChannels& channels, Json& json) {
 }  // namespace
 
 Answer detect_answer(const offline::RecordedChannels& channels,
-                     const std::vector<DetectEvent>& events, DetectAdviser by,
-                     const std::vector<std::string>& notes) {
+                     const std::vector<DetectEvent>& events, const DetectSetting& setting) {
+  const DetectAdviser by = setting.by;
   const offline::RecordedSignal& signal = channels.front();
   Answer answer;
   answer.json["advice_by"] = adviser_name(by);
   answer.json["events"] = Json::array();
-  Table table({"from", "to", "frequency", "type", "at",
+  Table table({"from", "to", "frequency", "type", "evidence", "confidence", "at",
                by == DetectAdviser::frequency
                    ? "lobes, by the chatter frequency"
                    : fmt::format("better speed, by the {}", adviser_name(by))});
@@ -124,23 +167,32 @@ Answer detect_answer(const offline::RecordedChannels& channels,
   const std::string& only = channels.front().name;
   const bool named = channels.size() > 1 || (!only.empty() && only != "value");
   for (const DetectEvent& event : events) {
-    answer.json["events"].push_back(event_json(channels, event));
+    answer.json["events"].push_back(event_json(channels, event, setting.modes_hz));
     const std::string where =
         named ? ", channel " + labels_of(channels, event.channels) : std::string();
     table.row({fmt::format("{:.3f} s", event.start_s), fmt::format("{:.3f} s", event.end_s),
                fmt::format("{:.1f} Hz", event.frequency_hz), event.flip ? "flip" : "hopf",
+               evidence_words(event),
+               fmt::format("{:.0f} %", 100.0 * event.evidence.front().confidence),
                fmt::format("{:.0f} rpm{}", rpm_from_rev_s(event.speed_rev_s), where),
                better_words(event)});
   }
   const double length_s = static_cast<double>(signal.value.size()) / signal.rate_hz;
   add_recording(channels, answer.json);
-  answer.json["notes"] = notes;
-  answer.text = events.empty()
-                    ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
-                                  channels.size() > 1
-                                      ? fmt::format(", on none of {} channels", channels.size())
-                                      : std::string())
-                    : table.text();
+  answer.json["spindle_rpm"] = setting.found_rpm > 0.0 ? Json(setting.found_rpm) : Json(nullptr);
+  answer.json["spindle_sd_rpm"] =
+      setting.found_rpm > 0.0 ? Json(setting.found_sd_rpm) : Json(nullptr);
+  answer.json["sensor"] = setting.sensor;
+  answer.json["notes"] = setting.notes;
+  for (const std::string& words : setting.sensor) {
+    answer.text += words + "\n";
+  }
+  answer.text += events.empty()
+                     ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
+                                   channels.size() > 1
+                                       ? fmt::format(", on none of {} channels", channels.size())
+                                       : std::string())
+                     : table.text();
   if (by == DetectAdviser::frequency && !events.empty()) {
     answer.json["notes"].push_back(
         "the speeds rest on the chatter frequency alone: 60·f/(teeth·k). They lie near the lobes, "

@@ -25,10 +25,21 @@ struct DetectEvent : ChatterEvent {
 /// frequency alone.
 enum class DetectAdviser : std::uint8_t { planner, step, frequency };
 
-/// What `chatter detect` says: of each stretch where, how high, in which channels, and the better
-/// speed; of the recording its length, rates and channels.
+/// What is known of the recording and its cut beside the stretches.
+struct DetectSetting {
+  DetectAdviser by = DetectAdviser::frequency;
+  std::vector<double> modes_hz;     ///< of the process file
+  std::vector<std::string> sensor;  ///< Heard::sensor
+  std::vector<std::string> notes;
+  double found_rpm = 0.0;  ///< Heard::found_rpm
+  double found_sd_rpm = 0.0;
+};
+
+/// What `chatter detect` says: what the sensor cannot show; of each stretch where, how high, in
+/// which channels, by what evidence, and the better speed; of the recording its length, rates and
+/// channels.
 [[nodiscard]] Answer detect_answer(const chatter::offline::RecordedChannels& channels,
-                                   const std::vector<DetectEvent>& events, DetectAdviser by,
-                                   const std::vector<std::string>& notes);
+                                   const std::vector<DetectEvent>& events,
+                                   const DetectSetting& setting);
 
 }  // namespace steadyrest::apps::cli

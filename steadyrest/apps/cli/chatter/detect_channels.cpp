@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <steadyrest/apps/cli/chatter/detect_channels.hpp>
+#include <steadyrest/chatter/offline/signal/order_check.hpp>
 #include <steadyrest/chatter/offline/signal/signal_names.hpp>
 #include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -155,12 +156,96 @@ std::optional<Refusal> set_speed(const GivenSpeeds& given, const kernel::machine
   return std::nullopt;
 }
 
+namespace {
+
+/// A recorder's clock or a spindle may be so far off what is said of the speed, relative.
+constexpr double kToldSpeed = 0.003;
+/// Recorders of lower rates mostly have no filter before their samples.
+constexpr double kFilteredHz = 5000.0;
+constexpr double kHeardShare = 0.45;  ///< of the rate
+constexpr double kNarrowHz = 2500.0;
+constexpr double kOffToSay = 0.001;  ///< of the speed
+
+void say_band(const RecordedSignal& signal, Heard& out) {
+  const double most_hz = kHeardShare * signal.rate_hz;
+  if (most_hz < kNarrowHz) {
+    out.sensor.push_back(fmt::format(
+        "{:.0f} samples a second: chatter above {:.0f} Hz is not heard as such; orders beyond are "
+        "taken to fold back, and near their folds nothing counts as chatter",
+        signal.rate_hz, most_hz));
+  }
+}
+
+double mean_told(const RecordedSignal& signal) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double speed : signal.speed_rev_s) {
+    sum += std::isfinite(speed) ? speed : 0.0;
+    count += std::isfinite(speed) ? 1.0 : 0.0;
+  }
+  return sum / std::max(1.0, count);
+}
+
+/// Speed and teeth as the lines of the recording show them. A speed that is clearly another one is
+/// judged by in the place of what is said.
+bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) {
+  const RecordedSignal& first = channels.front();
+  const double told_rev_s = mean_told(first);
+  const auto found = chatter::offline::check_orders(first.value, first.rate_hz, told_rev_s, teeth);
+  if (found.other_speed) {
+    out.sensor.push_back(fmt::format(
+        "the lines are orders of {:.0f} rpm ({:.0f} % of them), not of {:.0f} ({:.0f} %): speed or "
+        "sampling rate are other than said; judged by the lines",
+        rpm_from_rev_s(found.speed_rev_s), 100.0 * found.found_share, rpm_from_rev_s(told_rev_s),
+        100.0 * std::max(0.0, found.told_share)));
+    for (RecordedSignal& signal : channels) {
+      for (double& speed : signal.speed_rev_s) {
+        speed *= found.speed_rev_s / told_rev_s;
+      }
+    }
+  }
+  if (found.other_teeth > 0) {
+    out.sensor.push_back(fmt::format("the strong orders are multiples of {}, not of {} teeth",
+                                     found.other_teeth, teeth));
+  }
+  return found.known;
+}
+
+/// What the first channel has heard of the speed.
+void say_speed(const HeardChannel& heard, bool orders_known, Heard& out) {
+  if (heard.found_rev_s > 0.0) {
+    const double off = heard.found_rev_s / heard.told_rev_s - 1.0;
+    if (std::abs(off) > kOffToSay) {
+      out.sensor.push_back(fmt::format(
+          "the spindle turns at {:.1f} rpm by its orders, {:.2f} % {} "
+          "what is said",
+          rpm_from_rev_s(heard.found_rev_s), 100.0 * std::abs(off), off < 0.0 ? "below" : "above"));
+    }
+  } else if (!orders_known && heard.events.empty()) {
+    out.sensor.emplace_back(
+        "no orders of the spindle stand out: air, another speed, or a sensor that does not hear "
+        "the "
+        "cut");
+  } else {
+    out.sensor.push_back(
+        fmt::format("the orders do not show the spindle's speed: it may be {:.1f} % off, and what "
+                    "is as near to "
+                    "an order counts as forced",
+                    100.0 * kToldSpeed));
+  }
+}
+
+}  // namespace
+
 Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::string& file,
                    Progress& progress) {
   Heard out;
   // The rate is the same in all channels.
-  const auto made =
-      chatter::online::Detector::make({.sample_rate_hz = channels.front().rate_hz, .teeth = teeth});
+  const double rate_hz = channels.front().rate_hz;
+  const auto made = chatter::online::Detector::make({.sample_rate_hz = rate_hz,
+                                                     .teeth = teeth,
+                                                     .speed_sd = kToldSpeed,
+                                                     .folds = rate_hz < kFilteredHz});
   if (!made) {
     return std::unexpected(made.error());
   }
@@ -187,9 +272,25 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::str
     out.notes.push_back(fmt::format("{:.6g} samples a second were reduced to {:.6g}",
                                     channels.front().recorded_hz, channels.front().rate_hz));
   }
-  for (const RecordedSignal& signal : channels) {
+  say_band(channels.front(), out);
+  const bool orders_known = check_orders_of(channels, teeth, out);
+  for (RecordedSignal& signal : channels) {
     auto detector = *made;
-    std::ranges::move(chatter_events(signal, detector, progress), std::back_inserter(out.events));
+    HeardChannel heard = hear_channel(signal, detector, progress);
+    if (heard.clips) {
+      out.sensor.push_back(fmt::format(
+          "channel {} clips: what it makes of orders lies on orders of all numbers, which count as "
+          "forced",
+          channel_label(signal)));
+    }
+    if (out.found_rpm == 0.0 && heard.found_rev_s > 0.0) {
+      out.found_rpm = rpm_from_rev_s(heard.found_rev_s);
+      out.found_sd_rpm = rpm_from_rev_s(heard.found_sd_rev_s);
+    }
+    if (&signal == &channels.front()) {
+      say_speed(heard, orders_known, out);
+    }
+    std::ranges::move(heard.events, std::back_inserter(out.events));
   }
   out.events = as_one(std::move(out.events));
   return out;
@@ -209,9 +310,10 @@ std::vector<ChatterEvent> as_one(std::vector<ChatterEvent> events) {
       continue;
     }
     known->end_s = std::max(known->end_s, event.end_s);
-    for (const std::size_t channel : event.channels) {
-      if (std::ranges::find(known->channels, channel) == known->channels.end()) {
-        known->channels.push_back(channel);
+    for (std::size_t i = 0; i < event.channels.size(); ++i) {
+      if (std::ranges::find(known->channels, event.channels[i]) == known->channels.end()) {
+        known->channels.push_back(event.channels[i]);
+        known->evidence.push_back(event.evidence[i]);
       }
     }
   }

@@ -40,6 +40,9 @@ struct Heard {
   std::vector<ChatterEvent> events;  ///< as_one()
   std::size_t window = 0;            ///< samples of a spectrum
   std::vector<std::string> notes;
+  std::vector<std::string> sensor;  ///< what these recordings cannot show, before the verdict
+  double found_rpm = 0.0;           ///< by the orders of the first channel that shows them; 0: none
+  double found_sd_rpm = 0.0;
 };
 
 /// Listens to each channel from the first sample to the last. Channels without a signal are taken

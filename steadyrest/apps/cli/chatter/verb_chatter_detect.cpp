@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -263,7 +264,18 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
     }
   }
   notes.insert(notes.end(), heard->notes.begin(), heard->notes.end());
-  Answer answer = detect_answer(*channels, events, adviser(options), notes);
+  std::vector<double> modes_hz;
+  if (process) {
+    std::ranges::transform(process->modes, std::back_inserter(modes_hz),
+                           &offline::Mode::frequency_hz);
+  }
+  Answer answer = detect_answer(*channels, events,
+                                {.by = adviser(options),
+                                 .modes_hz = std::move(modes_hz),
+                                 .sensor = std::move(heard->sensor),
+                                 .notes = std::move(notes),
+                                 .found_rpm = heard->found_rpm,
+                                 .found_sd_rpm = heard->found_sd_rpm});
   if (!options.report.empty()) {
     put_report(answer, options.report,
                page_of(answer.json, options, machine, shown_channel(*channels, events), teeth,
