@@ -116,14 +116,9 @@ const OrderGate::Output& OrderGate::look(const Line& line, const Shown& shown, d
       if (m == 0.0 && side < 0.0) {
         continue;
       }
-      // Of all orders near here the next that are asked for: a tooth order beyond the others may be
-      // some away.
       const double order = std::round((m * rate + side * out_.frequency_hz) / speed);
-      ask({.order = order,
-           .m = m,
-           .heard_hz = side * (order * speed - m * rate),
-           .folded = m > 0.0},
-          speed, speed_sd);
+      ask({.order = order, .heard_hz = side * (order * speed - m * rate), .folded = m > 0.0}, speed,
+          speed_sd);
     }
   }
   return out_;

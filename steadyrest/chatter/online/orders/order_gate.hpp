@@ -58,7 +58,6 @@ class OrderGate {
  private:
   struct Near {
     double order = 0.0;
-    double m = 0.0;  ///< times the rate
     double heard_hz = 0.0;
     bool folded = false;
   };

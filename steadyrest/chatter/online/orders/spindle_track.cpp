@@ -21,8 +21,9 @@ constexpr double kForget = 0.15;          // of a block, of how an order strays 
 constexpr double kUnknownStrange = 0.03;  // rad²
 constexpr double kOutlier = 2.0;          // standard deviations
 constexpr double kMostApart = 30.0;
-constexpr double kWalk = 0.0003;  // relative, in a second
-constexpr double kInAir = 0.005;  // relative: what a load may change
+constexpr double kWalk = 0.0003;    // relative, in a second
+constexpr double kInAir = 0.005;    // relative: what a load may change
+constexpr double kMoreInAir = 2.0;  // of what the speed may be off anyway
 constexpr double kMostGain = 0.5;
 constexpr double kRestlessBlocks = 8.0;
 constexpr double kMostRestless = 1e4;
@@ -168,8 +169,8 @@ SpindleTrack::Fit SpindleTrack::fit(std::span<const OrderFilter::Order> orders,
 void SpindleTrack::follow(const Fit& found, double seconds) noexcept {
   const double walk = kWalk * kWalk * seconds;
   if (!found.known) {
-    variance_ = std::max(variance_, std::min(variance_ + walk, kInAir * kInAir));
-    locked_s_ = 0.0;
+    const double most = std::min(kInAir, kMoreInAir * told_sd_);
+    variance_ = std::max(variance_, std::min(variance_ + walk, most * most));
     return;
   }
   const double innovation = found.off * found.off;
@@ -184,7 +185,6 @@ void SpindleTrack::follow(const Fit& found, double seconds) noexcept {
   const double gain = std::min(kMostGain, prior / (prior + measured));
   off_ = std::clamp(off_ + gain * found.off, -kMost, kMost);
   variance_ = std::clamp((1.0 - gain) * prior, kLeastVariance, kMost * kMost);
-  locked_s_ += seconds;
 }
 
 void SpindleTrack::reset() noexcept {
@@ -192,7 +192,6 @@ void SpindleTrack::reset() noexcept {
   variance_ = told_sd_ * told_sd_;
   restless_ = 1.0;
   std::ranges::fill(strange_, kUnknownStrange);
-  locked_s_ = 0.0;
   started_ = comparable_ = false;
 }
 

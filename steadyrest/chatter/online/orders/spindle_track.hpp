@@ -14,13 +14,16 @@ namespace steadyrest::chatter::online {
 ///
 /// Law. What is said of the speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
 /// revolutions, as integrated, order k has the phasor Yₖ; from block to block it turns by
-/// aₖ = 2π·k·B·ε. All orders that stand clear of the noise are weighted together,
-///   ε̂ = Σ k·aₖ/vₖ / (2π·B·Σ k²/vₖ),  vₖ = 1/SNRₖ + kRestless²,
-/// orders only as far up as the present uncertainty leaves aₖ within a turn, once more without
-/// those that do not agree (Huber). A Kalman filter with one state follows: ε is a random walk of
-/// kWalk·√t, faster where the innovations say so (a spindle that droops as it enters). What it
-/// finds turns the angle that the orders refer to, so later blocks see what is left. In air there
-/// is no order: the uncertainty grows.
+/// aₖ = 2π·k·B·ε. The tooth orders that stand clear of the noise and are not folded vote,
+///   ε̂ = Σ wₖ·k·aₖ / (2π·B·Σ wₖ·k²),  wₖ = h/vₖ,  vₖ = 1/SNRₖ + what the order has strayed by
+///   lately,
+/// as far up as the present uncertainty leaves aₖ within a turn; h is Huber's weight about the
+/// median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not move. A Kalman
+/// filter with one state follows: ε is a random walk of kWalk·√t, faster where two orders at least
+/// agree that it moved (a spindle that droops as it enters); an innovation that they do not agree
+/// on counts as an outlier. What it finds turns the angle that the orders refer to, so later blocks
+/// see what is left. In air no order shows it: the uncertainty grows to kInAir, or to twice what is
+/// said where that is less.
 class SpindleTrack {
  public:
   static constexpr double kMost = 0.025;
@@ -38,8 +41,6 @@ class SpindleTrack {
   [[nodiscard]] double ratio() const noexcept { return 1.0 + off_; }
   /// Its standard deviation.
   [[nodiscard]] double sd() const noexcept;
-  /// Seconds for which orders have confirmed it without a break; 0: none does.
-  [[nodiscard]] double locked_s() const noexcept { return locked_s_; }
 
  private:
   using Complex = std::complex<double>;
@@ -71,7 +72,6 @@ class SpindleTrack {
   double off_ = 0.0;
   double variance_;
   double restless_ = 1.0;  ///< mean of innovation²/its variance
-  double locked_s_ = 0.0;
   double begin_rev_ = 0.0;
   double block_rev_ = 1.0;
   std::size_t samples_ = 0;
