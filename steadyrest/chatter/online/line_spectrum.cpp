@@ -144,8 +144,8 @@ void LineSpectrum::transform() noexcept {
       if (half_ == n_) {
         step_ = Step::power;
         at_ = first_bin_;
-        falls_ = ignores_ = true;
-        rises_ = false;
+        falls_ = true;
+        rises_ = ignored_ = false;
         peak_below_ = first_bin_;
         before_bin_ = 2.0 / (kHannEnergy * static_cast<double>(n_) * static_cast<double>(n_)) *
                       std::norm(bins_[first_bin_ - 1]);
@@ -165,19 +165,22 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
   const std::size_t end = std::min(n_ / 2, at_ + kCopy);
   for (; at_ < end; ++at_) {
     const double hz = static_cast<double>(at_) * bin_hz_;
-    const bool skipped =
-        guard_hz > 0.0 && std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) <= guard_hz;
+    const double off_hz =
+        guard_hz > 0.0 ? std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) : hz;
+    const bool skipped = guard_hz > 0.0 && off_hz <= guard_hz;
     const double p = scale * std::norm(bins_[at_]);
-    // The skirt of a line that is ignored, or lies below the lowest frequency, is no line.
-    falls_ = (falls_ || ignores_) && !skipped && p < before_bin_;
-    if (skipped && !ignores_ && rises_ && p > before_bin_) {
-      peak_ = peak_below_;
-    }
-    if (!rises_) {
+    // The skirt of a line that is ignored, or lies below the lowest frequency, is no line: what
+    // goes up to the middle of a gap, and down from there.
+    const bool rises = p >= before_bin_;
+    if (rises && !rises_) {
       peak_below_ = peak_;
+      falls_ = false;
+    } else if (!rises && rises_ && ignored_) {
+      peak_ = peak_below_;
+      falls_ = true;
     }
-    rises_ = !skipped && p >= before_bin_;
-    ignores_ = skipped;
+    rises_ = rises;
+    ignored_ = skipped && off_hz < bin_hz_;
     before_bin_ = p;
     // Kept with its sign reversed: the interpolation of a peak beside a gap still needs the
     // neighbour.

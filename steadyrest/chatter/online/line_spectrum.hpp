@@ -85,7 +85,7 @@ class LineSpectrum {
   std::size_t start_ = 0;
   std::size_t half_ = 1;
   int pass_ = 0;
-  bool falls_ = false, rises_ = false, ignores_ = false;  ///< as the bins go up
+  bool falls_ = false, rises_ = false, ignored_ = false;  ///< as the bins go up
   std::size_t peak_below_ = 0;                            ///< before they began to rise
   double before_bin_ = 0.0;
   double level_ = 0.0, sum_ = 0.0;
