@@ -15,6 +15,24 @@ using kernel::machine::Machine;
 using kernel::outcome::Kind;
 using nc::plan::PlannedPath;
 
+namespace {
+
+/// PlannedPath::programmed, where the program gives a tolerance.
+Result<void> put_programmed(const std::string& file, const nc::interpret::Config& config,
+                            const Machine& machine, PlannedPath& path) {
+  if (!path.tolerant) {
+    return {};
+  }
+  auto programmed = nc::plan::plan_programmed_file(file, config, machine);
+  if (!programmed) {
+    return std::unexpected(programmed.error());
+  }
+  path.programmed = std::make_shared<const PlannedPath>(std::move(*programmed));
+  return {};
+}
+
+}  // namespace
+
 /// One pass through the program feeds the planner and the check. A refused block ends the job: a
 /// part with a block left out is not the part.
 std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine& machine) {
@@ -57,14 +75,10 @@ std::expected<Planned, Answer> plan(const ProgramOptions& options, const Machine
   path->subprograms = report->subprograms;
   nc::rewrite::hold_against_original(nc::rewrite::read_text_marks(options.file, path->subprograms),
                                      options.file, *config, machine, *path);
-  if (path->tolerant) {
-    auto programmed = nc::plan::plan_programmed_file(options.file, *config, machine);
-    if (!programmed) {
-      answer.refusals.push_back(programmed.error());
-      answer.exit_code = kRefused;
-      return std::unexpected(std::move(answer));
-    }
-    path->programmed = std::make_shared<const PlannedPath>(std::move(*programmed));
+  if (const auto done = put_programmed(options.file, *config, machine, *path); !done) {
+    answer.refusals.push_back(done.error());
+    answer.exit_code = kRefused;
+    return std::unexpected(std::move(answer));
   }
   Planned out{std::make_shared<const PlannedPath>(std::move(*path)), check.warnings(),
               check.count(), *report};

@@ -115,9 +115,14 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
   out.estimate = estimate;
   const bool gap = std::isnan(value);
   out.residual = gap ? 0.0 : value - estimate;
-  const double share = 1.0 / sum_p;
-  for (std::size_t i = 0; i < used; ++i) {
-    Order& o = orders_[i];
+  learn(std::span(orders_).first(used), 1.0 / sum_p, {.gap = gap, .hold = hold}, out);
+  out.mean = orders_.front().c;
+  return out;
+}
+
+void OrderFilter::learn(std::span<Order> used, double share, const Learning& how,
+                        Output& out) noexcept {
+  for (Order& o : used) {
     if (!o.used) {
       continue;
     }
@@ -126,18 +131,16 @@ OrderFilter::Output OrderFilter::update(double value, double angle_rev, double s
     const double across = out.residual * o.sin;
     o.block_c += along;
     o.block_s += across;
-    if (!gap && (!hold || (o.tooth && !o.folded))) {
+    if (!how.gap && (!how.hold || (o.tooth && !o.folded))) {
       o.c += gain * along;
       o.s += gain * across;
     }
     // Half: over a revolution cos² and sin² average to ½.
-    o.p -= gap ? 0.0 : 0.5 * gain * o.p;
+    o.p -= how.gap ? 0.0 : 0.5 * gain * o.p;
     const double energy = 0.5 * (o.c * o.c + o.s * o.s);
-    out.forced_energy += i == 0 ? 0.0 : energy;
-    out.tooth_energy += i == 0 || !o.tooth ? 0.0 : energy;
+    out.forced_energy += o.order == 0.0 ? 0.0 : energy;
+    out.tooth_energy += o.order == 0.0 || !o.tooth ? 0.0 : energy;
   }
-  out.mean = orders_.front().c;
-  return out;
 }
 
 bool OrderFilter::is_heard(double turn) const noexcept {

@@ -72,6 +72,12 @@ class OrderFilter {
 
  private:
   OrderFilter(const Config& config, std::vector<Order> orders);
+  struct Learning {
+    bool gap = false;
+    bool hold = false;
+  };
+  /// From the residual in `out`, whose energies it adds up; `share`: 1/(1 + Σp).
+  static void learn(std::span<Order> used, double share, const Learning& how, Output& out) noexcept;
   /// `turn`: of the order's angle in a sample.
   [[nodiscard]] bool is_heard(double turn) const noexcept;
 

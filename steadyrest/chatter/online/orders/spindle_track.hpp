@@ -61,7 +61,7 @@ class SpindleTrack {
   void gather(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
   [[nodiscard]] double median() noexcept;
   [[nodiscard]] Fit fit(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
-  void follow(const Fit& fit, double seconds) noexcept;
+  void follow(const Fit& found, double seconds) noexcept;
 
   double told_sd_;
   std::vector<Complex> at_begin_;  ///< the filter's phasors as the block began

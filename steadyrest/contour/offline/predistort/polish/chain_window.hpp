@@ -17,9 +17,9 @@ namespace steadyrest::contour::offline {
 /// with another last digit: with blocks of one size a text is the same on every processor. Set
 /// before anything runs.
 inline const bool kBlocksAreFixed = [] {
-  constexpr std::ptrdiff_t kLevel1 = 48 * 1024;
-  constexpr std::ptrdiff_t kLevel2 = 2 * 1024 * 1024;
-  constexpr std::ptrdiff_t kLevel3 = 105 * 1024 * 1024;
+  constexpr std::ptrdiff_t kLevel1 = 48L * 1024;
+  constexpr std::ptrdiff_t kLevel2 = 2L * 1024 * 1024;
+  constexpr std::ptrdiff_t kLevel3 = 105L * 1024 * 1024;
   Eigen::setCpuCacheSizes(kLevel1, kLevel2, kLevel3);
   return true;
 }();
