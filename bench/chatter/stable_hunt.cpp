@@ -34,7 +34,7 @@ std::vector<Alarm> alarms(const RecordedCut& cut, const Recorded& recorded, Cost
   auto detector = Detector::make({.sample_rate_hz = cut.rate_hz,
                                   .teeth = cut.teeth,
                                   .speed_sd = 0.003,
-                                  .folds = cut.rate_hz < 5000.0});
+                                  .folds = Detector::folds_at(cut.rate_hz)});
   if (!detector) {
     return out;
   }

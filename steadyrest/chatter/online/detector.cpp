@@ -132,6 +132,8 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   }
   follow_speed(input);
   const double speed_rev_s = speed_of(input);
+  out_.speed_rev_s = state_.mean_speed_rev_s;
+  out_.speed_sd = std::isnan(input.angle_rev) ? track_.sd() : 0.0;
   const bool gap = sensor_.update(input.value);
   out_.reason = !std::isfinite(input.value) ? Reason::input_not_finite : state_.reason;
   const OrderFilter::Output forced =
@@ -145,7 +147,7 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   out_.residual = forced.residual;
   revolution_ = spread_.update(value - forced.mean, state_.angle_rev);
   follow_energy(forced, value - forced.mean, turn_share);
-  // What the filter has not learnt is no line.
+  // Not a line until the filter has had time to learn it.
   const double shown = state_.settled_rev > kLearnRev ? forced.residual : 0.0;
   const double tooth_hz = static_cast<double>(config_.teeth) * state_.mean_speed_rev_s;
   const bool gaps = tooth_hz > kWideBins * spectrum_.resolution_hz();
@@ -155,15 +157,14 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
   // A spectrum that finds FreeShare still busy is dropped: the next comes 13 ms later.
   if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz); lines.fresh) {
-    const OrderGate::Output& line =
-        gate_.look({.frequency_hz = lines.frequency_hz,
-                    .advance_turns = lines.advance_turns,
-                    .seconds = lines.advance_s,
-                    .energy = lines.line_energy},
-                   {.orders = filter_.orders(),
-                    .learning = state_.settled_rev < kFoldsRev,
-                    .clipped = sensor_.clips()},
-                   state_.mean_speed_rev_s, std::isnan(input.angle_rev) ? track_.sd() : 0.0);
+    const OrderGate::Output& line = gate_.look({.frequency_hz = lines.frequency_hz,
+                                                .advance_turns = lines.advance_turns,
+                                                .seconds = lines.advance_s,
+                                                .energy = lines.line_energy},
+                                               {.orders = filter_.orders(),
+                                                .learning = state_.settled_rev < kFoldsRev,
+                                                .clipped = sensor_.clips()},
+                                               out_.speed_rev_s, out_.speed_sd);
     if (!share_.busy()) {
       lines_ = lines;
       line_ = line;
@@ -193,7 +194,7 @@ void Detector::follow_speed(const Input& input) noexcept {
   // Memory of half a window: mean and spread match what the spectrum sees.
   const double keep = 2.0 / static_cast<double>(spectrum_.length());
   state_.mean_speed_rev_s += keep * (speed_rev_s - state_.mean_speed_rev_s);
-  // What is told moves or does not; what the orders add is no modulation.
+  // Only the told speed says whether it is modulated; the track's corrections do not.
   state_.told_rev_s += keep * (input.speed_rev_s - state_.told_rev_s);
   const double off = std::abs(input.speed_rev_s / state_.told_rev_s - 1.0);
   state_.speed_spread += keep * (off - state_.speed_spread);
@@ -322,8 +323,6 @@ void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output&
   state_.quiet = below || !line ? state_.quiet + 1 : 0;
   decide(steady);
   name(lines, line, cuts);
-  out_.speed_rev_s = state_.mean_speed_rev_s;
-  out_.speed_sd = track_.sd();
 }
 
 void Detector::decide(bool steady) noexcept {

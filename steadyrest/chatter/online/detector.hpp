@@ -36,7 +36,8 @@ namespace steadyrest::chatter::online {
 ///   (learnt while nothing is suspect, from `learn_s` on), in `confirm` spectra, minus those in
 ///   between that were not; unless F is below 0.05, the last revolution has less than 70 % of the
 ///   line (it dies away), or the revolution's spread is below a quarter of what a line of this
-///   order and energy gives; a line whose phase has shown for 0.2 s that it is no order needs no F.
+///   order and energy gives; a line whose phase has shown for 0.2 s that it is not an order does
+///   not need F.
 /// Vibration at an order of the spindle is forced: at constant speed a strongest line that
 /// OrderGate does not tell from an order, or the fold of one, is never chatter, with one exception.
 /// Period doubling, at half tooth orders, is claimed where the line stands `margin` times above all
@@ -111,6 +112,10 @@ class Detector {
   };
 
   [[nodiscard]] static kernel::outcome::Result<Detector> make(const Config& config);
+  /// Recorders of such a rate mostly have no filter before their samples: Config::folds.
+  [[nodiscard]] static constexpr bool folds_at(double sample_rate_hz) noexcept {
+    return sample_rate_hz < 5e3;
+  }
 
   /// One sample. A value that is not finite, or repeated again and again, is a gap of the sensor:
   /// the spindle turns on and the forced vibration is taken to go on. A sample with a speed or

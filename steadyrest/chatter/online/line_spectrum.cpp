@@ -169,8 +169,8 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
         guard_hz > 0.0 ? std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) : hz;
     const bool skipped = guard_hz > 0.0 && off_hz <= guard_hz;
     const double p = scale * std::norm(bins_[at_]);
-    // The skirt of a line that is ignored, or lies below the lowest frequency, is no line: what
-    // goes up to the middle of a gap, and down from there.
+    // The skirt of an ignored line, or of one below the lowest frequency, is not a line: the bins
+    // that rise to the middle of a gap and fall from there.
     const bool rises = p >= before_bin_;
     if (rises && !rises_) {
       peak_below_ = peak_;

@@ -8,11 +8,11 @@ namespace steadyrest::chatter::online {
 
 /// A sensor that gives nothing, and one that gives no more than its largest value.
 ///
-/// Law. A gap is a value that is no number, or that repeats: with p the share of samples that are
-/// as the one before, learnt as they come (coarse counts repeat often), n repeats in a row have the
-/// probability pⁿ; below kNoChance they are a gap, from the third equal sample on in a fine signal.
-/// Repeats of the largest value so far are clipped; more than kClipped of all samples over about a
-/// second, and the sensor counts as clipping.
+/// Law. A gap is a value that is not a number, or that repeats: with p the share of samples that
+/// are as the one before, learnt as they come (coarse counts repeat often), n repeats in a row have
+/// the probability pⁿ; below kNoChance they are a gap, from the third equal sample on in a fine
+/// signal. Repeats of the largest value so far are clipped; more than kClipped of all samples over
+/// about a second, and the sensor counts as clipping.
 class SensorFaults {
  public:
   explicit SensorFaults(double sample_rate_hz) : rate_hz_(sample_rate_hz) {}

@@ -188,20 +188,10 @@ Result<std::unique_ptr<sim::SimulatedMachine>> machine_of(const Job& job) {
        .cutting = job.cutting});
 }
 
-/// What the errors of this job refer to; null: the path that is cut, also where a tolerance of
-/// more than the widest tube leaves nothing to pair it with.
-std::shared_ptr<const Original> judged_by(const Job& job) {
-  if (job.against || !job.path->programmed) {
-    return job.against;
-  }
-  auto own = Original::make(*job.path, job.path, Original::kWidestTube_mm);
-  return own ? std::make_shared<const Original>(std::move(*own)) : nullptr;
-}
-
 Result<void> cut(const Job& job, sim::SimulatedMachine& machine, const Layer& layer,
                  const OnSample& on_sample, MotionScore* motion = nullptr,
                  VibrationRecord* vibration = nullptr) {
-  const auto against = judged_by(job);
+  const auto against = job.against ? job.against : Original::of_itself(job.path);
   auto error = TrueError::make(job.machine, against);
   if (!error) {
     return std::unexpected(error.error());

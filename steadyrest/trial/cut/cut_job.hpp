@@ -31,7 +31,7 @@ struct Job {
   std::vector<ChatterChoice> choices = {};  ///< the modulator's law for each programmed speed
   std::optional<supervisor::ListeningStage> listener = {};  ///< it hears the vibration
   std::shared_ptr<const Original> against =
-      {};  ///< contour errors refer to it; empty: part() of `path`
+      {};  ///< contour errors refer to it; empty: Original::of_itself()
   // NOLINTEND(readability-redundant-member-init)
   /// Called with every frame of the control, before a layer sees it.
   std::function<void(const kernel::signal::Frame& frame)> on_frame = [](const auto&) {};

@@ -46,4 +46,13 @@ kernel::outcome::Result<Original> Original::make(
                   .original_line = original_line};
 }
 
+std::shared_ptr<const Original> Original::of_itself(
+    const std::shared_ptr<const nc::plan::PlannedPath>& path) {
+  if (!path->programmed) {
+    return nullptr;
+  }
+  auto own = make(*path, path, kWidestTube_mm);
+  return own ? std::make_shared<const Original>(std::move(*own)) : nullptr;
+}
+
 }  // namespace steadyrest::trial::cut

@@ -16,7 +16,7 @@ struct Original {
   /// The search's window beside the servo lag is at most 10 mm.
   static constexpr double kWidestTube_mm = 5.0;
 
-  std::shared_ptr<const nc::plan::PlannedPath> path;    ///< PlannedPath::part() of the original
+  std::shared_ptr<const nc::plan::PlannedPath> path;    ///< of the original, as it is programmed
   std::shared_ptr<const nc::plan::PlannedPath> as_cut;  ///< as the control plans the original
   math::geometry::PathPairing pairing;
   double tube_mm = 0.0;
@@ -29,6 +29,10 @@ struct Original {
   static kernel::outcome::Result<Original> make(
       const nc::plan::PlannedPath& changed, std::shared_ptr<const nc::plan::PlannedPath> original,
       double tube_mm);
+  /// What a path is judged by whose program gives a tolerance: itself as it is programmed. Null: it
+  /// gives none, or one so wide that the two cannot be paired.
+  static std::shared_ptr<const Original> of_itself(
+      const std::shared_ptr<const nc::plan::PlannedPath>& path);
 };
 
 }  // namespace steadyrest::trial::cut

@@ -93,6 +93,7 @@ Result<supervisor::ListeningStage::Config> stage_for(const chatter::offline::Pro
   better.detector.teeth = process.tool.teeth;
   better.detector.least_energy = sensor.silence * sensor.silence;
   better.detector.speed_sd = kSpeedOfControl;
+  better.detector.folds = chatter::online::Detector::folds_at(sensor.rate_hz);
   better.table.teeth = process.tool.teeth;
   put_limits(machine, stage.acts, better.table);
   const double most_depth_mm = kMostDepth * depth_mm;

@@ -95,7 +95,7 @@ TEST(ChatterDetectFiles, AChannelIsChosenByNumberOrName) {
   for (const char* channel : {"2", "Accel", "accel", "ACCEL(m/s^2)", "Accel(m/s^2)"}) {
     const Finished said = run_line(detect_in(file) + " --json --channel " + channel);
     if (std::string(channel).find('(') != std::string::npos) {  // the blank is missing
-      EXPECT_THAT(said.err, HasSubstr("is none of 2: 1 Mic_V, 2 Accel (m/s^2)"));
+      EXPECT_THAT(said.err, HasSubstr("matches none of the 2 channels: 1 Mic_V, 2 Accel (m/s^2)"));
       continue;
     }
     const json answer = json::parse(said.out);
@@ -105,10 +105,11 @@ TEST(ChatterDetectFiles, AChannelIsChosenByNumberOrName) {
   for (const char* channel : {"1", "mic_v", "mic"}) {
     EXPECT_TRUE(answer_of(detect_in(file) + " --channel " + channel)["events"].empty()) << channel;
   }
-  expect_refused(detect_in(file) + " --channel 3", "--channel 3 is none of 2: 1 Mic_V, 2 Accel");
+  expect_refused(detect_in(file) + " --channel 3",
+                 "--channel 3 matches none of the 2 channels: 1 Mic_V, 2 Accel");
   const std::string twice = scratch.file("b.csv", with_head("Time (s),Accel (V),Accel (m/s^2)\n"));
   expect_refused(detect_in(twice) + " --channel accel",
-                 "--channel accel is the name of 2 of 2: 1 Accel (V), 2 Accel (m/s^2)");
+                 "--channel accel matches 2 of the 2 channels: 1 Accel (V), 2 Accel (m/s^2)");
 }
 
 TEST(ChatterDetectFiles, ReadsASpreadsheetWithItsSpeed) {
@@ -161,7 +162,7 @@ TEST(ChatterDetectFiles, TakesTheSpeedFromTheFilesName) {
                  "--speed-from-name 50000 is above the spindle's 8000");
 }
 
-// Through a gap of 0.1 s before the chatter and single samples that are no numbers.
+// Through a gap of 0.1 s before the chatter and single samples that are not numbers.
 TEST(ChatterDetectFiles, HearsThroughGaps) {
   const Scratch scratch;
   const std::string text =
@@ -179,7 +180,7 @@ TEST(ChatterDetectFiles, HearsThroughGaps) {
   EXPECT_NEAR(answer["seconds"], 1.2, 1e-3);
   const std::string notes = answer["notes"].dump();
   EXPECT_THAT(notes, HasSubstr("samples are missing in 1 place, the first before line 1603"));
-  EXPECT_THAT(notes, HasSubstr("Accel (m/s^2): 1 sample is no number, the first in line "));
+  EXPECT_THAT(notes, HasSubstr("Accel (m/s^2): 1 sample is not a number, the first in line "));
   const Finished report = run_line(detect_in(file) + " --report out");
   EXPECT_EQ(report.code, 0) << report.err;
 }

@@ -86,11 +86,11 @@ export interface ChatterEvent {
   speed_rpm: number;
   /** Frequency over the spindle's. */
   order: number;
-  /** That it is no forced vibration, 0 … 1. */
+  /** Confidence that this is not forced vibration, 0 … 1. */
   confidence: number;
   /** Of each channel that hears it. */
   evidence: { channel: number; nearest_order: number; order_folded: boolean; from_order_hz: number; from_order_sd_hz: number; confidence: number }[];
-  /** Of the process file; null: there is none. */
+  /** Of the process file; null without one. */
   nearest_mode: { frequency_hz: number; off_hz: number } | null;
   advised_speed_rpm: Maybe;
   advised_override_percent: Maybe;

@@ -145,7 +145,7 @@ function advice(e: ChatterEvent): string {
 function evidence(e: ChatterEvent): string {
   const first = e.evidence[0];
   if (e.type === 'flip' || !first) {
-    return 'half tooth orders, grown while the tooth orders stayed';
+    return 'at half tooth orders; grew while the tooth orders held steady';
   }
   const fold = first.order_folded ? ', folded' : '';
   return `${fixed(Math.abs(first.from_order_hz), 1)} ± ${fixed(first.from_order_sd_hz, 1)}\u00a0Hz from order ${first.nearest_order}${fold}`;
@@ -186,11 +186,11 @@ export function detectView(page: DetectPage): View {
     body:
       section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
       (page.answer.events.length > 0 ? section('Where it chatters', eventsTable(page.answer)) : '') +
-      (page.answer.sensor.length > 0 ? section('What this recording shows and does not', `<ul>${page.answer.sensor.map((words) => `<li>${escapeHtml(words)}</li>`).join('')}</ul>`) : ''),
+      (page.answer.sensor.length > 0 ? section('What this recording can and cannot show', `<ul>${page.answer.sensor.map((words) => `<li>${escapeHtml(words)}</li>`).join('')}</ul>`) : ''),
     explanation: [
       ['Spectrogram', 'Signal power over time and frequency, in dB relative to the strongest cell. Forced vibration lies on multiples of the tooth-passing frequency; chatter lies between them.'],
-      ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself, which is that of the orders in the signal where they show it. With runout, forced vibration lies on the spindle orders.'],
-      ['Evidence', 'How far the line is from the nearest order of the spindle that it could be, with the standard deviation of that. Vibration at an order is forced by definition. Confidence: the probability that the line is not there, over the spectra of the stretch, less for few of them; for flip, the share of its energy.'],
+      ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself, measured from the orders in the signal where they show it. With runout, forced vibration lies on the spindle orders.'],
+      ['Evidence', 'How far the line is from the nearest spindle order it could belong to, with the standard deviation. Vibration at an order is forced by definition. Confidence: the probability that the line is not at that order, averaged over the spectra of the stretch and reduced for short stretches; for flip, its share of the energy.'],
       TYPES,
       ['Better speed', 'By the chatter frequency: the lobes’ speeds, at which a whole number of chatter waves fits between two teeth; it knows neither depth nor border, so no step is advised. By the deepest step: with a process file, the step with the deepest border. By the planner: with a process file and a depth, the answer of <code>chatter plan</code>.'],
     ],

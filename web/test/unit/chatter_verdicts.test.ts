@@ -81,7 +81,7 @@ describe('a signal', () => {
   });
   it('shows by what evidence it is chatter', () => {
     expect(page([event()]).body).toContain(`11.0 ± 0.5${NB}Hz from order 6`);
-    expect(page([event({ type: 'flip' })]).body).toContain('grown while the tooth orders stayed');
+    expect(page([event({ type: 'flip' })]).body).toContain('grew while the tooth orders held steady');
     expect(page([event({ nearest_mode: { frequency_hz: 420, off_hz: -9 } })]).body).toContain('(−9.0)');
   });
   it('keeps the name of a type that it does not know', () => expect(['hopf', 'flip', 'fold'].map(typeName)).toEqual(['Hopf', 'flip', 'fold']));

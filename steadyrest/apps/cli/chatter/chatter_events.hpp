@@ -20,8 +20,9 @@ struct ChatterEvidence {
   double from_order_sd_hz = 0.0;  ///< standard deviation of that
   std::size_t order = 0;
   bool folded = false;
-  /// That it is no forced vibration, 0 … 1: the probability that the line is not at that order (for
-  /// flip, its share of the energy), over the spectra, less for few of them: 1 − 2⁻ⁿ.
+  /// Confidence that this is not forced vibration, 0 … 1: the probability that the line does not
+  /// lie at that order (for flip, its share of the energy), averaged over the n spectra and
+  /// reduced by 1 − 2⁻ⁿ for short stretches.
   double confidence = 0.0;
 };
 
@@ -40,7 +41,7 @@ struct ChatterEvent {
 /// A channel as it was heard.
 struct HeardChannel {
   std::vector<ChatterEvent> events;
-  double told_rev_s = 0.0;   ///< mean of what is said of the speed
+  double told_rev_s = 0.0;   ///< mean of the stated speed
   double found_rev_s = 0.0;  ///< mean by the orders, while they show it; 0: they never do
   double found_sd_rev_s = 0.0;
   bool clips = false;

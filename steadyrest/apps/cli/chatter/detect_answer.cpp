@@ -76,12 +76,12 @@ std::string labels_of(const offline::RecordedChannels& channels,
   return fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// "12.31 × spindle, 4.1 Hz from 12": what makes it no forced vibration.
+/// "12.31 × spindle, 4.1 Hz from 12": why it is not forced vibration.
 std::string evidence_words(const DetectEvent& event) {
   const ChatterEvidence& first = event.evidence.front();
   const double order = event.frequency_hz / std::max(event.spindle_rev_s, 1e-9);
   const std::string by = event.flip
-                             ? "grown with steady tooth orders"
+                             ? "grew while the tooth orders held steady"
                              : fmt::format("{:.1f} Hz from {}{}", std::abs(first.from_order_hz),
                                            first.order, first.folded ? ", folded" : "");
   return fmt::format("{:.2f} × spindle, {}", order, by);
@@ -98,7 +98,7 @@ Json evidence_json(const ChatterEvidence& of) {
           {"confidence", of.confidence}};
 }
 
-/// The mode of the process file that is nearest; null: there is no process.
+/// The nearest mode of the process file; null without a process file.
 Json mode_json(const DetectEvent& event, const std::vector<double>& modes_hz) {
   if (modes_hz.empty()) {
     return nullptr;

@@ -106,8 +106,8 @@ Result<RecordedChannels> chosen_channels(RecordedChannels all, const std::string
   }
   return kernel::outcome::refuse(
       file,
-      fmt::format("--channel {} is {} of {}: {}", channel,
-                  found.empty() ? "none" : fmt::format("the name of {}", found.size()), all.size(),
+      fmt::format("--channel {} matches {} of the {} channels: {}", channel,
+                  found.empty() ? "none" : fmt::format("{}", found.size()), all.size(),
                   list_of(all)),
       "give one of these numbers or names, with or without its unit");
 }
@@ -158,10 +158,8 @@ std::optional<Refusal> set_speed(const GivenSpeeds& given, const kernel::machine
 
 namespace {
 
-/// A recorder's clock or a spindle may be so far off what is said of the speed, relative.
+/// How far a recorder's clock or a spindle may be off the stated speed, relative.
 constexpr double kToldSpeed = 0.003;
-/// Recorders of lower rates mostly have no filter before their samples.
-constexpr double kFilteredHz = 5000.0;
 constexpr double kHeardShare = 0.45;  ///< of the rate
 constexpr double kNarrowHz = 2500.0;
 constexpr double kOffToSay = 0.001;  ///< of the speed
@@ -170,8 +168,8 @@ void say_band(const RecordedSignal& signal, Heard& out) {
   const double most_hz = kHeardShare * signal.rate_hz;
   if (most_hz < kNarrowHz) {
     out.sensor.push_back(fmt::format(
-        "{:.0f} samples a second: chatter above {:.0f} Hz is not heard as such; orders beyond are "
-        "taken to fold back, and near their folds nothing counts as chatter",
+        "at {:.0f} samples per second chatter above {:.0f} Hz cannot be identified; higher orders "
+        "are assumed to fold back, and lines near their folds count as forced",
         signal.rate_hz, most_hz));
   }
 }
@@ -186,16 +184,16 @@ double mean_told(const RecordedSignal& signal) {
   return sum / std::max(1.0, count);
 }
 
-/// Speed and teeth as the lines of the recording show them. A speed that is clearly another one is
-/// judged by in the place of what is said.
+/// Checks the stated speed and number of teeth against the lines of the recording. If the lines
+/// clearly fit another speed, that speed is used.
 bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) {
   const RecordedSignal& first = channels.front();
   const double told_rev_s = mean_told(first);
   const auto found = chatter::offline::check_orders(first.value, first.rate_hz, told_rev_s, teeth);
   if (found.other_speed) {
     out.sensor.push_back(fmt::format(
-        "the lines are orders of {:.0f} rpm ({:.0f} % of them), not of {:.0f} ({:.0f} %): speed or "
-        "sampling rate are other than said; judged by the lines",
+        "the spectral lines fit a spindle at {:.0f} rpm ({:.0f} % of them), not {:.0f} rpm "
+        "({:.0f} %): the stated speed or sampling rate is wrong; judged at the speed of the lines",
         rpm_from_rev_s(found.speed_rev_s), 100.0 * found.found_share, rpm_from_rev_s(told_rev_s),
         100.0 * std::max(0.0, found.told_share)));
     for (RecordedSignal& signal : channels) {
@@ -205,33 +203,31 @@ bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) 
     }
   }
   if (found.other_teeth > 0) {
-    out.sensor.push_back(fmt::format("the strong orders are multiples of {}, not of {} teeth",
-                                     found.other_teeth, teeth));
+    out.sensor.push_back(
+        fmt::format("the strong orders are multiples of {}, which does not fit {} teeth",
+                    found.other_teeth, teeth));
   }
   return found.known;
 }
 
-/// What the first channel has heard of the speed.
+/// Reports what the first channel shows of the spindle speed.
 void say_speed(const HeardChannel& heard, bool orders_known, Heard& out) {
   if (heard.found_rev_s > 0.0) {
     const double off = heard.found_rev_s / heard.told_rev_s - 1.0;
     if (std::abs(off) > kOffToSay) {
       out.sensor.push_back(fmt::format(
-          "the spindle turns at {:.1f} rpm by its orders, {:.2f} % {} "
-          "what is said",
+          "the orders show the spindle at {:.1f} rpm, {:.2f} % {} the stated speed",
           rpm_from_rev_s(heard.found_rev_s), 100.0 * std::abs(off), off < 0.0 ? "below" : "above"));
     }
   } else if (!orders_known && heard.events.empty()) {
     out.sensor.emplace_back(
-        "no orders of the spindle stand out: air, another speed, or a sensor that does not hear "
-        "the "
-        "cut");
+        "no spindle orders rise above the noise: the tool may be cutting air, the stated speed may "
+        "be wrong, or the sensor may not pick up the cut");
   } else {
-    out.sensor.push_back(
-        fmt::format("the orders do not show the spindle's speed: it may be {:.1f} % off, and what "
-                    "is as near to "
-                    "an order counts as forced",
-                    100.0 * kToldSpeed));
+    out.sensor.push_back(fmt::format(
+        "the orders do not show the spindle speed: it is taken to be within {:.1f} % of the stated "
+        "one, and lines that close to an order count as forced",
+        100.0 * kToldSpeed));
   }
 }
 
@@ -242,10 +238,11 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::str
   Heard out;
   // The rate is the same in all channels.
   const double rate_hz = channels.front().rate_hz;
-  const auto made = chatter::online::Detector::make({.sample_rate_hz = rate_hz,
-                                                     .teeth = teeth,
-                                                     .speed_sd = kToldSpeed,
-                                                     .folds = rate_hz < kFilteredHz});
+  const auto made =
+      chatter::online::Detector::make({.sample_rate_hz = rate_hz,
+                                       .teeth = teeth,
+                                       .speed_sd = kToldSpeed,
+                                       .folds = chatter::online::Detector::folds_at(rate_hz)});
   if (!made) {
     return std::unexpected(made.error());
   }
@@ -279,8 +276,8 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::str
     HeardChannel heard = hear_channel(signal, detector, progress);
     if (heard.clips) {
       out.sensor.push_back(fmt::format(
-          "channel {} clips: what it makes of orders lies on orders of all numbers, which count as "
-          "forced",
+          "channel {} clips: clipping adds harmonics at every order of the spindle, so every order "
+          "counts as forced",
           channel_label(signal)));
     }
     if (out.found_rpm == 0.0 && heard.found_rev_s > 0.0) {

@@ -40,19 +40,14 @@ RunPath run_path(const Corrected& text) {
           .origin = text.origin};
 }
 
-/// The program as it is, judged as its cut is.
-RunPath run_path(const PathPointer& path, const std::vector<std::uint32_t>& same) {
-  using trial::cut::Original;
-  const auto own = path->programmed ? Original::make(*path, path, Original::kWidestTube_mm)
-                                    : Result<Original>(std::unexpected(Refusal{}));
-  return own ? RunPath{.path = *path,
-                       .original = *own->path,
-                       .map = contour::offline::paired(*path, own->pairing),
-                       .origin = same}
-             : RunPath{.path = *path,
-                       .original = *path,
-                       .map = contour::offline::same_path(*path),
-                       .origin = same};
+/// The program as it is, judged as its cut is: by `own`, Original::of_itself().
+RunPath run_path(const nc::plan::PlannedPath& path, const trial::cut::Original* own,
+                 const std::vector<std::uint32_t>& same) {
+  return {.path = path,
+          .original = own != nullptr ? *own->path : path,
+          .map = own != nullptr ? contour::offline::paired(path, own->pairing)
+                                : contour::offline::same_path(path),
+          .origin = same};
 }
 
 /// What the servo model leaves over the limit in the best way. `text`: null: as programmed.
@@ -60,7 +55,8 @@ Result<std::vector<contour::offline::OverLine>> over_of(const Setup& setup, cons
                                                         const CorrectedWays& corrected,
                                                         const Corrected* text) {
   const std::vector<std::uint32_t> same;
-  const RunPath run = text != nullptr ? run_path(*text) : run_path(path, same);
+  const auto own = text == nullptr ? trial::cut::Original::of_itself(path) : nullptr;
+  const RunPath run = text != nullptr ? run_path(*text) : run_path(*path, own.get(), same);
   const auto found = std::ranges::find(corrected.ways, Way::text_held, &Corrected::way);
   std::optional<RunPath> held;
   if (found != corrected.ways.end() && &*found != text) {

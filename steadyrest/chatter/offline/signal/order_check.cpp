@@ -28,7 +28,7 @@ constexpr double kTeethShare = 0.8;
 constexpr double kNotTeeth = 0.5;
 constexpr std::size_t kMostTeeth = 16;
 
-/// The lines of a mean spectrum: what stands above the noise, by bin.
+/// Amplitude above the noise in each bin of the mean spectrum.
 struct Lines {
   std::vector<double> size;  ///< √ of the power: one line of chatter is not to outweigh all orders
   double bin_hz = 0.0;

@@ -12,7 +12,7 @@
 #include <steadyrest/table/head.hpp>
 
 /// The parts that the columns of a recording play. A column named `value` is the only signal; else
-/// all are that are no times, no speed and no numbers of rows, and have a name.
+/// every named column that holds neither times nor the speed nor row numbers.
 namespace steadyrest::chatter::offline {
 
 struct SignalColumns {

@@ -159,9 +159,11 @@ class SignalSink final : public table::Sink {
     out.start_s = times.start_s;
     if (sensor.gaps > 0) {
       out.notes.push_back(fmt::format(
-          "{}: {} {} no number, the first in line {} ({:.6g} s); nothing is heard there",
-          shown_name(name.written), sensor.gaps, sensor.gaps == 1 ? "sample is" : "samples are",
-          lines_[sensor.first_gap], time_s_[sensor.first_gap]));
+          "{}: {} not {}, the first in line {} ({:.6g} s); nothing is heard there",
+          shown_name(name.written),
+          fmt::format("{} {}", sensor.gaps, sensor.gaps == 1 ? "sample is" : "samples are"),
+          sensor.gaps == 1 ? "a number" : "numbers", lines_[sensor.first_gap],
+          time_s_[sensor.first_gap]));
     }
     spread(times, sensor.value);
     out.value = std::move(sensor.value);

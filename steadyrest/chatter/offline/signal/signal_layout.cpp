@@ -82,7 +82,7 @@ class LayoutFinder {
   }
 
  private:
-  /// The next line that is no comment, from this one on.
+  /// The next line, from this one on, that is not a comment.
   [[nodiscard]] std::size_t row_from(std::size_t at) const {
     while (at < lines_.size() && lines_[at].comment) {
       ++at;
@@ -149,7 +149,8 @@ class LayoutFinder {
         break;
       }
     }
-    // One column of decimal commas is two of whole numbers, of which the first is no time.
+    // A single column with decimal commas looks like two columns of whole numbers; the first is
+    // not a time.
     if (!rows_of(row)) {
       return SignalLayout();
     }

@@ -40,7 +40,7 @@ double mean_single(const std::vector<double>& steps, double median_s) {
   return count > 0 ? sum_s / static_cast<double>(count) : median_s;
 }
 
-/// Steps of the clock in a step of the rows; none: it is no whole number of them, or too long.
+/// Steps of the clock in a step of the rows; none if that is not a whole number or too long.
 std::optional<std::size_t> clock_steps(double step, double median_s, double mean_s) {
   if (single(step, median_s)) {
     return 1;

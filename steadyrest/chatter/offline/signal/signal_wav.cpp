@@ -107,8 +107,9 @@ void note_gaps(RecordedSignal& signal) {
   }
   if (gaps > 0) {
     signal.notes.push_back(fmt::format(
-        "channel {}: {} {} no number, the first is number {} ({:.6g} s); nothing is heard there",
-        signal.channel, gaps, gaps == 1 ? "sample is" : "samples are", first + 1,
+        "channel {}: {} {} not {}, the first is number {} ({:.6g} s); nothing is heard there",
+        signal.channel, gaps, gaps == 1 ? "sample is" : "samples are",
+        gaps == 1 ? "a number" : "numbers", first + 1,
         static_cast<double>(first) / signal.rate_hz));
   }
 }

@@ -8,7 +8,7 @@
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kApart = 0.2;    // turns, of a line that is no order
+constexpr double kApart = 0.2;    // turns, between a line and an order
 constexpr double kNewBins = 0.2;  // within which a new line may be where it does not seem to be
 constexpr double kShown = 0.1;    // of the line's energy
 constexpr double kClippedFolds = 4.0;

@@ -12,10 +12,12 @@ using kernel::units::kTurn;
 
 constexpr double kBlock_s = 0.02;        // of whole revolutions, about
 constexpr double kLeastSamples = 100.0;  // of a block
-constexpr double kUnsure = 0.002;        // then blocks are no longer than that
+constexpr double kUnsure = 0.002;        // above it blocks have only so many samples
+constexpr double kLeastNoise = 0.05;     // of the residual's energy
 constexpr double kLeastSnr = 8.0;        // of an order's energy over its noise's
 constexpr double kRestless = 0.015;      // rad: phases of orders wander with the engagement
 constexpr double kWithinTurns = 0.4;     // that an order may have turned by
+constexpr double kSigmas = 3.0;
 constexpr double kSigmasOfReach = 2.0;
 constexpr double kForget = 0.15;          // of a block, of how an order strays from the others
 constexpr double kUnknownStrange = 0.03;  // rad²
@@ -68,44 +70,52 @@ void SpindleTrack::begin_block(OrderFilter& filter, double angle_rev, double spe
   samples_ = 0;
 }
 
-bool SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
-                          double noise_energy) noexcept {
+void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
+                          double residual_energy) noexcept {
   if (told_sd_ <= 0.0) {
-    return false;
+    return;
   }
   if (!started_) {
     started_ = true;
     begin_block(filter, angle_rev, speed_rev_s, rate_hz);
-    return false;
+    return;
   }
   ++samples_;
   if (angle_rev - begin_rev_ < block_rev_) {
-    return false;
+    return;
   }
   const auto orders = filter.orders();
   const double each = 2.0 / static_cast<double>(samples_);
+  double at_orders = 0.0;  // of the residual's energy: at a wrong speed it is nearly all
+  double free_share = 1.0;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const OrderFilter::Order& order = orders[i];
-    now_[i] = 0.5 * (at_begin_[i] + phasor(order)) + each * Complex(order.block_c, -order.block_s);
+    const Complex left = each * Complex(order.block_c, -order.block_s);
+    now_[i] = 0.5 * (at_begin_[i] + phasor(order)) + left;
+    if (order.used && !order.folded) {
+      at_orders += 0.5 * std::norm(left);
+      free_share -= each;
+    }
   }
+  const double noise_energy = std::max(kLeastNoise * residual_energy,
+                                       (residual_energy - at_orders) / std::max(0.5, free_share));
   // Of white noise with that energy |Y|² has 4/n.
   const Fit found = comparable_ ? fit(orders, 2.0 * each * noise_energy) : Fit{};
   follow(found, static_cast<double>(samples_) / rate_hz);
   std::swap(now_, before_);
   comparable_ = true;
   begin_block(filter, angle_rev, speed_rev_s, rate_hz);
-  return true;
 }
 
+/// From the lowest order up: what those below say tells by how many turns more the next has turned.
 void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
                           double noise_energy) noexcept {
-  const double reach = kSigmasOfReach * sd() * block_rev_;
   turned_.clear();
+  const double prior = kSigmas * sd() * kTurn * block_rev_;
+  double below = 1.0 / (prior * prior);
+  double above = 0.0;
   for (std::size_t i = 1; i < orders.size(); ++i) {
     const double k = orders[i].order;
-    if (k * reach > kWithinTurns) {
-      break;
-    }
     if (!orders[i].used || !orders[i].tooth || orders[i].folded) {
       continue;
     }
@@ -114,9 +124,16 @@ void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
       strange_[i] += kForget * (kUnknownStrange - strange_[i]);
       continue;
     }
-    const double turned = std::arg(now_[i] * std::conj(before_[i]));
+    if (kSigmasOfReach * k / std::sqrt(below) > kWithinTurns * kTurn) {
+      break;
+    }
+    const double expected = k * above / below;
+    const double phase = std::arg(now_[i] * std::conj(before_[i]));
+    const double turned = expected + std::remainder(phase - expected, kTurn);
     const double v = noise_energy / energy + std::max(kRestless * kRestless, strange_[i]);
     turned_.push_back({.at = i, .order = k, .turned = turned, .sd = std::sqrt(v)});
+    above += k * turned / v;
+    below += k * k / v;
   }
 }
 

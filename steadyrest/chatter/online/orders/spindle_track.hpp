@@ -12,29 +12,30 @@ namespace steadyrest::chatter::online {
 
 /// The spindle's real speed, from the phases of the orders in the signal.
 ///
-/// Law. What is said of the speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
+/// Law. The told speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
 /// revolutions, as integrated, order k has the phasor Yₖ; from block to block it turns by
 /// aₖ = 2π·k·B·ε. The tooth orders that stand clear of the noise and are not folded vote,
 ///   ε̂ = Σ wₖ·k·aₖ / (2π·B·Σ wₖ·k²),  wₖ = h/vₖ,  vₖ = 1/SNRₖ + what the order has strayed by
 ///   lately,
-/// as far up as the present uncertainty leaves aₖ within a turn; h is Huber's weight about the
-/// median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not move. A Kalman
-/// filter with one state follows: ε is a random walk of kWalk·√t, faster where two orders at least
-/// agree that it moved (a spindle that droops as it enters); an innovation that they do not agree
-/// on counts as an outlier. What it finds turns the angle that the orders refer to, so later blocks
-/// see what is left. In air no order shows it: the uncertainty grows to kInAir, or to twice what is
-/// said where that is less.
+/// from the lowest up, each unwrapped by what those below it say, as far as that leaves its turn
+/// known; the noise is what the orders leave of the residual over a block; h is Huber's weight
+/// about the median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not move. A
+/// Kalman filter with one state follows: ε is a random walk of kWalk·√t, faster where two orders at
+/// least agree that it moved (a spindle that droops as it enters); an innovation that they do not
+/// agree on counts as an outlier. What it finds turns the angle that the orders refer to, so later
+/// blocks see what is left. In air no order shows it: the uncertainty grows to kInAir, or to twice
+/// `told_sd` where that is less.
 class SpindleTrack {
  public:
   static constexpr double kMost = 0.025;
 
-  /// `told_sd`: of what is said of the speed, relative; 0: it is exact and stays as it is.
+  /// `told_sd`: relative standard deviation of the told speed; 0: it is exact and stays as it is.
   explicit SpindleTrack(double told_sd, std::size_t orders);
 
   /// To be called with each sample, after the filter has used it. `angle_rev`: as integrated with
-  /// ratio(). True where a block was finished.
-  bool update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
-              double noise_energy) noexcept;
+  /// ratio().
+  void update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
+              double residual_energy) noexcept;
   void reset() noexcept;
 
   /// 1 + ε̂

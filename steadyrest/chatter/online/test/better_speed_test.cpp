@@ -86,7 +86,7 @@ TEST(BetterSpeed, SaysWhenNoStepIsBetter) {
   EXPECT_EQ(out.request.ratio, 1.0);
 }
 
-// The step is written, and the line stays what it was: the operator's speed is no worse.
+// The step is written and the line stays as it was, so the operator's speed is just as good.
 TEST(BetterSpeed, TakesBackAStepThatDoesNotHelp) {
   BetterSpeed::Config once = config(1.2);
   once.again_s = 0.2;

@@ -65,11 +65,6 @@ struct PlannedPath {
   std::shared_ptr<const PlannedPath> original;
   std::string original_unknown;  ///< why it is not known; empty: it is
   bool heat_in_text = false;     ///< the text corrects the drift by heat
-
-  /// The path that the part should have.
-  [[nodiscard]] const PlannedPath& part() const noexcept {
-    return programmed ? *programmed : *this;
-  }
 };
 
 /// What an interpolator reads: a whole program, or a window that moves along it. Element i is at

@@ -70,7 +70,8 @@ TEST(SignalSource, ReadsDoublesAndKeepsTheirGaps) {
   const auto one = parse_signals(file, "a.wav");
   ASSERT_TRUE(one) << one.error().what;
   EXPECT_THAT(one->front().value, ElementsAre(0.25, -3.0, IsNan(), 1e-300));
-  EXPECT_THAT(one->front().notes.at(0), HasSubstr("1 sample is no number, the first is number 3"));
+  EXPECT_THAT(one->front().notes.at(0),
+              HasSubstr("1 sample is not a number, the first is number 3"));
 }
 
 struct UffRecord {

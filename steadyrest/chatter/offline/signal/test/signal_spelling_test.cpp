@@ -150,7 +150,7 @@ TEST(SignalSpelling, SkipsWhatLoggersWriteAboveTheHeader) {
   }
   // Refusals count every line of the file.
   EXPECT_THAT(refusal("a\nb,c\n" + table + "0.0015,x,1\n"), HasSubstr("log.csv:7: Accel = \"x\""));
-  // What names no time is no header.
+  // A line that names no time column is not a header.
   EXPECT_THAT(refusal("a\nb,c\nmic,accel\n1,2\n3,4\n"), HasSubstr("log.csv:1: "));
 }
 
@@ -194,8 +194,8 @@ TEST(SignalSpelling, WhatIsNoNumberIsAGap) {
   EXPECT_THAT(two[0].value, ElementsAre(1.0, IsNan(), IsNan(), IsNan(), 5.0));
   EXPECT_THAT(two[1].value, ElementsAre(5.0, 6.0, 7.0, 8.0, IsNan()));
   EXPECT_THAT(two[0].notes.back(),
-              HasSubstr("a: 3 samples are no number, the first in line 3 (0.001 s)"));
-  EXPECT_THAT(two[1].notes.back(), HasSubstr("b: 1 sample is no number, the first in line 6"));
+              HasSubstr("a: 3 samples are not numbers, the first in line 3 (0.001 s)"));
+  EXPECT_THAT(two[1].notes.back(), HasSubstr("b: 1 sample is not a number, the first in line 6"));
   EXPECT_TRUE(no_signal(read("t_s,value\n0,\n0.001,\n")[0], "log.csv").has_value());
 }
 

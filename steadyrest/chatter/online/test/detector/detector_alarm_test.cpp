@@ -108,8 +108,8 @@ double alarm_beside_runout(double amplitude, const BesideRunout& beside) {
 // Half of all the energy is lines. Six times what the spindle's orders do not give of them, 0.4 of
 // the chatter's energy, makes the free ratio: 0.03 and 0.07; 0.05 is the bound.
 TEST(DetectorAlarm, HearsChatterOfAFiftiethOfTheRunoutsEnergyNotOfAHundredth) {
-  // At constant speed no order up to the 64th is chatter; and for 0.2 s nothing but the free ratio
-  // tells what is none.
+  // At constant speed orders up to the 64th are never chatter; for the first 0.2 s only the free
+  // ratio tells runout beyond them from chatter.
   const BesideRunout beyond{
       .order = 67.0, .chatter_hz = 4070.0, .speed_rev_s = 60.0, .seconds = 0.34};
   EXPECT_LT(alarm_beside_runout(0.10, beyond), 0.0);

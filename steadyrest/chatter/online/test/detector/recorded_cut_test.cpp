@@ -16,7 +16,7 @@ double alarm_of(const RecordedCut& cut, const Recorded& recorded) {
   auto detector = Detector::make({.sample_rate_hz = cut.rate_hz,
                                   .teeth = cut.teeth,
                                   .speed_sd = 0.003,
-                                  .folds = cut.rate_hz < 5000.0});
+                                  .folds = Detector::folds_at(cut.rate_hz)});
   EXPECT_TRUE(detector);
   for (std::size_t i = 0; i < recorded.value.size(); ++i) {
     if (detector->update({.value = recorded.value[i], .speed_rev_s = recorded.speed_rev_s[i]})
