@@ -34,6 +34,7 @@ using kernel::units::kTurn;
 constexpr double kSteady = 0.003;   // relative spread of the speed that still counts as constant
 constexpr double kGuardBins = 1.5;  // half width of a line in the spectrum
 constexpr double kWideBins = 8.0;   // tooth orders nearer than this leave no gap
+constexpr double kRoomBins = 4.0;   // spindle orders nearer than this leave none beside them
 constexpr double kJump = 4.0;       // in the tooth orders' energy: the tool enters or leaves
 constexpr double kFirstJump = 2.5;  // the same from air, which has no tooth orders that sweep
 constexpr double kAllJump = 2.5;    // in the whole signal's energy
@@ -107,12 +108,12 @@ Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectr
       share_(std::move(share)),
       sensor_(config.sample_rate_hz),
       track_(config.speed_sd, filter_.orders().size()),
-      gate_({.sample_rate_hz = config.sample_rate_hz,
-             .bin_hz = spectrum_.resolution_hz(),
-             .teeth = config.teeth,
-             .orders = std::max<std::size_t>(kGateOrders, config.spindle_harmonics),
-             .tooth_orders = config.tooth_harmonics,
-             .folds = config.folds}) {}
+      choice_({.sample_rate_hz = config.sample_rate_hz,
+               .bin_hz = spectrum_.resolution_hz(),
+               .teeth = config.teeth,
+               .orders = std::max<std::size_t>(kGateOrders, config.spindle_harmonics),
+               .tooth_orders = config.tooth_harmonics,
+               .folds = config.folds}) {}
 
 double Detector::speed_of(const Input& input) const noexcept {
   return std::isnan(input.angle_rev) ? track_.ratio() * input.speed_rev_s : input.speed_rev_s;
@@ -142,7 +143,7 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const double value = gap ? forced.estimate : input.value;
   if (std::isnan(input.angle_rev) && state_.speed_spread < kSteady) {
     track_.update(filter_, state_.angle_rev, speed_rev_s, config_.sample_rate_hz,
-                  state_.residual_energy);
+                  {.energy = state_.residual_energy, .cut_rev = state_.settled_rev});
   }
   out_.residual = forced.residual;
   revolution_ = spread_.update(value - forced.mean, state_.angle_rev);
@@ -156,23 +157,23 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   // is wide, nothing would remain, and while the speed moves they sweep.
   const double guard_hz = gaps && steady ? kGuardBins * spectrum_.resolution_hz() : 0.0;
   // A spectrum that finds FreeShare still busy is dropped: the next comes 13 ms later.
-  if (const auto& lines = spectrum_.update(shown, tooth_hz, guard_hz); lines.fresh) {
-    const OrderGate::Output& line = gate_.look({.frequency_hz = lines.frequency_hz,
-                                                .advance_turns = lines.advance_turns,
-                                                .seconds = lines.advance_s,
-                                                .energy = lines.line_energy},
-                                               {.orders = filter_.orders(),
-                                                .learning = state_.settled_rev < kFoldsRev,
-                                                .clipped = sensor_.clips()},
-                                               out_.speed_rev_s, out_.speed_sd);
+  const bool room = state_.mean_speed_rev_s > kRoomBins * spectrum_.resolution_hz();
+  const LineSpectrum::Orders ignored{.spacing_hz = tooth_hz,
+                                     .guard_hz = guard_hz,
+                                     .spindle_hz = steady && room ? out_.speed_rev_s : 0.0};
+  if (const auto& lines = spectrum_.update(shown, ignored); lines.fresh) {
+    const LineChoice::Output& line = choice_.look(lines,
+                                                  {.orders = filter_.orders(),
+                                                   .learning = state_.settled_rev < kFoldsRev,
+                                                   .clipped = sensor_.clips()},
+                                                  out_.speed_rev_s, out_.speed_sd);
     if (!share_.busy()) {
-      lines_ = lines;
       line_ = line;
-      share_.ask(lines.frequency_hz, state_.mean_speed_rev_s, state_.settled);
+      share_.ask(line.frequency_hz, state_.mean_speed_rev_s, state_.settled);
     }
   }
   if (const auto& share = share_.update(value, state_.angle_rev); share.fresh) {
-    judge(lines_, share);
+    judge(share);
   }
   return out_;
 }
@@ -238,11 +239,13 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
 }
 
 /// Period doubling that runout cannot give: what is at half tooth orders has grown beyond all that
-/// this cut has shown, while the teeth's own orders have stayed as they were.
+/// this cut has shown, while the teeth's own orders have stayed as they were. A fold that lies
+/// there too beats with it.
 bool Detector::doubles(double line_energy) const noexcept {
   const auto teeth = static_cast<double>(config_.teeth);
   const bool half = std::fmod(2.0 * out_.line.order, teeth) == 0.0 &&
-                    std::fmod(out_.line.order, teeth) != 0.0 && !out_.line.folded;
+                    std::fmod(out_.line.order, teeth) != 0.0 && !out_.line.folded &&
+                    out_.line.orders == 1;
   const double changed = state_.tooth_energy / std::max(state_.slow_energy, 1e-300);
   return half && levels_.judged_s() > config_.learn_s &&
          line_energy > config_.margin * levels_.line_energy() &&
@@ -268,13 +271,15 @@ Detector::Kind Detector::kind_of(double frequency_hz) const noexcept {
   return from_half_hz < 0.5 * spectrum_.resolution_hz() ? Kind::flip : Kind::hopf;
 }
 
-void Detector::judge(const LineSpectrum::Output& lines, const FreeShare::Output& share) noexcept {
+void Detector::judge(const FreeShare::Output& share) noexcept {
+  const LineChoice::Output& lines = line_;
   const double hop_s = kHop * static_cast<double>(spectrum_.length()) / config_.sample_rate_hz;
-  const double all = lines.line_energy + state_.forced_energy;
+  const double all = lines.line_energy + lines.order_energy + state_.forced_energy;
   const bool steady = state_.speed_spread < kSteady;
   out_.fresh = true;
-  out_.line = line_;
+  out_.line = lines.order;
   out_.line_energy = lines.line_energy;
+  out_.forced_energy = state_.forced_energy;
   out_.energy_ratio = all > 0.0 ? lines.line_energy / all : 0.0;
   // Two fits, by tooth orders and by all spindle orders; the smaller residual counts. Any fit
   // leaves noise, so twice its expected share is subtracted first.
@@ -338,7 +343,7 @@ void Detector::decide(bool steady) noexcept {
   }
 }
 
-void Detector::name(const LineSpectrum::Output& lines, bool line, bool cuts) noexcept {
+void Detector::name(const LineChoice::Output& lines, bool line, bool cuts) noexcept {
   if (out_.chatter && line) {
     out_.frequency_hz = lines.frequency_hz;
     out_.kind = kind_of(lines.frequency_hz);
@@ -353,12 +358,12 @@ void Detector::name(const LineSpectrum::Output& lines, bool line, bool cuts) noe
 }
 
 /// The line is still in the last revolution, and the second check does not contradict it.
-bool Detector::lasts(const LineSpectrum::Output& lines) const noexcept {
+bool Detector::lasts(const LineChoice::Output& lines) const noexcept {
   return state_.residual_energy > kLasting * lines.line_energy &&
          witnessed(lines.line_energy, lines.frequency_hz / state_.mean_speed_rev_s);
 }
 
-bool Detector::suspect_steady(const LineSpectrum::Output& lines,
+bool Detector::suspect_steady(const LineChoice::Output& lines,
                               const FreeShare::Output& share) const noexcept {
   const bool grown = levels_.judged_s() > config_.learn_s &&
                      lines.line_energy > config_.margin * levels_.line_energy();
@@ -385,10 +390,10 @@ void Detector::reset() noexcept {
   filter_.reset();
   spectrum_.reset();
   share_.reset();
-  lines_ = {};
+  line_ = {};
   sensor_.reset();
   track_.reset();
-  gate_.reset();
+  choice_.reset();
   spread_.reset();
   revolution_ = {};
   levels_.begin();

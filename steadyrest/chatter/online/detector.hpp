@@ -8,8 +8,8 @@
 #include <steadyrest/chatter/online/cut_levels.hpp>
 #include <steadyrest/chatter/online/free_share.hpp>
 #include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/orders/line_choice.hpp>
 #include <steadyrest/chatter/online/orders/order_filter.hpp>
-#include <steadyrest/chatter/online/orders/order_gate.hpp>
 #include <steadyrest/chatter/online/orders/spindle_track.hpp>
 #include <steadyrest/chatter/online/revolution_spread.hpp>
 #include <steadyrest/chatter/online/sensor_faults.hpp>
@@ -99,15 +99,16 @@ class Detector {
     bool chatter = false;
     bool fresh = false;  ///< a spectrum was judged with this sample
     Kind kind = Kind::none;
-    double frequency_hz = 0.0;  ///< of the strongest line of the residual; 0 = none
-    double energy_ratio = 0.0;  ///< 0 … 1
-    double free_ratio = 0.0;    ///< 0 … 1, the free share of it; 0 while not known
-    double spread_ratio = 0.0;  ///< 0 … 2, RevolutionSpread; 0 while not known
-    double residual = 0.0;      ///< the signal minus the forced vibration
-    OrderGate::Output line;     ///< the strongest line and the order nearest to it
-    double line_energy = 0.0;   ///< of all lines, unit²
-    double speed_rev_s = 0.0;   ///< of the spindle, as its orders say
-    double speed_sd = 0.0;      ///< the standard deviation of that, relative
+    double frequency_hz = 0.0;   ///< of the residual's line that is judged; 0 = none
+    double energy_ratio = 0.0;   ///< 0 … 1
+    double free_ratio = 0.0;     ///< 0 … 1, the free share of it; 0 while not known
+    double spread_ratio = 0.0;   ///< 0 … 2, RevolutionSpread; 0 while not known
+    double residual = 0.0;       ///< the signal minus the forced vibration
+    OrderGate::Output line;      ///< the line that is judged and the order nearest to it
+    double line_energy = 0.0;    ///< of all lines that can be chatter, unit²
+    double forced_energy = 0.0;  ///< P, mean over about a revolution, unit²
+    double speed_rev_s = 0.0;    ///< of the spindle, as its orders say
+    double speed_sd = 0.0;       ///< the standard deviation of that, relative
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;
   };
 
@@ -160,11 +161,11 @@ class Detector {
   [[nodiscard]] double speed_of(const Input& input) const noexcept;
   void follow_speed(const Input& input) noexcept;
   void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
-  void judge(const LineSpectrum::Output& lines, const FreeShare::Output& share) noexcept;
+  void judge(const FreeShare::Output& share) noexcept;
   void decide(bool steady) noexcept;
-  void name(const LineSpectrum::Output& lines, bool line, bool cuts) noexcept;
-  [[nodiscard]] bool lasts(const LineSpectrum::Output& lines) const noexcept;
-  [[nodiscard]] bool suspect_steady(const LineSpectrum::Output& lines,
+  void name(const LineChoice::Output& lines, bool line, bool cuts) noexcept;
+  [[nodiscard]] bool lasts(const LineChoice::Output& lines) const noexcept;
+  [[nodiscard]] bool suspect_steady(const LineChoice::Output& lines,
                                     const FreeShare::Output& share) const noexcept;
   [[nodiscard]] double free_bound() const noexcept;
   [[nodiscard]] bool later() const noexcept;
@@ -177,11 +178,10 @@ class Detector {
   OrderFilter filter_;
   LineSpectrum spectrum_;
   FreeShare share_;
-  LineSpectrum::Output lines_;  ///< for which share_ was queried
-  OrderGate::Output line_;      ///< the strongest of them
+  LineChoice::Output line_;  ///< for which share_ was queried
   SensorFaults sensor_;
   SpindleTrack track_;
-  OrderGate gate_;
+  LineChoice choice_;
   RevolutionSpread spread_;
   RevolutionSpread::Output revolution_;
   CutLevels levels_;

@@ -22,6 +22,12 @@ constexpr double kClip = 3.0;  // bins above are not noise; of white noise e⁻�
 // 1 − c·e⁻ᶜ/(1 − e⁻ᶜ): 0.843, 0.781, 0.751, 0.735 after kNoisePasses, of which this is the inverse.
 constexpr double kClipBias = 1.36;
 constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
+constexpr double kBesideBins = 1.5;    // an order's line has 3 % of its peak there
+
+/// 0 where there is no spacing.
+double from_multiple(double hz, double spacing_hz) {
+  return spacing_hz > 0.0 ? std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) : 0.0;
+}
 
 }  // namespace
 
@@ -71,8 +77,7 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
   }
 }
 
-const LineSpectrum::Output& LineSpectrum::update(double value, double spacing_hz,
-                                                 double guard_hz) noexcept {
+const LineSpectrum::Output& LineSpectrum::update(double value, const Orders& orders) noexcept {
   out_.fresh = false;
   ring_[head_] = value;
   head_ = head_ + 1 == ring_.size() ? 0 : head_ + 1;
@@ -86,11 +91,11 @@ const LineSpectrum::Output& LineSpectrum::update(double value, double spacing_hz
     at_ = 0;
     start_ = head_ >= n_ ? head_ - n_ : head_ + n_;  // the ring holds 2n
   }
-  work(spacing_hz, guard_hz);
+  work(orders);
   return out_;
 }
 
-void LineSpectrum::work(double spacing_hz, double guard_hz) noexcept {
+void LineSpectrum::work(const Orders& orders) noexcept {
   switch (step_) {
     case Step::idle:
       break;
@@ -101,7 +106,7 @@ void LineSpectrum::work(double spacing_hz, double guard_hz) noexcept {
       transform();
       break;
     case Step::power:
-      power(spacing_hz, guard_hz);
+      power(orders);
       break;
     case Step::noise:
       noise();
@@ -152,22 +157,22 @@ void LineSpectrum::transform() noexcept {
         sum_ = 0.0;
         looked_at_ = 0;
         peak_ = first_bin_;
+        beside_ = guarded_ = 0;
         return;
       }
     }
   }
 }
 
-void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
+void LineSpectrum::power(const Orders& orders) noexcept {
   const auto n = static_cast<double>(n_);
   // Energy of a real line over both of its bins, without the window's own energy.
   const double scale = 2.0 / (kHannEnergy * n * n);
   const std::size_t end = std::min(n_ / 2, at_ + kCopy);
   for (; at_ < end; ++at_) {
     const double hz = static_cast<double>(at_) * bin_hz_;
-    const double off_hz =
-        guard_hz > 0.0 ? std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) : hz;
-    const bool skipped = guard_hz > 0.0 && off_hz <= guard_hz;
+    const double off_hz = orders.guard_hz > 0.0 ? from_multiple(hz, orders.spacing_hz) : hz;
+    const bool skipped = orders.guard_hz > 0.0 && off_hz <= orders.guard_hz;
     const double p = scale * std::norm(bins_[at_]);
     // The skirt of an ignored line, or of one below the lowest frequency, is not a line: the bins
     // that rise to the middle of a gap and fall from there.
@@ -178,6 +183,9 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
     } else if (!rises && rises_ && ignored_) {
       peak_ = peak_below_;
       falls_ = true;
+    } else if (!rises && rises_ && power_[at_ - 1] > (beside_ > 0 ? power_[beside_] : 0.0) &&
+               from_multiple(hz - bin_hz_, orders.spindle_hz) > kBesideBins * bin_hz_) {
+      beside_ = at_ - 1;
     }
     rises_ = rises;
     ignored_ = skipped && off_hz < bin_hz_;
@@ -185,6 +193,9 @@ void LineSpectrum::power(double spacing_hz, double guard_hz) noexcept {
     // Kept with its sign reversed: the interpolation of a peak beside a gap still needs the
     // neighbour.
     power_[at_] = skipped || falls_ ? -p : p;
+    if (skipped && (guarded_ == 0 || p > std::abs(power_[guarded_]))) {
+      guarded_ = at_;
+    }
     if (!skipped && !falls_) {
       sum_ += p;
       ++looked_at_;
@@ -237,22 +248,30 @@ void LineSpectrum::lines() noexcept {
   }
 }
 
-void LineSpectrum::finish() noexcept {
-  step_ = Step::idle;
+LineSpectrum::Line LineSpectrum::line_at(std::size_t peak) const noexcept {
   // Under a Hann window a line at δ bins beside a bin has amplitudes in the ratio r = (1 + δ)/(2 −
   // δ); solved, δ = (2r − 1)/(r + 1) (Grandke 1983).
-  const double here = std::sqrt(std::abs(power_[peak_]));
-  const double left = std::sqrt(std::abs(power_[std::max(peak_, first_bin_ + 1) - 1]));
-  const double right = std::sqrt(std::abs(power_[std::min(peak_ + 1, n_ / 2 - 1)]));
-  const double ratio = here > 0.0 ? std::min(1.0, std::max(left, right) / here) : 0.5;
+  const double here = std::abs(power_[peak]);
+  const double left = std::abs(power_[std::max(peak, first_bin_ + 1) - 1]);
+  const double right = std::abs(power_[std::min(peak + 1, n_ / 2 - 1)]);
+  const double ratio = here > 0.0 ? std::min(1.0, std::sqrt(std::max(left, right) / here)) : 0.5;
   // Of a line between two bins under a Hann window: exact for a single line.
   const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
   const double sign = right >= left ? 1.0 : -1.0;
-  out_.frequency_hz = (static_cast<double>(peak_) + sign * offset) * bin_hz_;
+  return {.frequency_hz = (static_cast<double>(peak) + sign * offset) * bin_hz_,
+          .peak_ratio = here / level_,
+          .advance_turns = std::arg(bins_[peak] * std::conj(before_[peak])) / kTurn,
+          .energy = left + here + right};
+}
+
+void LineSpectrum::finish() noexcept {
+  step_ = Step::idle;
+  out_.strongest = line_at(peak_);
+  out_.strongest.peak_ratio = std::max(power_[peak_], 0.0) / level_;
+  out_.beside = beside_ > 0 ? line_at(beside_) : Line{};
+  out_.guarded = guarded_ > 0 ? line_at(guarded_) : Line{};
   out_.line_energy = sum_;
   out_.noise_energy = level_ * static_cast<double>(looked_at_);
-  out_.peak_ratio = std::max(power_[peak_], 0.0) / level_;
-  out_.advance_turns = std::arg(bins_[peak_] * std::conj(before_[peak_])) / kTurn;
   out_.advance_s = static_cast<double>(passed_) / config_.sample_rate_hz;
   known_ = true;
   out_.fresh = true;

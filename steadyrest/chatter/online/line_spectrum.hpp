@@ -29,21 +29,32 @@ class LineSpectrum {
     double lowest_hz = 40.0;       ///< lines below are ignored; 0 … fs/4
   };
 
+  /// Where lines are that are not looked for, Hz.
+  struct Orders {
+    double spacing_hz = 0.0;  ///< lines within `guard_hz` of a multiple are ignored
+    double guard_hz = 0.0;    ///< 0: none are
+    double spindle_hz = 0.0;  ///< Output::beside is off its multiples; 0: there is none
+  };
   /// Energies in unit² (a line of amplitude a has a²/2).
-  struct Output {
-    bool fresh = false;          ///< this sample completed a spectrum
-    double frequency_hz = 0.0;   ///< of the strongest line; 0 = none yet
-    double line_energy = 0.0;    ///< all lines together
-    double noise_energy = 0.0;   ///< the rest, over the whole band
+  struct Line {
+    double frequency_hz = 0.0;   ///< 0: there is none
     double peak_ratio = 0.0;     ///< strongest bin over the noise of a bin
-    double advance_turns = 0.0;  ///< of the strongest bin's phase since the spectrum before, −½ … ½
-    double advance_s = 0.0;      ///< since then; 0: there was none
+    double advance_turns = 0.0;  ///< of that bin's phase since the spectrum before, −½ … ½
+    double energy = 0.0;         ///< of the strongest bin and its two neighbours
+  };
+  struct Output {
+    bool fresh = false;  ///< this sample completed a spectrum
+    Line strongest;
+    Line beside;                ///< the strongest off the spindle's orders, by 1.5 bins at least
+    Line guarded;               ///< the strongest of those that are ignored
+    double line_energy = 0.0;   ///< all lines together that are not ignored
+    double noise_energy = 0.0;  ///< the rest, over the whole band
+    double advance_s = 0.0;     ///< since the spectrum before; 0: there was none
   };
 
   [[nodiscard]] static kernel::outcome::Result<LineSpectrum> make(const Config& config);
 
-  /// Lines within `guard_hz` of a multiple of `spacing_hz` are ignored; 0 = none are.
-  const Output& update(double value, double spacing_hz, double guard_hz) noexcept;
+  const Output& update(double value, const Orders& orders) noexcept;
   void reset() noexcept;
 
   [[nodiscard]] double resolution_hz() const noexcept { return bin_hz_; }
@@ -56,13 +67,14 @@ class LineSpectrum {
   static constexpr int kNoisePasses = 4;
 
   LineSpectrum(const Config& config, std::size_t n);
-  void work(double spacing_hz, double guard_hz) noexcept;
+  void work(const Orders& orders) noexcept;
   void copy() noexcept;
   void transform() noexcept;
-  void power(double spacing_hz, double guard_hz) noexcept;
+  void power(const Orders& orders) noexcept;
   void noise() noexcept;
   void lines() noexcept;
   void finish() noexcept;
+  [[nodiscard]] Line line_at(std::size_t peak) const noexcept;
 
   Config config_;
   std::size_t n_;
@@ -90,6 +102,7 @@ class LineSpectrum {
   double before_bin_ = 0.0;
   double level_ = 0.0, sum_ = 0.0;
   std::size_t count_ = 0, looked_at_ = 0, peak_ = 0;
+  std::size_t beside_ = 0, guarded_ = 0;  ///< 0: none
   Output out_;
 };
 

@@ -37,10 +37,10 @@ constexpr double kCutFrom_s = 0.5;
 constexpr double kChatterFrom_s = 2.0;
 
 /// 4 s; the tool leaves within 0.3 s before 3.8 s.
-std::string recording(const ShopCut& cut) {
+std::string rows(const ShopCut& cut, double from_s = 0.0) {
   std::mt19937_64 rng(8);
   std::normal_distribution<double> noise(0.0, 0.05);
-  std::string out = "Time (s),Accel X (m/s^2)\n";
+  std::string out;
   for (int i = 0; i < static_cast<int>(4.0 * cut.rate_hz); ++i) {
     const double t = i / cut.rate_hz;
     const double engaged =
@@ -55,9 +55,13 @@ std::string recording(const ShopCut& cut) {
       value += cut.chatter * (1.0 - std::exp((kChatterFrom_s - t) / 0.05)) *
                std::sin(2.0 * std::numbers::pi * cut.chatter_hz * t);
     }
-    out += fmt::format("{:.6f},{:.5f}\n", t, std::clamp(value, -cut.most, cut.most));
+    out += fmt::format("{:.6f},{:.5f}\n", from_s + t, std::clamp(value, -cut.most, cut.most));
   }
   return out;
+}
+
+std::string recording(const ShopCut& cut) {
+  return "Time (s),Accel X (m/s^2)\n" + rows(cut);
 }
 
 std::string detect(const Scratch& scratch, const ShopCut& cut, const std::string& said) {
@@ -117,6 +121,47 @@ TEST(ChatterEvidence, NamesWhatDoesNotFitTheRecording) {
   EXPECT_THAT(text, HasSubstr("no spindle orders rise above the noise"));
   text = run_line(detect(scratch, {}, " --teeth 4 --speed-rpm 2982")).out;
   EXPECT_THAT(text, Not(HasSubstr("the stated speed")));
+}
+
+TEST(ChatterEvidence, NamesEntryAndExitAndWhatTheyExplain) {
+  const Scratch scratch;
+  const std::string line = detect(scratch, {.chatter_hz = 812.0}, " --teeth 4 --speed-rpm 2982");
+  const json answer = answer_of(line);
+  ASSERT_EQ(answer["cuts"].size(), 1U);
+  EXPECT_NEAR(answer["cuts"][0]["start_s"], kCutFrom_s, 0.06);
+  EXPECT_NEAR(answer["cuts"][0]["end_s"], 3.7, 0.15);
+  EXPECT_EQ(answer["cuts"][0]["entry_seen"], true);
+  EXPECT_EQ(answer["edge_revolutions"], 10.0);
+  EXPECT_EQ(answer["events"].size(), 1U);
+  EXPECT_TRUE(answer["at_edges"].empty());
+  // 4 s: all of the cut is its entry.
+  const json near = answer_of(line + " --edge-revolutions 200");
+  EXPECT_TRUE(near["events"].empty());
+  ASSERT_EQ(near["at_edges"].size(), 1U);
+  EXPECT_EQ(near["at_edges"][0]["at"], "entry");
+  EXPECT_NEAR(near["at_edges"][0]["frequency_hz"], 812.0, 1.0);
+  EXPECT_THAT(run_line(line + " --edge-revolutions 200").out,
+              HasSubstr("within 200 revolutions of the tool's entry; not counted as chatter"));
+  const Finished refused = run_line(line + " --edge-revolutions -1");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("allowed: 0 … 1000"));
+}
+
+// The second tool chatters at another speed, with three teeth.
+TEST(ChatterEvidence, NamesTheSecondToolOfAFile) {
+  const Scratch scratch;
+  const std::string both =
+      recording({}) + rows({.speed_rev_s = 71.5, .teeth = 3, .chatter_hz = 812.0}, 4.0);
+  const std::string line =
+      "chatter detect " + scratch.file("two.csv", both) + kOnVmc + " --teeth 4 --speed-rpm 2982";
+  const json answer = answer_of(line);
+  ASSERT_EQ(answer["sensor"].size(), 1U) << answer["sensor"];
+  const std::string said = answer["sensor"][0];
+  EXPECT_THAT(said, HasSubstr("the lines fit a spindle at 4290 rpm, not 2982 rpm, and the strong "
+                              "orders are multiples of 3, not of 4"));
+  ASSERT_EQ(answer["events"].size(), 1U) << answer["events"];
+  EXPECT_NEAR(answer["events"][0]["frequency_hz"], 812.0, 1.0);
+  EXPECT_NEAR(answer["events"][0]["order"], 812.0 / 71.5, 0.02);
 }
 
 TEST(ChatterEvidence, GivesTheProcessFilesNearestMode) {

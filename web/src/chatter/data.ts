@@ -100,13 +100,21 @@ export interface ChatterEvent {
   decision: 'keep' | 'constant' | 'law' | 'nothing' | null;
 }
 
+/** Vibration that the tool's entry or exit explains. */
+export interface EdgeEvent {
+  start_s: number;
+  end_s: number;
+  frequency_hz: number;
+  at: 'entry' | 'exit';
+}
+
 export interface DetectPage extends Head {
   kind: 'detect';
   machine: string;
   teeth: number;
   bin_hz: number;
   start_s: number;
-  answer: { advice_by: string; events: ChatterEvent[]; seconds: number; sample_rate_hz: number; sensor: string[] };
+  answer: { advice_by: string; events: ChatterEvent[]; cuts: { start_s: number; end_s: number }[]; edge_revolutions: number; at_edges: EdgeEvent[]; seconds: number; sample_rate_hz: number; sensor: string[] };
   course: Record<'t_s' | 'low' | 'high' | 'speed_rpm', number[]>;
   spectrogram: {
     start_s: number;

@@ -12,7 +12,7 @@ import { type Plot, host, plot } from '../plot/plot';
 import { reading } from '../plot/reading';
 import { spindlePlot } from '../plot/speed';
 import { quantile } from '../plot/values';
-import type { ChatterEvent, DetectPage } from './data';
+import type { ChatterEvent, DetectPage, EdgeEvent } from './data';
 import { loudnessRaster, loudnessScale } from './raster';
 import { TYPES, typeName } from './words';
 
@@ -121,6 +121,7 @@ function signalPlot(page: DetectPage, theme: Theme): Plot {
     y: axisFor('signal in the unit of the file', [...low, ...high], true),
     group: 'time',
     layers: [
+      { kind: 'spans', name: 'tool in the cut', spans: page.answer.cuts.map((c) => [c.start_s, c.end_s]), colour: theme.text, opacity: 0.08 },
       { kind: 'spans', name: 'chatter', spans: page.answer.events.map((e) => [e.start_s, e.end_s]), colour: theme.run.without, opacity: 0.16 },
       { kind: 'band', name: 'signal, lowest to highest', x: t_s, low, high, colour: theme.run.with, opacity: 0.85, outlined: true },
     ],
@@ -164,6 +165,10 @@ function eventsTable({ events, advice_by }: DetectPage['answer']): string {
   });
 }
 
+function edgeWords(e: EdgeEvent, revolutions: number): string {
+  return `${fixed(e.start_s, 3)} to ${fixed(e.end_s, 3)} s: ${hertz(e.frequency_hz)} within ${plain(revolutions)} revolutions of the tool’s ${e.at}; not counted as chatter`;
+}
+
 function verdict(page: DetectPage): string {
   const { events, seconds } = page.answer;
   const first = events[0];
@@ -186,7 +191,7 @@ export function detectView(page: DetectPage): View {
     body:
       section('Spectrogram', host('spectrogram', 'tall') + host('signal', 'low') + host('speed', 'low'), '', choices) +
       (page.answer.events.length > 0 ? section('Where it chatters', eventsTable(page.answer)) : '') +
-      (page.answer.sensor.length > 0 ? section('What this recording can and cannot show', `<ul>${page.answer.sensor.map((words) => `<li>${escapeHtml(words)}</li>`).join('')}</ul>`) : ''),
+      (page.answer.sensor.length + page.answer.at_edges.length > 0 ? section('What this recording can and cannot show', `<ul>${[...page.answer.sensor, ...page.answer.at_edges.map((e) => edgeWords(e, page.answer.edge_revolutions))].map((words) => `<li>${escapeHtml(words)}</li>`).join('')}</ul>`) : ''),
     explanation: [
       ['Spectrogram', 'Signal power over time and frequency, in dB relative to the strongest cell. Forced vibration lies on multiples of the tooth-passing frequency; chatter lies between them.'],
       ['Orders', 'Multiples of the tooth-passing frequency (teeth × speed) or of the spindle speed itself, measured from the orders in the signal where they show it. With runout, forced vibration lies on the spindle orders.'],

@@ -62,7 +62,7 @@ describe('a signal', () => {
     evidence: [{ channel: 1, nearest_order: 6, order_folded: false, from_order_hz: 11, from_order_sd_hz: 0.5, confidence: 0.98 }], ...more,
   });
   const page = (events: ChatterEvent[]) =>
-    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'planner', events, seconds: 3, sample_rate_hz: 20_000, sensor: [] } } as unknown as DetectPage);
+    detectView({ process: 'p', machine: 'm', teeth: 1, answer: { advice_by: 'planner', events, cuts: [], edge_revolutions: 10, at_edges: [], seconds: 3, sample_rate_hz: 20_000, sensor: [] } } as unknown as DetectPage);
   it('without chatter says so and has no table', () => {
     expect(page([]).verdict).toBe('No chatter in 3 s.');
     expect(page([]).body).not.toContain('Where it chatters');

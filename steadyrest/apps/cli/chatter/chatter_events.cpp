@@ -119,6 +119,8 @@ HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
     const auto& heard = detector.update({.value = signal.value[i], .speed_rev_s = told_rev_s});
     if (heard.fresh) {
       found.add(heard, told_rev_s);
+      out.levels.push_back(
+          {.t_s = t_s, .energy = heard.forced_energy, .speed_rev_s = heard.speed_rev_s});
     }
     signal.speed_rev_s[i] = heard.speed_rev_s > 0.0 ? heard.speed_rev_s : told_rev_s;
     if (heard.fresh && heard.chatter) {

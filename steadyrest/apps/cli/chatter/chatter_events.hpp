@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <steadyrest/apps/cli/shared/progress.hpp>
+#include <steadyrest/chatter/offline/signal/engagement.hpp>
 #include <steadyrest/chatter/offline/signal/signal_file.hpp>
 #include <steadyrest/chatter/online/detector.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
@@ -30,10 +31,11 @@ struct ChatterEvidence {
 struct ChatterEvent {
   double start_s = 0.0;
   double end_s = 0.0;
-  double frequency_hz = 0.0;              ///< median over the stretch
-  double speed_rev_s = 0.0;               ///< as told, mean over the stretch
-  double spindle_rev_s = 0.0;             ///< the same as the orders show it
-  bool flip = false;                      ///< majority of the spectra
+  double frequency_hz = 0.0;                                     ///< median over the stretch
+  double speed_rev_s = 0.0;                                      ///< as told, mean over the stretch
+  double spindle_rev_s = 0.0;                                    ///< the same as the orders show it
+  bool flip = false;                                             ///< majority of the spectra
+  chatter::offline::AtEdge at = chatter::offline::AtEdge::none;  ///< of the cut
   std::vector<std::size_t> channels;      ///< that hear it, the first to do so in front
   std::vector<ChatterEvidence> evidence;  ///< of each
 };
@@ -44,6 +46,7 @@ struct HeardChannel {
   double told_rev_s = 0.0;   ///< mean of the stated speed
   double found_rev_s = 0.0;  ///< mean by the orders, while they show it; 0: they never do
   double found_sd_rev_s = 0.0;
+  std::vector<chatter::offline::ForcedLevel> levels;  ///< of each spectrum
   bool clips = false;
 };
 

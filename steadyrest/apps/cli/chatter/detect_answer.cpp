@@ -135,6 +135,32 @@ Json event_json(const offline::RecordedChannels& channels, const DetectEvent& ev
       {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}};
 }
 
+const char* edge_name(offline::AtEdge at) {
+  return at == offline::AtEdge::entry ? "entry" : "exit";
+}
+
+void add_engagement(const DetectSetting& setting, Answer& answer) {
+  answer.json["cuts"] = Json::array();
+  for (const offline::Engagement& cut : setting.cuts) {
+    answer.json["cuts"].push_back({{"start_s", cut.begin_s},
+                                   {"end_s", cut.end_s},
+                                   {"entry_seen", cut.entry},
+                                   {"exit_seen", cut.exit}});
+  }
+  answer.json["edge_revolutions"] = setting.edge_rev;
+  answer.json["at_edges"] = Json::array();
+  for (const ChatterEvent& event : setting.at_edges) {
+    answer.json["at_edges"].push_back({{"start_s", event.start_s},
+                                       {"end_s", event.end_s},
+                                       {"frequency_hz", event.frequency_hz},
+                                       {"at", edge_name(event.at)}});
+    answer.text += fmt::format(
+        "{:.3f} to {:.3f} s: {:.1f} Hz within {:g} revolutions of the tool's {}; not counted as "
+        "chatter\n",
+        event.start_s, event.end_s, event.frequency_hz, setting.edge_rev, edge_name(event.at));
+  }
+}
+
 void add_recording(const offline::RecordedChannels& channels, Json& json) {
   const offline::RecordedSignal& signal = channels.front();
   json["seconds"] = static_cast<double>(signal.value.size()) / signal.rate_hz;
@@ -187,6 +213,7 @@ Answer detect_answer(const offline::RecordedChannels& channels,
   for (const std::string& words : setting.sensor) {
     answer.text += words + "\n";
   }
+  add_engagement(setting, answer);
   answer.text += events.empty()
                      ? fmt::format("no chatter in {:.3f} s{}\n", length_s,
                                    channels.size() > 1

@@ -184,9 +184,45 @@ double mean_told(const RecordedSignal& signal) {
   return sum / std::max(1.0, count);
 }
 
+/// The same part by part: several tools or speeds in one file. False: all parts are as stated.
+bool check_parts(RecordedChannels& channels, std::size_t teeth, Heard& out) {
+  const RecordedSignal& first = channels.front();
+  const auto others =
+      chatter::offline::other_cuts(first.value, first.speed_rev_s, first.rate_hz, teeth);
+  const bool whole =
+      others.size() == 1 && others.front().begin == 0 && others.front().end == first.value.size();
+  if (others.empty() || whole) {
+    return false;
+  }
+  for (const chatter::offline::OtherCut& other : others) {
+    const auto at_s = [&first](std::size_t i) {
+      return first.start_s + static_cast<double>(i) / first.rate_hz;
+    };
+    std::string what = fmt::format("from {:.1f} to {:.1f} s", at_s(other.begin), at_s(other.end));
+    if (other.speed_rev_s > 0.0) {
+      what += fmt::format(" the lines fit a spindle at {:.0f} rpm, not {:.0f} rpm",
+                          rpm_from_rev_s(other.speed_rev_s), rpm_from_rev_s(other.told_rev_s));
+    }
+    if (other.other_teeth > 0) {
+      what += fmt::format("{} the strong orders are multiples of {}, not of {}",
+                          other.speed_rev_s > 0.0 ? ", and" : "", other.other_teeth, teeth);
+    }
+    out.sensor.push_back(what + ": another tool or speed than stated; judged by its lines");
+    for (RecordedSignal& signal : channels) {
+      for (std::size_t i = other.begin; i < other.end && other.speed_rev_s > 0.0; ++i) {
+        signal.speed_rev_s[i] *= other.speed_rev_s / other.told_rev_s;
+      }
+    }
+  }
+  return true;
+}
+
 /// Checks the stated speed and number of teeth against the lines of the recording. If the lines
 /// clearly fit another speed, that speed is used.
 bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) {
+  if (check_parts(channels, teeth, out)) {
+    return true;
+  }
   const RecordedSignal& first = channels.front();
   const double told_rev_s = mean_told(first);
   const auto found = chatter::offline::check_orders(first.value, first.rate_hz, told_rev_s, teeth);
@@ -233,8 +269,8 @@ void say_speed(const HeardChannel& heard, bool orders_known, Heard& out) {
 
 }  // namespace
 
-Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::string& file,
-                   Progress& progress) {
+Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, double edge_rev,
+                   const std::string& file, Progress& progress) {
   Heard out;
   // The rate is the same in all channels.
   const double rate_hz = channels.front().rate_hz;
@@ -287,9 +323,16 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, const std::str
     if (&signal == &channels.front()) {
       say_speed(heard, orders_known, out);
     }
+    if (out.cuts.empty()) {
+      out.cuts = chatter::offline::engagements(heard.levels);
+    }
     std::ranges::move(heard.events, std::back_inserter(out.events));
   }
   out.events = as_one(std::move(out.events));
+  for (ChatterEvent& event : out.events) {
+    event.at = chatter::offline::at_edge(out.cuts, event.start_s, event.end_s,
+                                         edge_rev / event.spindle_rev_s);
+  }
   return out;
 }
 

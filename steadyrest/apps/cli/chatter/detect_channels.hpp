@@ -37,19 +37,22 @@ struct GivenSpeeds {
     chatter::offline::RecordedSignal& signal);
 
 struct Heard {
-  std::vector<ChatterEvent> events;  ///< as_one()
-  std::size_t window = 0;            ///< samples of a spectrum
+  std::vector<ChatterEvent>
+      events;  ///< as_one(); those at an edge of the cut are named, not counted
+  std::vector<chatter::offline::Engagement> cuts;  ///< by the first channel that shows them
+  std::size_t window = 0;                          ///< samples of a spectrum
   std::vector<std::string> notes;
   std::vector<std::string> sensor;  ///< what these recordings cannot show, before the verdict
   double found_rpm = 0.0;           ///< by the orders of the first channel that shows them; 0: none
   double found_sd_rpm = 0.0;
 };
 
-/// Listens to each channel from the first sample to the last. Channels without a signal are taken
-/// out of the list, with a note. Refused: all are, or a recording is shorter than a spectrum.
+/// Listens to each channel from the first sample to the last. Stretches within `edge_rev`
+/// revolutions of the tool's entry or exit are marked. Channels without a signal are taken out of
+/// the list, with a note. Refused: all are, or a recording is shorter than a spectrum.
 [[nodiscard]] kernel::outcome::Result<Heard> hear(chatter::offline::RecordedChannels& channels,
-                                                  std::size_t teeth, const std::string& file,
-                                                  Progress& progress);
+                                                  std::size_t teeth, double edge_rev,
+                                                  const std::string& file, Progress& progress);
 
 /// Stretches that several channels hear at once count once: from the first that hears it, with its
 /// frequency, to the last. In order of their start.

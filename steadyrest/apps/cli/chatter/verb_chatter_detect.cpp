@@ -49,6 +49,7 @@ struct Options {
   std::optional<double> programmed_rpm;
   std::optional<double> depth_mm;
   std::optional<double> rate_hz;
+  double edge_rev = 10.0;
   std::string channel;
   std::string speed_pattern;
   std::string report;
@@ -77,6 +78,10 @@ std::optional<Refusal> unfit(const Options& options) {
   }
   if (!options.teeth && options.process.empty()) {
     return bad_input("the number of teeth is unknown", "give --teeth N or --process FILE");
+  }
+  if (!(options.edge_rev >= 0.0 && options.edge_rev <= 1000.0)) {
+    return bad_input(fmt::format("--edge-revolutions {}; allowed: 0 … 1000", options.edge_rev),
+                     "give the revolutions after an entry or exit that its own ringing may last");
   }
   if (options.depth_mm && options.process.empty()) {
     return bad_input("--depth-mm without --process",
@@ -244,13 +249,18 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   if (!channels) {
     return refused(channels.error());
   }
-  auto heard = hear(*channels, teeth, options.signal, progress);
+  auto heard = hear(*channels, teeth, options.edge_rev, options.signal, progress);
   if (!heard) {
     return refused(heard.error());
   }
   std::vector<Event> events;
+  std::vector<ChatterEvent> at_edges;
   for (ChatterEvent& event : heard->events) {
-    events.push_back({std::move(event), {}, {}, {}});
+    if (event.at == offline::AtEdge::none) {
+      events.push_back({std::move(event), {}, {}, {}});
+    } else {
+      at_edges.push_back(std::move(event));
+    }
   }
   // Plans are made on demand: a quiet recording needs none.
   std::optional<AskedPlans> plans;
@@ -274,6 +284,9 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
                                  .modes_hz = std::move(modes_hz),
                                  .sensor = std::move(heard->sensor),
                                  .notes = std::move(notes),
+                                 .cuts = std::move(heard->cuts),
+                                 .at_edges = std::move(at_edges),
+                                 .edge_rev = options.edge_rev,
                                  .found_rpm = heard->found_rpm,
                                  .found_sd_rpm = heard->found_sd_rpm});
   if (!options.report.empty()) {
@@ -342,6 +355,9 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
       ->excludes(speed);
   verb.add_option("--programmed-rpm", options->programmed_rpm,
                   "Spindle speed at 100 % override; default: the signal's");
+  verb.add_option("--edge-revolutions", options->edge_rev,
+                  "Vibration that ends within so many revolutions of the tool's entry or exit is "
+                  "named, not counted as chatter; default: 10");
   verb.add_option("--depth-mm", options->depth_mm,
                   "Axial depth of cut, for --process; without it the deepest step is advised");
   verb.reports(options->report);

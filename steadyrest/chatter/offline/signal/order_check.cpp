@@ -20,13 +20,17 @@ constexpr std::size_t kOrders = 40;
 constexpr double kNoise = 3.0;     // medians
 constexpr double kReach = 0.0005;  // of an order's frequency, to either side
 constexpr double kTold = 0.02;
-constexpr double kSearched = 0.25;
+constexpr double kSlowest = 0.25;
+constexpr double kFastest = 4.0;
+constexpr double kFewOrders = 3.0;
 constexpr double kStep = 0.0004;
 constexpr double kOtherShare = 0.5;
 constexpr double kOtherMore = 0.25;
 constexpr double kTeethShare = 0.8;
 constexpr double kNotTeeth = 0.5;
 constexpr std::size_t kMostTeeth = 16;
+constexpr double kSameSpeed = 0.01;
+constexpr std::size_t kFewWindows = 3;
 
 /// Amplitude above the noise in each bin of the mean spectrum.
 struct Lines {
@@ -35,8 +39,12 @@ struct Lines {
   double all = 0.0;
 };
 
-Lines lines_of(const std::vector<double>& value, double rate_hz) {
-  const std::size_t n = std::bit_floor(static_cast<std::size_t>(kWindow_s * rate_hz));
+std::size_t window_of(double rate_hz) {
+  return std::bit_floor(static_cast<std::size_t>(kWindow_s * rate_hz));
+}
+
+Lines lines_of(std::span<const double> value, double rate_hz) {
+  const std::size_t n = window_of(rate_hz);
   const std::size_t hop = std::max(n / 2, (value.size() - n) / kMostWindows + 1);
   Eigen::FFT<double> fft;
   std::vector<std::vector<double>> spectra;
@@ -97,16 +105,32 @@ void at(const Lines& lines, double hz, const Look& look) {
   }
 }
 
-double share_of(const Lines& lines, double speed_rev_s) {
+struct Comb {
+  double share = 0.0;
+  double orders = 0.0;  ///< that it rests on: (Σ s)²/Σ s²
+};
+
+Comb comb_of(const Lines& lines, double speed_rev_s) {
   double bins = 0.0;
   double sum = 0.0;
+  double squares = 0.0;
   for (std::size_t k = 1; k <= kOrders; ++k) {
+    double here = 0.0;
     at(lines, static_cast<double>(k) * speed_rev_s, [&](double size) {
-      sum += size;
+      here += size;
       bins += 1.0;
     });
+    sum += here;
+    squares += here * here;
   }
-  return sum / lines.all - bins / static_cast<double>(lines.size.size());
+  return {.share = sum / lines.all - bins / static_cast<double>(lines.size.size()),
+          .orders = squares > 0.0 ? sum * sum / squares : 0.0};
+}
+
+/// Period doubling lies at the orders of half the speed; a multiple of the speed has no runout.
+bool is_multiple(double ratio) {
+  const double whole = std::round(std::max(ratio, 1.0 / ratio));
+  return whole > 1.0 && std::abs(std::max(ratio, 1.0 / ratio) / whole - 1.0) <= kTold;
 }
 
 std::size_t teeth_by(const Lines& lines, double speed_rev_s, std::size_t told) {
@@ -136,10 +160,10 @@ std::size_t teeth_by(const Lines& lines, double speed_rev_s, std::size_t told) {
 
 }  // namespace
 
-OrderFindings check_orders(const std::vector<double>& value, double rate_hz, double told_rev_s,
+OrderFindings check_orders(std::span<const double> value, double rate_hz, double told_rev_s,
                            std::size_t teeth) {
   OrderFindings out;
-  if (static_cast<double>(value.size()) < kWindow_s * rate_hz) {
+  if (value.size() < window_of(rate_hz)) {
     return out;
   }
   const Lines lines = lines_of(value, rate_hz);
@@ -147,24 +171,84 @@ OrderFindings check_orders(const std::vector<double>& value, double rate_hz, dou
     return out;
   }
   double told_speed = told_rev_s;
-  for (double ratio = 1.0 - kSearched; ratio <= 1.0 + kSearched; ratio += kStep) {
-    const double share = share_of(lines, ratio * told_rev_s);
-    const bool told = std::abs(ratio - 1.0) <= kTold;
-    if (told && share > out.told_share) {
-      out.told_share = share;
-      told_speed = ratio * told_rev_s;
+  double orders = 0.0;
+  const auto search = [&](double from, double to) {
+    for (double ratio = from; ratio <= to; ratio *= 1.0 + kStep) {
+      if (is_multiple(ratio)) {
+        continue;
+      }
+      const Comb comb = comb_of(lines, ratio * told_rev_s);
+      if (std::abs(ratio - 1.0) <= kTold && comb.share > out.told_share) {
+        out.told_share = comb.share;
+        told_speed = ratio * told_rev_s;
+      }
+      if (comb.share > out.found_share) {
+        out.found_share = comb.share;
+        out.speed_rev_s = ratio * told_rev_s;
+        orders = comb.orders;
+      }
     }
-    if (share > out.found_share) {
-      out.found_share = share;
-      out.speed_rev_s = ratio * told_rev_s;
-    }
+  };
+  search(1.0 - kTold, 1.0 + kTold);
+  if (out.told_share < kOtherShare) {
+    search(kSlowest, kFastest);
   }
   out.known = out.found_share >= kOtherShare;
-  out.other_speed = out.known && out.found_share > out.told_share + kOtherMore;
+  // A line of chatter alone is at some order of many a speed.
+  out.other_speed =
+      out.known && orders >= kFewOrders && out.found_share > out.told_share + kOtherMore;
   if (!out.other_speed) {
     out.speed_rev_s = told_speed;
   }
   out.other_teeth = out.known ? teeth_by(lines, out.speed_rev_s, teeth) : 0;
+  return out;
+}
+
+namespace {
+
+double mean_speed(std::span<const double> told_rev_s) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double speed : told_rev_s) {
+    sum += std::isfinite(speed) ? speed : 0.0;
+    count += std::isfinite(speed) ? 1.0 : 0.0;
+  }
+  return sum / std::max(1.0, count);
+}
+
+}  // namespace
+
+std::vector<OtherCut> other_cuts(std::span<const double> value, std::span<const double> told_rev_s,
+                                 double rate_hz, std::size_t teeth) {
+  const std::size_t n = window_of(rate_hz);
+  std::vector<OtherCut> windows;
+  for (std::size_t begin = 0; begin + n <= value.size(); begin += n / 2) {
+    const double told = mean_speed(told_rev_s.subspan(begin, n));
+    OtherCut window{.begin = begin + n / 4, .end = begin + n / 4 + n / 2, .told_rev_s = told};
+    if (told > 0.0) {
+      const auto found = check_orders(value.subspan(begin, n), rate_hz, told, teeth);
+      window.speed_rev_s = found.other_speed ? found.speed_rev_s : 0.0;
+      window.other_teeth = found.other_teeth;
+    }
+    windows.push_back(window);
+  }
+  std::vector<OtherCut> out;
+  for (std::size_t i = 0; i < windows.size();) {
+    const OtherCut& first = windows[i];
+    const auto agrees = [&](const OtherCut& w) {
+      return std::abs(w.speed_rev_s - first.speed_rev_s) <= kSameSpeed * first.speed_rev_s &&
+             w.other_teeth == first.other_teeth;
+    };
+    const std::size_t from = i;
+    while (i < windows.size() && agrees(windows[i])) {
+      ++i;
+    }
+    if (i - from >= kFewWindows && (first.speed_rev_s > 0.0 || first.other_teeth > 0)) {
+      out.push_back(first);
+      out.back().begin = from == 0 ? 0 : first.begin;
+      out.back().end = i == windows.size() ? value.size() : windows[i - 1].end;
+    }
+  }
   return out;
 }
 

@@ -69,6 +69,7 @@ void OrderGate::ask(const Near& near, double speed_rev_s, double speed_sd) noexc
   const double new_hz = (config_.folds ? kNewFoldBins : kNewBins) * config_.bin_hz;
   const double by_line = seconds_ > kProved_s ? std::min(new_hz, kApart / seconds_) : new_hz;
   const double share = std::abs(off_hz) / (by_line + by_speed);
+  out_.orders += share < 1.0 ? 1 : 0;
   if (share < best_) {
     best_ = share;
     out_.order = near.order;

@@ -41,6 +41,7 @@ class OrderGate {
   };
   struct Output {
     bool forced = false;
+    unsigned orders = 0;        ///< how many orders and folds it can be
     double order = 0.0;         ///< nearest, whole
     bool folded = false;        ///< it is beyond half of the rate
     double frequency_hz = 0.0;  ///< of the line, by its phase

@@ -14,10 +14,12 @@ constexpr double kBlock_s = 0.02;        // of whole revolutions, about
 constexpr double kLeastSamples = 100.0;  // of a block
 constexpr double kUnsure = 0.002;        // above it blocks have only so many samples
 constexpr double kLeastNoise = 0.05;     // of the residual's energy
-constexpr double kLeastSnr = 8.0;        // of an order's energy over its noise's
-constexpr double kRestless = 0.015;      // rad: phases of orders wander with the engagement
-constexpr double kWithinTurns = 0.4;     // that an order may have turned by
-constexpr double kSigmas = 3.0;
+constexpr double kSettledRev = 12.0;
+constexpr double kRingsRev = 3.0;
+constexpr double kLeastSnr = 8.0;     // of an order's energy over its noise's
+constexpr double kRestless = 0.015;   // rad: phases of orders wander with the engagement
+constexpr double kWithinTurns = 0.4;  // that an order may have turned by
+constexpr double kPriorSigmas = 3.0;
 constexpr double kSigmasOfReach = 2.0;
 constexpr double kForget = 0.15;          // of a block, of how an order strays from the others
 constexpr double kUnknownStrange = 0.03;  // rad²
@@ -71,12 +73,14 @@ void SpindleTrack::begin_block(OrderFilter& filter, double angle_rev, double spe
 }
 
 void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
-                          double residual_energy) noexcept {
+                          const Residual& residual) noexcept {
   if (told_sd_ <= 0.0) {
     return;
   }
-  if (!started_) {
+  // What the entry strikes rings, and turns the orders together.
+  if (!started_ || residual.cut_rev < kRingsRev) {
     started_ = true;
+    comparable_ = false;
     begin_block(filter, angle_rev, speed_rev_s, rate_hz);
     return;
   }
@@ -86,19 +90,20 @@ void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_re
   }
   const auto orders = filter.orders();
   const double each = 2.0 / static_cast<double>(samples_);
-  double at_orders = 0.0;  // of the residual's energy: at a wrong speed it is nearly all
+  const bool settled = residual.cut_rev > kSettledRev;
+  double at_orders = 0.0;
   double free_share = 1.0;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const OrderFilter::Order& order = orders[i];
     const Complex left = each * Complex(order.block_c, -order.block_s);
     now_[i] = 0.5 * (at_begin_[i] + phasor(order)) + left;
-    if (order.used && !order.folded) {
+    if (settled && order.used && order.tooth && !order.folded) {
       at_orders += 0.5 * std::norm(left);
       free_share -= each;
     }
   }
-  const double noise_energy = std::max(kLeastNoise * residual_energy,
-                                       (residual_energy - at_orders) / std::max(0.5, free_share));
+  const double noise_energy = std::max(kLeastNoise * residual.energy,
+                                       (residual.energy - at_orders) / std::max(0.5, free_share));
   // Of white noise with that energy |Y|² has 4/n.
   const Fit found = comparable_ ? fit(orders, 2.0 * each * noise_energy) : Fit{};
   follow(found, static_cast<double>(samples_) / rate_hz);
@@ -111,7 +116,7 @@ void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_re
 void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
                           double noise_energy) noexcept {
   turned_.clear();
-  const double prior = kSigmas * sd() * kTurn * block_rev_;
+  const double prior = kPriorSigmas * sd() * kTurn * block_rev_;
   double below = 1.0 / (prior * prior);
   double above = 0.0;
   for (std::size_t i = 1; i < orders.size(); ++i) {

@@ -18,13 +18,14 @@ namespace steadyrest::chatter::online {
 ///   ε̂ = Σ wₖ·k·aₖ / (2π·B·Σ wₖ·k²),  wₖ = h/vₖ,  vₖ = 1/SNRₖ + what the order has strayed by
 ///   lately,
 /// from the lowest up, each unwrapped by what those below it say, as far as that leaves its turn
-/// known; the noise is what the orders leave of the residual over a block; h is Huber's weight
-/// about the median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not move. A
-/// Kalman filter with one state follows: ε is a random walk of kWalk·√t, faster where two orders at
-/// least agree that it moved (a spindle that droops as it enters); an innovation that they do not
-/// agree on counts as an outlier. What it finds turns the angle that the orders refer to, so later
-/// blocks see what is left. In air no order shows it: the uncertainty grows to kInAir, or to twice
-/// `told_sd` where that is less.
+/// known; the noise is the residual, kSettledRev revolutions after the tool's entry what the tooth
+/// orders leave of it over a block (at a wrong speed they are nearly all of it); h is Huber's
+/// weight about the median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not
+/// move. A Kalman filter with one state follows: ε is a random walk of kWalk·√t, faster where two
+/// orders at least agree that it moved (a spindle that droops as it enters); an innovation that
+/// they do not agree on counts as an outlier. What it finds turns the angle that the orders refer
+/// to, so later blocks see what is left. In air no order shows it: the uncertainty grows to kInAir,
+/// or to twice `told_sd` where that is less.
 class SpindleTrack {
  public:
   static constexpr double kMost = 0.025;
@@ -32,10 +33,15 @@ class SpindleTrack {
   /// `told_sd`: relative standard deviation of the told speed; 0: it is exact and stays as it is.
   explicit SpindleTrack(double told_sd, std::size_t orders);
 
+  struct Residual {
+    double energy = 0.0;   ///< of the filter's residual, mean over a revolution
+    double cut_rev = 0.0;  ///< revolutions since the cut began
+  };
+
   /// To be called with each sample, after the filter has used it. `angle_rev`: as integrated with
   /// ratio().
   void update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
-              double residual_energy) noexcept;
+              const Residual& residual) noexcept;
   void reset() noexcept;
 
   /// 1 + ε̂

@@ -55,6 +55,52 @@ TEST(OrderCheck, NamesAnotherNumberOfTeeth) {
   EXPECT_EQ(check_orders(cut(2, 0.0), kRateHz, 53.0, 2).other_teeth, 0U);
 }
 
+// One line of chatter beside weak orders is at order 10 of a speed 4 % higher.
+TEST(OrderCheck, DoesNotTakeALineOfChatterForAnOrder) {
+  std::mt19937_64 rng(4);
+  for (int i = 0; i < 200; ++i) {
+    const double told = std::uniform_real_distribution<double>(20.0, 120.0)(rng);
+    std::vector<double> value;
+    std::normal_distribution<double> noise(0.0, 0.02);
+    for (int n = 0; n < 2 * static_cast<int>(kRateHz); ++n) {
+      const double turns = told * n / kRateHz;
+      value.push_back(noise(rng) + std::cos(kernel::units::kTurn * 10.4 * turns) +
+                      0.3 * std::cos(kernel::units::kTurn * 14.4 * turns) +
+                      0.02 * std::cos(kernel::units::kTurn * 4.0 * turns));
+    }
+    EXPECT_FALSE(check_orders(value, kRateHz, told, 4).other_speed) << told;
+  }
+}
+
+// Cutters of 53 and of 71.5 rev/s one after the other, the file says 53; then 3 teeth and 4.
+TEST(OrderCheck, NamesTheSecondToolOfAFile) {
+  std::vector<double> value = cut(4, 0.3);
+  for (int i = 0; i < 6 * static_cast<int>(kRateHz); ++i) {
+    double sum = 0.0;
+    for (int k = 1; k <= 30; ++k) {
+      sum += (k % 4 == 0 ? 1.0 : 0.1) / (1.0 + 0.05 * k) *
+             std::cos(kernel::units::kTurn * 71.5 * k * i / kRateHz + k * k);
+    }
+    value.push_back(sum);
+  }
+  const std::vector<double> told(value.size(), 53.0);
+  const auto other = other_cuts(value, told, kRateHz, 4);
+  ASSERT_EQ(other.size(), 1U);
+  EXPECT_NEAR(other[0].speed_rev_s, 71.5, 0.05);
+  EXPECT_NEAR(static_cast<double>(other[0].begin) / kRateHz, 6.0, 1.0);
+  EXPECT_EQ(other[0].end, value.size());
+
+  std::vector<double> teeth = cut(3, 0.0);
+  const std::vector<double> second = cut(4, 0.0);
+  teeth.insert(teeth.end(), second.begin(), second.end());
+  const auto three = other_cuts(teeth, told, kRateHz, 4);
+  ASSERT_EQ(three.size(), 1U);
+  EXPECT_EQ(three[0].other_teeth, 3U);
+  EXPECT_EQ(three[0].speed_rev_s, 0.0);
+  EXPECT_EQ(three[0].begin, 0U);
+  EXPECT_TRUE(other_cuts(second, told, kRateHz, 4).empty());
+}
+
 // A cut that only chatters, air, and less than a window say nothing.
 TEST(OrderCheck, SaysNothingWhereNoOrdersStandOut) {
   EXPECT_FALSE(check_orders(cut(4, 3.0, 0.05), kRateHz, 48.0, 4).other_speed);

@@ -131,7 +131,7 @@ TEST(DetectorShare, OfWhiteNoiseTenTimesEToTheMinusTenIsLines) {
   double lines = 0.0;
   double rest = 0.0;
   for (int i = 0; i < 100000; ++i) {
-    const auto& out = spectrum->update(noise(rng), 0.0, 0.0);
+    const auto& out = spectrum->update(noise(rng), {});
     lines += out.fresh ? out.line_energy : 0.0;
     rest += out.fresh ? out.noise_energy : 0.0;
   }

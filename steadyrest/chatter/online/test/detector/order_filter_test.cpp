@@ -67,9 +67,9 @@ TEST(LineSpectrum, NamesALineWithinAFiftiethOfABin) {
     ASSERT_TRUE(spectrum);
     LineSpectrum::Output last;
     for (int i = 0; i < 3000; ++i) {
-      last = spectrum->update(2.0 * std::cos(kTurn * hz * i / kDefaultRate), 0.0, 0.0);
+      last = spectrum->update(2.0 * std::cos(kTurn * hz * i / kDefaultRate), {});
     }
-    EXPECT_NEAR(last.frequency_hz, hz, 0.02 * spectrum->resolution_hz()) << hz;
+    EXPECT_NEAR(last.strongest.frequency_hz, hz, 0.02 * spectrum->resolution_hz()) << hz;
     EXPECT_NEAR(last.line_energy, 2.0, 0.02) << hz;
   }
 }
@@ -85,16 +85,37 @@ TEST(LineSpectrum, NoiseHasNoLineAndKeepsItsEnergy) {
   double highest = 0.0;
   int spectra = 0;
   for (int i = 0; i < 100000; ++i) {
-    const auto& out = spectrum->update(noise(rng), 0.0, 0.0);
+    const auto& out = spectrum->update(noise(rng), {});
     if (out.fresh) {
       ++spectra;
       energy += out.noise_energy;
-      highest = std::max(highest, out.peak_ratio);
+      highest = std::max(highest, out.strongest.peak_ratio);
     }
   }
   EXPECT_NEAR(energy / spectra, 1.0, 0.05);
   EXPECT_GT(highest, 5.0);
   EXPECT_LT(highest, 25.0);
+}
+
+// 60 rev/s: 334 Hz lies between orders 5 and 6, 309 Hz within a bin of order 5.
+TEST(LineSpectrum, NamesTheStrongestLineBesideTheOrders) {
+  for (const double hz : {334.0, 309.0}) {
+    auto spectrum = LineSpectrum::make({});
+    ASSERT_TRUE(spectrum);
+    LineSpectrum::Output last;
+    for (int i = 0; i < 3000; ++i) {
+      const double t = i / kDefaultRate;
+      last = spectrum->update(std::cos(kTurn * 300.0 * t) + 0.5 * std::cos(kTurn * hz * t),
+                              {.spindle_hz = 60.0});
+    }
+    if (hz == 334.0) {
+      EXPECT_NEAR(last.strongest.frequency_hz, 300.0, 0.5);
+      EXPECT_NEAR(last.beside.frequency_hz, hz, 0.5);
+      EXPECT_NEAR(last.beside.energy, 0.125, 0.015);
+    } else {
+      EXPECT_EQ(last.beside.frequency_hz, 0.0);
+    }
+  }
 }
 
 // 500 Hz is twice the spacing and a hundred times as strong; only the guard hides it.
@@ -104,10 +125,10 @@ TEST(LineSpectrum, DoesNotLookWhereItIsTold) {
   LineSpectrum::Output last;
   for (int i = 0; i < 3000; ++i) {
     const double t = i / kDefaultRate;
-    last = spectrum->update(std::cos(kTurn * 500.0 * t) + 0.01 * std::cos(kTurn * 777.0 * t), 250.0,
-                            30.0);
+    last = spectrum->update(std::cos(kTurn * 500.0 * t) + 0.01 * std::cos(kTurn * 777.0 * t),
+                            {.spacing_hz = 250.0, .guard_hz = 30.0});
   }
-  EXPECT_NEAR(last.frequency_hz, 777.0, 1.0);
+  EXPECT_NEAR(last.strongest.frequency_hz, 777.0, 1.0);
 }
 
 // ½·E(x(θ) − x(θ − 1))² of cos 2πkθ is E·(1 − cos 2πk): 0, 1 and 2 for orders 3, 3¼ and 3½.
