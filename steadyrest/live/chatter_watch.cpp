@@ -11,6 +11,22 @@ namespace {
 using Kind = chatter::online::Detector::Kind;
 
 constexpr double kSameRatio = 0.01;
+/// Of the threshold: lines of less energy come and go with the noise.
+constexpr double kLineShown = 0.5;
+
+/// In the cut alone: outside, the ear keeps its last word.
+void show_line(const chatter::online::BetterSpeed::Output& heard, bool cuts,
+               LiveChatter& now) noexcept {
+  const bool stands_out = now.chatters || now.level >= kLineShown * heard.threshold;
+  const bool shown = cuts && stands_out && heard.line.frequency_hz > 0.0;
+  now.line = shown ? heard.line : chatter::online::OrderGate::Output{};
+  now.forced = now.line.forced && !now.chatters;
+  now.mode_hz = shown ? heard.mode_hz : 0.0;
+  now.confidence = now.chatters ? heard.confidence : 0.0;
+  now.speed_rev_s = cuts ? heard.speed_rev_s : 0.0;
+  now.speed_sd = cuts ? heard.speed_sd : 0.0;
+  now.clips = heard.clips;
+}
 
 }  // namespace
 
@@ -32,6 +48,7 @@ const LiveChatter& ChatterWatch::update(const supervisor::Supervisor& layer,
   // Of a tool that is too quiet to be in a cut the share says nothing.
   now_.level = cuts && heard->kind != Kind::none ? heard->level : 0.0;
   now_.threshold = heard->threshold;
+  show_line(*heard, cuts, now_);
   const bool asks = kernel::override::is_wish(heard->request.ratio, heard->request.reason);
   now_.better_ratio = asks ? heard->request.ratio : 1.0;
   now_.events += begins ? 1 : 0;

@@ -37,6 +37,15 @@ struct LiveChatter {
   double better_ratio = 1.0;  ///< of the spindle, by the planner's table; 1: none was asked for
   std::uint64_t events = 0;   ///< how often chatter began, since the start
   double chatter_s = 0.0;     ///< for how long it chattered in all
+  /// The strongest line that the teeth do not explain, and the order nearest to it (0: it can be
+  /// none); frequency 0: out of the cut, or too weak to be told.
+  chatter::online::OrderGate::Output line;
+  bool forced = false;       ///< the line is that order
+  double mode_hz = 0.0;      ///< the process's mode nearest to the line; 0: none is known
+  double confidence = 0.0;   ///< that this chatter is not forced, 0 … 1; 0: there is none
+  double speed_rev_s = 0.0;  ///< of the spindle, as its orders show it; 0: they do not
+  double speed_sd = 0.0;     ///< the standard deviation of that, relative
+  bool clips = false;        ///< the sensor's largest values are cut off
 };
 
 /// What a cycle leaves for those who look.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <steadyrest/kernel/outcome/reason.hpp>
@@ -12,6 +13,7 @@ namespace {
 
 using kernel::machine::Mode;
 using kernel::signal::AxisValues;
+using kernel::units::rpm_from_rev_s;
 using kernel::units::um_from_mm;
 
 constexpr std::array<std::string_view, 3> kModes = {"observe", "advise", "act"};
@@ -32,6 +34,28 @@ Json offsets(const AxisValues& mm) {
   return out;
 }
 
+/// The words of `chatter detect`.
+Json line_json(const LiveChatter& chatter) {
+  const auto& line = chatter.line;
+  if (!(line.frequency_hz > 0.0)) {
+    return nullptr;
+  }
+  return {{"frequency_hz", line.frequency_hz},
+          {"nearest_order", line.order > 0.0 ? Json(std::llround(line.order)) : Json(nullptr)},
+          {"order_folded", line.folded},
+          {"from_order_hz", line.off_hz},
+          {"from_order_sd_hz", line.sd_hz},
+          {"forced", chatter.forced}};
+}
+
+Json mode_json(const LiveChatter& chatter) {
+  if (!(chatter.mode_hz > 0.0)) {
+    return nullptr;
+  }
+  return {{"frequency_hz", chatter.mode_hz},
+          {"off_hz", chatter.line.frequency_hz - chatter.mode_hz}};
+}
+
 Json chatter_json(const LiveChatter& chatter) {
   if (!chatter.listens) {
     return nullptr;
@@ -46,7 +70,13 @@ Json chatter_json(const LiveChatter& chatter) {
           {"better_spindle_percent",
            chatter.better_ratio == 1.0 ? Json(nullptr) : Json(kPercent * chatter.better_ratio)},
           {"events", chatter.events},
-          {"chatter_s", chatter.chatter_s}};
+          {"chatter_s", chatter.chatter_s},
+          {"line", line_json(chatter)},
+          {"nearest_mode", mode_json(chatter)},
+          {"confidence", chatter.chatters ? Json(chatter.confidence) : Json(nullptr)},
+          {"spindle_rpm", known(rpm_from_rev_s(chatter.speed_rev_s))},
+          {"spindle_sd_rpm", known(rpm_from_rev_s(chatter.speed_rev_s * chatter.speed_sd))},
+          {"clips", chatter.clips}};
 }
 
 }  // namespace

@@ -26,14 +26,15 @@ kernel::outcome::Result<BetterSpeed> BetterSpeed::make(Config config) {
   if (!table) {
     return std::unexpected(table.error());
   }
-  return BetterSpeed(config, std::move(*detector), std::move(*table));
+  return BetterSpeed(std::move(config), std::move(*detector), std::move(*table));
 }
 
-BetterSpeed::BetterSpeed(const Config& config, Detector detector, SpeedTable table)
+BetterSpeed::BetterSpeed(Config config, Detector detector, SpeedTable table)
     : again_samples_(config.again_s * config.detector.sample_rate_hz),
       threshold_(config.detector.sure_ratio),
+      modes_hz_(std::move(config.modes_hz)),
       table_(std::move(table)),
-      state_{.detector = std::move(detector), .out = {}} {}
+      state_{.detector = std::move(detector), .confidence = {}, .out = {}} {}
 
 const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   // Another programmed speed is another cut: the advice for the last one is dropped.
@@ -53,6 +54,9 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   state_.out.frequency_hz = heard.frequency_hz;
   state_.out.level = heard.energy_ratio;
   state_.out.threshold = threshold_;
+  if (heard.fresh) {
+    show(heard);
+  }
   state_.since_asked += 1.0;
   // At once when chatter begins, then at intervals: the frequency moves with the speed, and another
   // step may help where the first did not.
@@ -63,6 +67,27 @@ const BetterSpeed::Output& BetterSpeed::update(const Input& input) noexcept {
   const bool answered = state_.answer != kernel::outcome::Reason::none;
   state_.out.reason = answered ? state_.answer : heard.reason;
   return state_.out;
+}
+
+/// What a spectrum has shown beside the verdict.
+void BetterSpeed::show(const Detector::Output& heard) noexcept {
+  if (heard.chatter) {
+    state_.confidence.add(heard);
+  } else {
+    state_.confidence.reset();
+  }
+  Output& out = state_.out;
+  const bool known = shows_speed(heard);
+  // As the chatter ends another line may be the strongest for a moment.
+  const double off_hz = std::abs(heard.line.frequency_hz - heard.frequency_hz);
+  if (!heard.chatter || off_hz < state_.detector.resolution_hz()) {
+    out.line = heard.line;
+    out.mode_hz = nearest_mode_hz(modes_hz_, heard.line.frequency_hz);
+  }
+  out.confidence = state_.confidence.value();
+  out.speed_rev_s = known ? heard.speed_rev_s : 0.0;
+  out.speed_sd = known ? heard.speed_sd : 0.0;
+  out.clips = state_.detector.clips();
 }
 
 void BetterSpeed::ask(const Input& input, double line_energy) noexcept {
@@ -88,6 +113,7 @@ void BetterSpeed::reset() noexcept {
   state_.programmed_rev_s = state_.since_asked = state_.line_energy = 0.0;
   state_.answer = kernel::outcome::Reason::none;
   state_.gave_up = false;
+  state_.confidence.reset();
   state_.out = {};
 }
 

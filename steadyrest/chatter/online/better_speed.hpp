@@ -3,8 +3,10 @@
 
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <steadyrest/chatter/online/detector.hpp>
+#include <steadyrest/chatter/online/line_evidence.hpp>
 #include <steadyrest/chatter/online/speed_table.hpp>
 #include <steadyrest/kernel/outcome/reason.hpp>
 #include <steadyrest/kernel/outcome/result.hpp>
@@ -30,6 +32,8 @@ class BetterSpeed {
     Detector::Config detector;
     SpeedTable::Config table;
     double again_s = 1.0;  ///< s, > 0; longer than the spindle needs to reach the new speed
+    // NOLINTNEXTLINE(readability-redundant-member-init): designated initialisers may leave it out
+    std::vector<double> modes_hz = {};  ///< of the process, to be named beside a line
   };
 
   struct Input {
@@ -45,8 +49,14 @@ class BetterSpeed {
     bool chatter = false;
     Detector::Kind kind = Detector::Kind::none;
     double frequency_hz = 0.0;
-    double level = 0.0;      ///< the detector's energy ratio, 0 … 1
-    double threshold = 0.0;  ///< the level above which a cut at constant speed surely chatters
+    double level = 0.0;        ///< the detector's energy ratio, 0 … 1
+    double threshold = 0.0;    ///< the level above which a cut at constant speed surely chatters
+    OrderGate::Output line;    ///< the strongest line and the order nearest to it
+    double mode_hz = 0.0;      ///< the mode nearest to that; 0: none is known
+    double confidence = 0.0;   ///< LineConfidence of this chatter; 0: there is none
+    double speed_rev_s = 0.0;  ///< of the spindle, as its orders show it; 0: they do not
+    double speed_sd = 0.0;     ///< the standard deviation of that, relative
+    bool clips = false;        ///< the sensor's largest values are cut off
     kernel::signal::SpindleRequest request;
     kernel::outcome::Reason reason = kernel::outcome::Reason::none;  ///< the detector's, or that
                                                                      ///< of the last answer
@@ -57,7 +67,8 @@ class BetterSpeed {
     double programmed_rev_s = 0.0;
     double since_asked = 0.0;  ///< samples
     double line_energy = 0.0;  ///< as the present step was asked for
-    bool gave_up = false;      ///< a step was taken back
+    LineConfidence confidence;
+    bool gave_up = false;  ///< a step was taken back
     kernel::outcome::Reason answer = kernel::outcome::Reason::none;
     Output out;
   };
@@ -76,11 +87,13 @@ class BetterSpeed {
   void take_over(BetterSpeed& before) noexcept { std::swap(state_, before.state_); }
 
  private:
-  BetterSpeed(const Config& config, Detector detector, SpeedTable table);
+  BetterSpeed(Config config, Detector detector, SpeedTable table);
   void ask(const Input& input, double line_energy) noexcept;
+  void show(const Detector::Output& heard) noexcept;
 
   double again_samples_;
   double threshold_;
+  std::vector<double> modes_hz_;
   SpeedTable table_;
   State state_;
 };

@@ -85,6 +85,31 @@ TEST(ChatterWatch, OutOfTheCutThereIsNoChatter) {
   EXPECT_NEAR(out.chatter_s, in.chatter_s, 1e-9);
 }
 
+TEST(ChatterWatch, SaysWhereTheLineIsAmongTheOrdersAndHowSureItIs) {
+  Cut cut(Mode::observe);
+  const LiveChatter quiet = cut.run(0.6);
+  EXPECT_EQ(quiet.line.frequency_hz, 0.0);
+  EXPECT_EQ(quiet.confidence, 0.0);
+  const LiveChatter now = cut.run(1.5);
+  ASSERT_TRUE(now.chatters);
+  // 943 Hz at 80 1/s: 17 Hz below order 12.
+  EXPECT_NEAR(now.line.frequency_hz, 943.0, 1.0);
+  EXPECT_EQ(now.line.order, 12.0);
+  EXPECT_NEAR(now.line.off_hz, -17.0, 1.0);
+  EXPECT_GT(now.line.sd_hz, 0.0);
+  EXPECT_LT(now.line.sd_hz, 2.0);
+  EXPECT_FALSE(now.line.folded);
+  EXPECT_FALSE(now.forced);
+  EXPECT_GT(now.confidence, 0.95);
+  EXPECT_LE(now.confidence, 1.0);
+  EXPECT_EQ(now.mode_hz, 922.0);
+  EXPECT_FALSE(now.clips);
+  const LiveChatter out = cut.run(0.5, Motion::rapid);
+  EXPECT_EQ(out.line.frequency_hz, 0.0);
+  EXPECT_EQ(out.confidence, 0.0);
+  EXPECT_EQ(out.mode_hz, 0.0);
+}
+
 TEST(ChatterWatch, AllocatesNothing) {
   Cut cut(Mode::act);
   cut.run(0.7);

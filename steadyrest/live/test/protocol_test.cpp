@@ -44,6 +44,41 @@ TEST_F(Protocol, TellsTheStatus) {
   EXPECT_TRUE(status["port_fault"].is_null());
 }
 
+TEST(StatusJson, TellsTheLineItsOrderAndMode) {
+  LiveStatus status;
+  EXPECT_TRUE(status_json(status)["chatter"].is_null());
+  LiveChatter& chatter = status.chatter;
+  chatter.listens = true;
+  const Json quiet = status_json(status)["chatter"];
+  EXPECT_TRUE(quiet["line"].is_null());
+  EXPECT_TRUE(quiet["nearest_mode"].is_null());
+  EXPECT_TRUE(quiet["confidence"].is_null());
+  EXPECT_TRUE(quiet["spindle_rpm"].is_null());
+  EXPECT_TRUE(quiet["spindle_sd_rpm"].is_null());
+  EXPECT_EQ(quiet["clips"], false);
+  chatter.chatters = true;
+  chatter.line = {
+      .order = 15.0, .folded = true, .frequency_hz = 1234.0, .off_hz = -3.5, .sd_hz = 0.5};
+  chatter.mode_hz = 1230.0;
+  chatter.confidence = 0.97;
+  chatter.speed_rev_s = 50.0;
+  chatter.speed_sd = 2e-4;
+  const Json heard = status_json(status)["chatter"];
+  EXPECT_EQ(heard["line"], Json::parse(R"({"frequency_hz":1234.0,"nearest_order":15,
+      "order_folded":true,"from_order_hz":-3.5,"from_order_sd_hz":0.5,"forced":false})"));
+  EXPECT_EQ(heard["nearest_mode"], Json::parse(R"({"frequency_hz":1230.0,"off_hz":4.0})"));
+  EXPECT_EQ(heard["confidence"], 0.97);
+  EXPECT_DOUBLE_EQ(heard["spindle_rpm"].get<double>(), 3000.0);
+  EXPECT_DOUBLE_EQ(heard["spindle_sd_rpm"].get<double>(), 0.6);
+  chatter.chatters = false;
+  chatter.forced = true;
+  chatter.line.order = 0.0;
+  const Json forced = status_json(status)["chatter"];
+  EXPECT_EQ(forced["line"]["forced"], true);
+  EXPECT_TRUE(forced["line"]["nearest_order"].is_null());
+  EXPECT_TRUE(forced["confidence"].is_null());
+}
+
 TEST_F(Protocol, TakesAMode) {
   EXPECT_EQ(ask(R"({"version":1,"ask":"mode","mode":"act"})")["mode_wanted"], "act");
 }

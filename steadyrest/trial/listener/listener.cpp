@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <steadyrest/chatter/offline/depth/border_line.hpp>
@@ -63,6 +64,8 @@ Result<void> give(const Listener& listener, const Machine& machine, supervisor::
                   "add [override.spindle] to the machine file, or use --chatter machine");
   };
   supervisor::ListeningStage::Config config = listener.stage;
+  std::ranges::transform(listener.modes, std::back_inserter(config.better.modes_hz),
+                         &chatter::offline::Mode::frequency_hz);
   put_limits(machine, config.acts, config.better.table);
   if (config.acts && config.better.table.step_ratio.size() < 2) {
     return cannot_act();

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 
 #include <steadyrest/apps/cli/chatter/chatter_events.hpp>
+#include <steadyrest/chatter/online/line_evidence.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -25,8 +25,7 @@ class Stretch {
     flips_ += flip ? 1 : 0;
     speeds_rev_s_ += told_rev_s;
     spindle_rev_s_ += heard.speed_rev_s;
-    const double sds = std::abs(heard.line.off_hz) / std::max(heard.line.sd_hz, 1e-9);
-    sure_ += flip ? heard.energy_ratio : std::erf(sds / std::numbers::sqrt2);
+    confidence_.add(heard);
     lines_.push_back(heard.line);
   }
 
@@ -55,7 +54,7 @@ class Stretch {
                        .from_order_sd_hz = line.sd_hz,
                        .order = static_cast<std::size_t>(line.order),
                        .folded = line.folded,
-                       .confidence = sure_ / count * (1.0 - std::exp2(-count))}};
+                       .confidence = confidence_.value()}};
     return event;
   }
 
@@ -66,7 +65,7 @@ class Stretch {
   std::size_t flips_ = 0;
   double speeds_rev_s_ = 0.0;
   double spindle_rev_s_ = 0.0;
-  double sure_ = 0.0;
+  online::LineConfidence confidence_;
 };
 
 /// The speed by the orders, as long as they show it.
@@ -75,7 +74,7 @@ class FoundSpeed {
   void add(const online::Detector::Output& heard, double told_rev_s) {
     told_ += told_rev_s;
     ++samples_;
-    if (heard.speed_sd > 0.0 && heard.speed_sd < kShown) {
+    if (online::shows_speed(heard)) {
       found_ += heard.speed_rev_s;
       variance_ += heard.speed_sd * heard.speed_sd;
       ++shown_;
@@ -90,8 +89,6 @@ class FoundSpeed {
   }
 
  private:
-  static constexpr double kShown = 0.001;
-
   double told_ = 0.0;
   double samples_ = 0.0;
   double found_ = 0.0;

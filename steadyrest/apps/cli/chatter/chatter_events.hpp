@@ -21,10 +21,7 @@ struct ChatterEvidence {
   double from_order_sd_hz = 0.0;  ///< standard deviation of that
   std::size_t order = 0;
   bool folded = false;
-  /// Confidence that this is not forced vibration, 0 … 1: the probability that the line does not
-  /// lie at that order (for flip, its share of the energy), averaged over the n spectra and
-  /// reduced by 1 − 2⁻ⁿ for short stretches.
-  double confidence = 0.0;
+  double confidence = 0.0;  ///< LineConfidence
 };
 
 /// One stretch of chatter in a recorded signal.

@@ -9,6 +9,7 @@
 #include <steadyrest/apps/cli/chatter/detect_answer.hpp>
 #include <steadyrest/apps/cli/chatter/detect_channels.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/chatter/online/line_evidence.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
 
 namespace steadyrest::apps::cli {
@@ -103,8 +104,7 @@ Json mode_json(const DetectEvent& event, const std::vector<double>& modes_hz) {
   if (modes_hz.empty()) {
     return nullptr;
   }
-  const double nearest = *std::ranges::min_element(
-      modes_hz, {}, [&](double hz) { return std::abs(hz - event.frequency_hz); });
+  const double nearest = online::nearest_mode_hz(modes_hz, event.frequency_hz);
   return {{"frequency_hz", nearest}, {"off_hz", event.frequency_hz - nearest}};
 }
 

@@ -12,7 +12,7 @@ constexpr double kApart = 0.2;    // turns, between a line and an order
 constexpr double kNewBins = 0.2;  // within which a new line may be where it does not seem to be
 constexpr double kShown = 0.1;    // of the line's energy
 constexpr double kClippedFolds = 4.0;
-constexpr double kSigmas = 3.0;
+constexpr double kApartSigmas = 3.0;
 constexpr double kNewFoldBins = 0.5;
 constexpr double kLearnable_hz = 1.0;
 constexpr double kSameLine = 0.3;  // turns: a phase that jumps by more is another line's
@@ -54,7 +54,7 @@ bool OrderGate::is_asked(double order) const noexcept {
 }
 
 void OrderGate::ask(const Near& near, double speed_rev_s, double speed_sd) noexcept {
-  const double by_speed = kSigmas * near.order * speed_sd * speed_rev_s;
+  const double by_speed = kApartSigmas * near.order * speed_sd * speed_rev_s;
   // Of an order whose place is not known yet nothing can have been learnt.
   if (!is_asked(near.order) || (near.folded && by_speed < kLearnable_hz && !could_be(near.order))) {
     return;
@@ -75,7 +75,7 @@ void OrderGate::ask(const Near& near, double speed_rev_s, double speed_sd) noexc
     out_.order = near.order;
     out_.folded = near.folded;
     out_.off_hz = off_hz;
-    out_.sd_hz = (by_line + by_speed) / kSigmas;
+    out_.sd_hz = (by_line + by_speed) / kApartSigmas;
     out_.forced = share < 1.0;
   }
 }

@@ -37,6 +37,7 @@ class ChatteringCut {
   [[nodiscard]] static ListeningStage listener(bool acts = true) {
     ListeningStage::Config config{.better = {}, .depth_mm = 1.0, .acts = acts};
     config.better.detector.sample_rate_hz = kRate_hz;
+    config.better.modes_hz = {410.0, 922.0};
     config.better.table.step_ratio = {0.8, 0.9, 1.0};
     config.better.table.max_ratio = 1.0;
     config.better.table.speed_rev_s = {60.0, 70.0, 72.0, 74.0, 100.0};
