@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 
 #include <steadyrest/apps/live_page/stream.hpp>
 #include <steadyrest/kernel/units/convert.hpp>
@@ -18,6 +19,7 @@ using steadyrest::live::PathAhead;
 using steadyrest::live::TapSample;
 
 constexpr std::size_t kMostLines = 480;    ///< of the spectrum
+constexpr std::size_t kMostBands = 200;    ///< of the waterfall
 constexpr double kModesShown = 2.5;        ///< it goes up to this many times the highest mode
 constexpr std::size_t kMostSamples = 200;  ///< in a frame: a page that was away needs no history
 
@@ -193,6 +195,12 @@ std::string StreamText::hello() const {
     steps.push_back(rounded(kPercent * ratio, 0.1));
   }
   const bool chooses = desk_.chatter && desk_.chatter->acts;
+  std::set<double> modes_hz;  // often the same along x and y
+  if (desk_.chatter) {
+    for (const chatter::offline::Mode& mode : desk_.chatter->process.modes) {
+      modes_hz.insert(mode.frequency_hz);
+    }
+  }
   return text_of(
       {{"type", "hello"},
        {"version", steadyrest::live::kProtocol},
@@ -207,6 +215,8 @@ std::string StreamText::hello() const {
        {"modulation", chooses ? Json() : modulation_of(desk_.asked.loop.status(), machine)},
        {"thermal", machine.thermal.enabled},
        {"listening", desk_.chatter.has_value()},
+       {"teeth", desk_.chatter ? Json(desk_.chatter->process.tool.teeth) : Json()},
+       {"modes_hz", modes_hz},
        {"chooses_speed", chooses},
        {"lobes", desk_.chatter.has_value()},
        {"measures", machine.thermal.enabled}});
@@ -251,6 +261,7 @@ std::string StreamText::spectrum() {
     highest_hz = std::max(highest_hz, mode.frequency_hz);
   }
   const auto lines = spectrum_.lines(kModesShown * highest_hz, kMostLines);
+  auto bands = spectrum_.take_bands(kModesShown * highest_hz, kMostBands);
   Json hz = Json::array();
   Json amplitude = Json::array();
   for (std::size_t i = 0; i < lines.hz.size(); ++i) {
@@ -258,11 +269,18 @@ std::string StreamText::spectrum() {
     amplitude.push_back(rounded(lines.amplitude[i], 1e-4));
   }
   const LiveStatus status = desk_.asked.loop.status();
-  const double tooth_hz = static_cast<double>(process.tool.teeth) * std::abs(status.spindle_rev_s);
+  const double told_rev_s = std::abs(status.spindle_rev_s);
+  const double by_orders_rev_s = status.chatter.speed_rev_s;
+  const double speed_rev_s = by_orders_rev_s > 0.0 ? by_orders_rev_s : told_rev_s;
+  const double tooth_hz = static_cast<double>(process.tool.teeth) * speed_rev_s;
   return text_of({{"type", "spectrum"},
+                  {"time_s", rounded(status.time_s, 1e-3)},
                   {"rate_hz", spectrum_.rate_hz()},
                   {"hz", std::move(hz)},
                   {"amplitude", std::move(amplitude)},
+                  {"band_hz", bands.band_hz},
+                  {"level_db", std::move(bands.level_db)},
+                  {"spindle_rpm", rounded(kMinute_s * speed_rev_s, 0.1)},
                   {"tooth_hz", tooth_hz > 0.0 ? rounded(tooth_hz, 0.1) : Json()},
                   {"chatter_hz",
                    status.chatter.chatters ? rounded(status.chatter.frequency_hz, 0.1) : Json()}});

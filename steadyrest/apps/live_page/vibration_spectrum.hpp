@@ -31,7 +31,24 @@ class VibrationSpectrum {
   /// From 0 to `most_hz`, in at most `most` lines. Where lines are merged, the largest is kept.
   [[nodiscard]] Lines lines(double most_hz, std::size_t most) const;
 
+  struct Bands {
+    double band_hz = 0.0;       ///< width of each; the first begins half a line below 0
+    std::vector<int> level_db;  ///< of a sine of amplitude 1
+  };
+  /// The loudest line in each band, of the windows since the last call and not their average: a
+  /// burst shows. From 0 to `most_hz`, in at most `most` bands; a band without any vibration has
+  /// kSilence_db. Empty without a new window.
+  [[nodiscard]] Bands take_bands(double most_hz, std::size_t most);
+  static constexpr int kSilence_db = -240;
+
  private:
+  /// Neighbouring lines that are shown as one.
+  struct Merged {
+    std::size_t lines = 0;  ///< in all
+    std::size_t together = 1;
+  };
+  [[nodiscard]] double line_hz() const noexcept;
+  [[nodiscard]] Merged merged(double most_hz, std::size_t most) const noexcept;
   void begin(double rate_hz);
   void transform();
 
@@ -41,6 +58,7 @@ class VibrationSpectrum {
   std::vector<double> window_;
   std::vector<double> windowed_;
   std::vector<double> power_;
+  std::vector<double> loudest_;  ///< power, since take_bands(); empty: no window
   std::vector<std::complex<double>> lines_;
   Eigen::FFT<double> fft_;
 };

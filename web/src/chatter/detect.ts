@@ -11,22 +11,13 @@ import type { Dot, Layer } from '../plot/layers';
 import { type Plot, host, plot } from '../plot/plot';
 import { reading } from '../plot/reading';
 import { spindlePlot } from '../plot/speed';
-import { quantile } from '../plot/values';
 import type { ChatterEvent, DetectPage, EdgeEvent } from './data';
-import { loudnessRaster, loudnessScale } from './raster';
+import { loudnessRaster, loudnessScale, quietLevel } from './raster';
 import { TYPES, typeName } from './words';
 
 export type Orders = 'teeth' | 'spindle' | 'none';
 
-/** This share of the cells is shown as paper. */
-const QUIET_SHARE = 0.35;
-const LEAST_RANGE_DB = 30;
 const MOST_ORDERS = 60;
-
-/** The level below which a cell is paper, dB. */
-export function quietLevel(levels_db: readonly number[]): number {
-  return Math.min(-LEAST_RANGE_DB, quantile(levels_db, QUIET_SHARE) ?? -LEAST_RANGE_DB);
-}
 
 function extent(page: DetectPage): { x: { name: string; min: number; max: number }; top: number; bottom: number } {
   const s = page.spectrogram;

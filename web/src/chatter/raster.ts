@@ -157,8 +157,17 @@ function between(stops: readonly number[][], share: number): number[] {
   return (stops[i] ?? []).map((c, k) => c + (at - i) * ((stops[i + 1]?.[k] ?? c) - c));
 }
 
-/** Cell by cell, `low` … 0 dB. */
-export function loudnessRaster(levels_db: readonly number[], columns: number, rows: number, low: number, scheme: Scheme): HTMLCanvasElement {
+/** This share of the cells is shown as paper. */
+const QUIET_SHARE = 0.35;
+const LEAST_RANGE_DB = 30;
+
+/** The level below which a cell is paper, dB. */
+export function quietLevel(levels_db: readonly number[]): number {
+  return Math.min(-LEAST_RANGE_DB, quantile(levels_db, QUIET_SHARE) ?? -LEAST_RANGE_DB);
+}
+
+/** Cell by cell, `low` … 0 dB; null is paper. */
+export function loudnessRaster(levels_db: readonly Maybe[], columns: number, rows: number, low: number, scheme: Scheme): HTMLCanvasElement {
   const stops = LOUDNESS[scheme].map(bytes);
   return paint(columns, rows, (column, row) => between(stops, 1 - (levels_db[column * rows + (rows - 1 - row)] ?? low) / low));
 }

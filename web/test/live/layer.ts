@@ -71,6 +71,9 @@ const errorAt = (speed_mm_s: number, radius: number) => (1000 * speed_mm_s ** 2)
 /** Of the machine file. */
 export const MODULATION: Modulation = { law: 'triangle', amplitude_ratio: 0.1, period_s: 2, mean_ratio: 0.95 };
 
+/** Of the line that chatters. */
+export const EVIDENCE = { line: { frequency_hz: 931.2, nearest_order: 11, order_folded: false, from_order_hz: -22.1, from_order_sd_hz: 0.6, forced: false }, nearest_mode: { frequency_hz: 922, off_hz: 9.2 }, confidence: 0.97, spindle_rpm: 5199.6, spindle_sd_rpm: 0.4, clips: false };
+
 export class Layer {
   mode: Mode = 'observe';
   wanted: Mode = 'observe';
@@ -80,6 +83,7 @@ export class Layer {
   limit_um = LIMIT_UM;
   pathKnown = true;
   heatSwitchedOff = false;
+  hears = true;
   random: () => number = Math.random;
   private time = 1200;
   private cycles = 0;
@@ -97,7 +101,9 @@ export class Layer {
       contour: { limit_um: this.limit_um, strategy: 'feed_priority', steps_percent: STEPS },
       modulation: this.modulation,
       thermal: true,
-      listening: true,
+      listening: this.hears,
+      teeth: this.hears ? 2 : null,
+      modes_hz: this.hears ? [922] : [],
       lobes: true,
       measures: true,
     };
@@ -142,7 +148,7 @@ export class Layer {
     samples.feed_effective_percent.push(round(this.feed, 1));
     samples.panel_percent.push(100);
     samples.path_speed_mm_min.push(round(60 * speed, 1));
-    samples.spindle_rpm.push(round(5200 + 180 * Math.sin(this.time / 2), 0));
+    samples.spindle_rpm.push(this.rpm());
     samples.position_mm.push([round(x, 4), round(y, 4), -12.5]);
     samples.following_um.push([round(20 * speed, 1), round(18 * speed, 1), 0]);
   }
@@ -173,16 +179,22 @@ export class Layer {
       ahead: { points_mm: points.map((p) => [p.x, p.y, -12.5]), error_um: points.map((p) => errorAt(speed, p.radius)), at_mm: points.map((_, i) => 0.5 * i) },
       path_known: this.pathKnown,
       steps: this.pathKnown ? STEPS.map((percent) => ({ percent, error_um: Number.isFinite(tight) ? errorAt((FULL_MM_MIN / 60) * (percent / 100), tight) : 0.4, change_um: this.error + 0.1 })) : null,
-      chatter: { chatter: true, modulating: true, kind: 'hopf', frequency_hz: 922, better_spindle_percent: 90, events: 1, chatter_s: 0.4, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92 },
+      chatter: { chatter: true, modulating: true, kind: 'hopf', frequency_hz: 931, better_spindle_percent: 90, events: 1, chatter_s: 0.4, level: 0.31 + 0.04 * Math.sin(this.time), threshold: 0.25, before: 0.92, ...EVIDENCE },
       thermal: { axes: [{ name: 'Y', displacement_um: 0.3 * warm, sd_um: 0.4, offset_um: 0 }, { name: 'Z', displacement_um: warm, sd_um: 0.7, offset_um: -4.1 }], switched_off: this.heatSwitchedOff },
       axes: [axis('X', here.x, 60 * speed * 0.7), axis('Y', here.y, -60 * speed * 0.5), axis('Z', -12.5, 0), axis('C', 90, 0)],
     };
   }
 
+  private rpm(): number {
+    return Math.round(5200 + 180 * Math.sin(this.time / 2));
+  }
+
   spectrum(): Spectrum {
-    const hz = Array.from({ length: 256 }, (_, i) => 8 * i);
+    const [hz, rpm] = [Array.from({ length: 256 }, (_, i) => 8 * i), this.rpm()];
+    const tooth_hz = rpm / 30;
     const peak = (f: number, at: number, width: number, height: number) => height / (1 + ((f - at) / width) ** 2);
-    const amplitude = hz.map((f) => 0.02 + 0.01 * this.random() + peak(f, 173, 6, 0.35) + peak(f, 346, 6, 0.2) + peak(f, 922, 10, 0.8 + 0.1 * this.random()));
-    return { type: 'spectrum', rate_hz: 4096, hz, amplitude, tooth_hz: 173, chatter_hz: 922 };
+    const amplitude = hz.map((f) => 0.02 + 0.01 * this.random() + peak(f, tooth_hz, 6, 0.35) + peak(f, 2 * tooth_hz, 6, 0.2) + peak(f, 931, 10, 0.8 + 0.1 * this.random()));
+    const level_db = Array.from({ length: 128 }, (_, i) => Math.round(20 * Math.log10(Math.max(amplitude[2 * i] as number, amplitude[2 * i + 1] as number))));
+    return { type: 'spectrum', time_s: this.time, rate_hz: 4096, hz, amplitude, band_hz: 16, level_db, spindle_rpm: rpm, tooth_hz, chatter_hz: 931 };
   }
 }

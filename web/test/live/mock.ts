@@ -104,14 +104,15 @@ export class Mock {
     this.sockets.forEach((s) => s.send(this.layer.hello()));
   }
 
-  /** So many frames at once, of 0.2 s each, and a spectrum. */
+  /** So many frames at once, of 0.2 s each, with their spectra. */
   play(frames: number): void {
     for (let i = 0; i < frames; ++i) {
-      const frame = this.layer.frame(200);
-      this.sockets.forEach((s) => s.send(frame));
+      const [frame, spectrum] = [this.layer.frame(200), this.layer.spectrum()];
+      this.sockets.forEach((s) => {
+        s.send(frame);
+        s.send(spectrum);
+      });
     }
-    const spectrum = this.layer.spectrum();
-    this.sockets.forEach((s) => s.send(spectrum));
   }
 
   private tick(): void {
@@ -120,7 +121,7 @@ export class Mock {
     this.sent = now;
     this.frames += 1;
     const frame = this.layer.frame(cycles);
-    const spectrum = this.frames % 8 === 0 && !this.still ? this.layer.spectrum() : undefined;
+    const spectrum = this.frames % 8 === 0 && !this.still && this.layer.hears ? this.layer.spectrum() : undefined;
     for (const socket of this.sockets) {
       socket.send(frame);
       if (spectrum) socket.send(spectrum);

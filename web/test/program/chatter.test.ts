@@ -2,7 +2,7 @@
 // A slot that chatters, on the simulated machine: what the page shows of it while the layer acts.
 import { afterAll, beforeAll, expect, it } from 'vitest';
 import { type Open, closeBrowser, open } from '../live/browser';
-import { until as untilIn } from '../live/look';
+import { colours, until as untilIn } from '../live/look';
 import { Running } from './running';
 
 const running = new Running();
@@ -27,6 +27,12 @@ it('shows the better step, and how loud it was before', async () => {
   await until(`/[5-9]\\d/.test(document.querySelector('.vibration .before .value').textContent)`);
   await until(`document.querySelector('#chatter-now').textContent.startsWith('The cut is quiet')`);
   await until(`/^\\d(\\.\\d)?\\D/.test(document.querySelector('.vibration .level .value').textContent)`);
+});
+
+it('draws the course of the spectrum, and knows the speed by its orders', async () => {
+  await until(`document.querySelector('.waterfall-panel').offsetHeight > 0`);
+  await until(`/^Spindle by its orders: 45\\d\\d\\.\\d ± \\d/.test(document.querySelector('#chatter-signal').textContent)`);
+  expect((await colours(opened.page))['waterfall']).toBeGreaterThan(20);
 });
 
 it('has the stability lobes with the cut in them, once they are computed', async () => {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from 'vitest';
 import { type GrowthPage, lawText } from '../../src/chatter/data';
-import { quietLevel } from '../../src/chatter/detect';
+import { quietLevel } from '../../src/chatter/raster';
 import { phase } from '../../src/chatter/fit';
 import { plain } from '../../src/frame/numbers';
 import { peakOf } from '../../src/chatter/growth';

@@ -28,10 +28,14 @@ TEST(Stream, SaysWhetherTheLayerListensAndWhoSetsTheSpeed) {
   Json hello = Json::parse(text.hello());
   EXPECT_EQ(hello["listening"], false);
   EXPECT_EQ(hello["lobes"], false);
+  EXPECT_TRUE(hello["teeth"].is_null());
+  EXPECT_TRUE(hello["modes_hz"].empty());
   let_listen(desk.desk(), true);
   hello = Json::parse(text.hello());
   EXPECT_EQ(hello["listening"], true);
   EXPECT_EQ(hello["lobes"], true);
+  EXPECT_EQ(hello["teeth"], 2);
+  EXPECT_EQ(hello["modes_hz"], Json::array({922.0}));
   EXPECT_EQ(hello["chooses_speed"], true);
   EXPECT_TRUE(hello["modulation"].is_null());
   let_listen(desk.desk(), false);
@@ -67,6 +71,13 @@ TEST(Stream, HasTheSpectrumOfWhatTheCycleHeard) {
   EXPECT_NEAR(spectrum["hz"][static_cast<std::size_t>(most - amplitude.begin())].get<double>(),
               946.0, 5.0);
   EXPECT_TRUE(spectrum["chatter_hz"].is_null());
+  const auto level_db = spectrum["level_db"].get<std::vector<int>>();
+  EXPECT_LE(level_db.size(), 200U);
+  const auto loudest = std::ranges::max_element(level_db);
+  EXPECT_NEAR(*loudest, 20.0 * std::log10(3.0), 1.5);
+  const double band_hz = spectrum["band_hz"];
+  EXPECT_NEAR(band_hz * (static_cast<double>(loudest - level_db.begin()) + 0.5), 946.0, band_hz);
+  EXPECT_EQ(spectrum["spindle_rpm"], 0.0);
   EXPECT_EQ(text.spectrum(), "") << "nothing new";
 }
 

@@ -70,6 +70,35 @@ TEST(VibrationSpectrum, ForgetsWhatIsOver) {
   EXPECT_LT(peak(spectrum.lines(5e3, 4000), 946.0).second, 0.1);
 }
 
+// Lines are 10e3/2048 = 4.88 Hz apart. Sines at whole lines have their amplitude exactly.
+TEST(VibrationSpectrum, PutsEachWaveIntoItsBandInDecibels) {
+  const double line_hz = kRate_hz / 2048.0;
+  VibrationSpectrum spectrum;
+  spectrum.add(waves(0.5, {{100.0 * line_hz, 10.0}, {310.0 * line_hz, 0.01}}), kRate_hz);
+  const auto bands = spectrum.take_bands(2000.0, 200);
+  ASSERT_EQ(bands.level_db.size(), 137U);  // of 410 lines, three in each
+  EXPECT_DOUBLE_EQ(bands.band_hz, 3.0 * line_hz);
+  EXPECT_EQ(bands.level_db[33], 20);    // lines 99 to 101
+  EXPECT_EQ(bands.level_db[103], -40);  // lines 309 to 311
+  // A Hann window has nothing beyond its neighbours.
+  EXPECT_LT(bands.level_db[31], -100);
+  EXPECT_LT(bands.level_db[60], -100);
+  EXPECT_LT(bands.level_db[105], -100);
+}
+
+TEST(VibrationSpectrum, ABandHasTheLoudestOfItsWavesAndABurstIsNotAveraged) {
+  const double line_hz = kRate_hz / 2048.0;
+  VibrationSpectrum spectrum;
+  spectrum.add(waves(1.0, {{99.0 * line_hz, 1.0}, {101.0 * line_hz, 0.1}}), kRate_hz);
+  EXPECT_EQ(spectrum.take_bands(2000.0, 200).level_db[33], 0);
+  EXPECT_TRUE(spectrum.take_bands(2000.0, 200).level_db.empty()) << "no new window";
+  spectrum.add(waves(0.3, {{100.0 * line_hz, 100.0}}), kRate_hz);
+  spectrum.add(waves(0.3, {}), kRate_hz);
+  EXPECT_EQ(spectrum.take_bands(2000.0, 200).level_db[33], 40);
+  spectrum.add(waves(0.5, {}), kRate_hz);
+  EXPECT_EQ(spectrum.take_bands(2000.0, 200).level_db[33], VibrationSpectrum::kSilence_db);
+}
+
 TEST(VibrationSpectrum, HasNoEndlessWindowWhateverTheRate) {
   VibrationSpectrum spectrum;
   spectrum.add(waves(7.0, {{946.0, 1.0}}), 1e300);

@@ -67,6 +67,9 @@ export interface Hello {
   listening: boolean;
   /** The layer sets the spindle's speed itself when it hears chatter. */
   chooses_speed?: boolean;
+  /** Of the tool and the process that it listens to; null and none where it does not. */
+  teeth: Maybe;
+  modes_hz: number[];
   /** The server has a map of stability; it takes measured sizes. */
   lobes: boolean;
   measures: boolean;
@@ -106,6 +109,15 @@ export interface ChatterNow {
   better_spindle_percent?: Maybe;
   events?: number;
   chatter_s?: number;
+  /** The strongest line and the order of the spindle nearest to it; null: none stands out. */
+  line?: { frequency_hz: number; nearest_order: Maybe; order_folded: boolean; from_order_hz: number; from_order_sd_hz: number; forced: boolean } | null;
+  nearest_mode?: { frequency_hz: number; off_hz: number } | null;
+  /** That this chatter is not forced vibration, 0 … 1. */
+  confidence?: Maybe;
+  /** By the orders in the signal; null: they do not show it. */
+  spindle_rpm?: Maybe;
+  spindle_sd_rpm?: Maybe;
+  clips?: boolean;
 }
 export interface ThermalAxis {
   name: string;
@@ -145,9 +157,14 @@ export interface Frame {
 }
 export interface Spectrum {
   type: 'spectrum';
+  time_s: number;
   rate_hz: number;
   hz: number[];
   amplitude: number[];
+  /** The loudest since the last message, in bands of this width from 0 up. */
+  band_hz: number;
+  level_db: number[];
+  spindle_rpm: number;
   tooth_hz: Maybe;
   chatter_hz: Maybe;
 }

@@ -5,7 +5,7 @@ import type { Theme } from '../../frame/theme';
 import { niceAbove } from '../../plot/axes';
 import type { Live } from '../state/live';
 import { t } from '../texts/texts';
-import { type Area, Canvas, overColour } from './canvas';
+import { type Area, Canvas } from './canvas';
 import { type Scale, drawFrame, inner, scale } from './frame';
 
 /** A frequency that has a name. */
@@ -49,7 +49,7 @@ export class SpectrumPicture {
     drawFrame(area, theme, x, y, (value, text) => (value === 0 ? t('hertz', { value: text }) : text));
     const marks = [
       { hz: spectrum.tooth_hz, name: t('tooth_hz'), colour: theme.faint },
-      { hz: spectrum.chatter_hz, name: t('chatter_hz'), colour: overColour(theme) },
+      { hz: spectrum.chatter_hz, name: t('chatter_hz'), colour: theme.run.without },
     ];
     marks.forEach((m) => this.rule(area, m, x));
     const { pen } = area;

@@ -3,6 +3,7 @@
 import type { Maybe } from '../../frame/data';
 import type { Frame, Hello, Message, Spectrum, Status } from '../api/types';
 import { Ring } from './ring';
+import { Waterfall } from './waterfall';
 
 /** 16 s at 1 kHz: more than the longest plot shows. */
 const SAMPLES = 16_384;
@@ -29,6 +30,7 @@ export interface Missing {
 
 export class Live {
   readonly samples = new Ring<SampleColumn>(COLUMNS, SAMPLES);
+  readonly waterfall = new Waterfall();
   readonly trail = new Ring(['x', 'y', 'z', 'error_um'] as const, TRAIL);
   hello: Hello | undefined;
   frame: Frame | undefined;
@@ -57,6 +59,7 @@ export class Live {
         return false;
       case 'spectrum':
         this.spectrum = message;
+        this.waterfall.take(message);
         return false;
     }
   }
