@@ -21,10 +21,14 @@ void CutLevels::learn(const Seen& seen, double hop_s) noexcept {
   if (seen.suspect) {
     return;
   }
-  const double memory_s = seen.line_energy > line_energy_ ? kFloorRiseS : kFloorFallS;
-  // The first judgements are averaged with equal weight.
-  const double weight = std::max(hop_s / memory_s, hop_s / std::max(judged_s_, hop_s));
-  line_energy_ += std::min(weight, 1.0) * (seen.line_energy - line_energy_);
+  const auto follow = [&](double& level, double energy) {
+    const double memory_s = energy > level ? kFloorRiseS : kFloorFallS;
+    // The first judgements are averaged with equal weight.
+    const double weight = std::max(hop_s / memory_s, hop_s / std::max(judged_s_, hop_s));
+    level += std::min(weight, 1.0) * (energy - level);
+  };
+  follow(line_energy_, seen.line_energy);
+  follow(all_energy_, seen.all_energy);
 }
 
 }  // namespace steadyrest::chatter::online

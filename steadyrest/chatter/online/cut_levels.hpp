@@ -11,7 +11,8 @@ namespace steadyrest::chatter::online {
 class CutLevels {
  public:
   struct Seen {
-    double line_energy = 0.0;
+    double line_energy = 0.0;  ///< of the lines that can be chatter
+    double all_energy = 0.0;   ///< of all lines
     double free_ratio = 0.0;
     bool suspect = false;
   };
@@ -22,11 +23,13 @@ class CutLevels {
 
   [[nodiscard]] double judged_s() const noexcept { return judged_s_; }
   [[nodiscard]] double line_energy() const noexcept { return line_energy_; }
+  [[nodiscard]] double all_energy() const noexcept { return all_energy_; }
   [[nodiscard]] double free_ratio() const noexcept { return free_ratio_; }
 
  private:
   double judged_s_ = 0.0;
   double line_energy_ = 0.0;
+  double all_energy_ = 0.0;
   double free_ratio_ = 0.0;
 };
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <steadyrest/chatter/online/detector.hpp>
-#include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // A sample passes the order filter, the once-per-revolution check and the energies; the filter's
@@ -56,64 +55,18 @@ constexpr double kLaterS = 0.17;  // a cut stable this long is trusted more
 constexpr double kLaterEvidence = 0.45;
 constexpr double kLaterBound = 1.5;
 constexpr double kLongestHoldS = 2.0;
-constexpr double kHop = 1.0 / 8.0;  // of the window, between spectra
-constexpr double kSameTeeth = 1.3;  // energy of the tooth orders, now over lately
-constexpr std::size_t kGateOrders = 64;
+constexpr double kHop = 1.0 / 8.0;     // of the window, between spectra
+constexpr double kSameTeeth = 1.3;     // energy of the tooth orders, now over lately
 constexpr double kRingPeriods = 30.0;  // at a damping of 3 % nothing is left
 constexpr double kLowHz = 300.0;
 constexpr double kFoldsRev = 20.0;  // until the folds that a cut has are learnt
-constexpr double kProvedS = 0.2;    // a line that its phase has shown to be no order for so long
+constexpr double kOutweighs = 0.9;  // of the energy
+constexpr double kLoud = 0.3;
+constexpr double kAlone = 0.5;  // at a wrong speed all orders are lines
+constexpr double kLastsS = 0.3;
+constexpr double kProvedS = 0.2;  // a line that its phase has shown to be no order for so long
 
 }  // namespace
-
-kernel::outcome::Result<Detector> Detector::make(const Config& config) {
-  if (!(config.off_ratio >= 0.0 && config.on_ratio >= config.off_ratio &&
-        config.sure_ratio >= config.on_ratio && config.sure_ratio <= 1.0 &&
-        config.free_ratio >= 0.0 && config.free_ratio <= 1.0)) {
-    return refuse_detector("energy ratios do not rise from off over on to sure, 0…1");
-  }
-  if (!(config.line_ratio >= 10.0 && config.margin >= 1.0 && config.confirm >= 1)) {
-    return refuse_detector("line ratio below 10, margin or confirmations below 1");
-  }
-  if (!(config.least_energy >= 0.0 && config.learn_s >= 0.0 && config.settle_rev >= 0.0 &&
-        config.speed_sd >= 0.0 && config.speed_sd <= 0.02)) {
-    return refuse_detector("an energy or a time is negative, or speed_sd is not within 0…0.02");
-  }
-  auto filter = OrderFilter::make({.sample_rate_hz = config.sample_rate_hz,
-                                   .teeth = config.teeth,
-                                   .tooth_harmonics = config.tooth_harmonics,
-                                   .spindle_harmonics = config.spindle_harmonics,
-                                   .moving_memory_rev = config.moving_memory_rev,
-                                   .folds = config.folds});
-  if (!filter) {
-    return std::unexpected(filter.error());
-  }
-  auto spectrum = LineSpectrum::make({.sample_rate_hz = config.sample_rate_hz,
-                                      .window_s = config.window_s,
-                                      .lowest_hz = config.lowest_hz});
-  if (!spectrum) {
-    return std::unexpected(spectrum.error());
-  }
-  auto share = FreeShare::make({.sample_rate_hz = config.sample_rate_hz, .teeth = config.teeth});
-  if (!share) {
-    return std::unexpected(share.error());
-  }
-  return Detector(config, std::move(*filter), std::move(*spectrum), std::move(*share));
-}
-
-Detector::Detector(const Config& config, OrderFilter filter, LineSpectrum spectrum, FreeShare share)
-    : config_(config),
-      filter_(std::move(filter)),
-      spectrum_(std::move(spectrum)),
-      share_(std::move(share)),
-      sensor_(config.sample_rate_hz),
-      track_(config.speed_sd, filter_.orders().size()),
-      choice_({.sample_rate_hz = config.sample_rate_hz,
-               .bin_hz = spectrum_.resolution_hz(),
-               .teeth = config.teeth,
-               .orders = std::max<std::size_t>(kGateOrders, config.spindle_harmonics),
-               .tooth_orders = config.tooth_harmonics,
-               .folds = config.folds}) {}
 
 double Detector::speed_of(const Input& input) const noexcept {
   return std::isnan(input.angle_rev) ? track_.ratio() * input.speed_rev_s : input.speed_rev_s;
@@ -143,7 +96,10 @@ const Detector::Output& Detector::update(const Input& input) noexcept {
   const double value = gap ? forced.estimate : input.value;
   if (std::isnan(input.angle_rev) && state_.speed_spread < kSteady) {
     track_.update(filter_, state_.angle_rev, speed_rev_s, config_.sample_rate_hz,
-                  {.energy = state_.residual_energy, .cut_rev = state_.settled_rev});
+                  {.energy = state_.residual_energy,
+                   .cut_rev = state_.settled_rev,
+                   .gap = gap,
+                   .loud = !out_.chatter && out_.energy_ratio > kLoud});
   }
   out_.residual = forced.residual;
   revolution_ = spread_.update(value - forced.mean, state_.angle_rev);
@@ -248,9 +204,18 @@ bool Detector::doubles(double line_energy) const noexcept {
                     out_.line.orders == 1;
   const double changed = state_.tooth_energy / std::max(state_.slow_energy, 1e-300);
   return half && levels_.judged_s() > config_.learn_s &&
-         line_energy > config_.margin * levels_.line_energy() &&
+         line_energy > config_.margin * levels_.all_energy() &&
          out_.energy_ratio > config_.sure_ratio && changed > 1.0 / kSameTeeth &&
          changed < kSameTeeth;
+}
+
+/// Runout, even at a resonance, does not outweigh the teeth's own orders tenfold. Where the speed
+/// is not known well enough to tell a line from an order of runout, its size and duration do.
+bool Detector::outweighs() const noexcept {
+  return out_.line.by_speed &&
+         std::fmod(out_.line.order, static_cast<double>(config_.teeth)) != 0.0 &&
+         line_.alone > kAlone && out_.energy_ratio > kOutweighs && out_.line.followed_s > kLastsS &&
+         state_.settled_rev > kFoldsRev;
 }
 
 bool Detector::witnessed(double line_energy, double order) const noexcept {
@@ -300,7 +265,7 @@ void Detector::judge(const FreeShare::Output& share) noexcept {
                                          kRingPeriods * config_.sample_rate_hz;
   const bool strong = cuts && settled && rung && lines.peak_ratio > config_.line_ratio;
   // Vibration at an order of the spindle is forced, whatever its course.
-  state_.forced = steady && out_.line.forced && !doubles(lines.line_energy);
+  state_.forced = steady && out_.line.forced && !doubles(lines.line_energy) && !outweighs();
   const bool line = strong && !state_.forced && (!steady || lasts(lines) || state_.evidence > 0.0);
   // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide like a few
   // strong ones, and a single spectrum, which gives at most 0.2, never does.
@@ -318,9 +283,11 @@ void Detector::judge(const FreeShare::Output& share) noexcept {
       suspicious && state_.held_s < kLongestHoldS && (!out_.chatter || out_.kind == Kind::flip);
   state_.suspects = suspect ? state_.suspects + 1 : state_.suspects - std::min(state_.suspects, 1U);
   if (settled && !out_.chatter) {
-    levels_.learn(
-        {.line_energy = lines.line_energy, .free_ratio = out_.free_ratio, .suspect = suspect},
-        hop_s);
+    levels_.learn({.line_energy = lines.line_energy,
+                   .all_energy = lines.line_energy + lines.order_energy,
+                   .free_ratio = out_.free_ratio,
+                   .suspect = suspect},
+                  hop_s);
   }
   // One spectrum between two bursts does not end chatter.
   const bool below = steady ? out_.energy_ratio < config_.off_ratio

@@ -100,12 +100,12 @@ export interface ChatterEvent {
   decision: 'keep' | 'constant' | 'law' | 'nothing' | null;
 }
 
-/** Vibration that the tool's entry or exit explains. */
+/** Vibration that the tool's entry or exit explains, or that is there without the cut. */
 export interface EdgeEvent {
   start_s: number;
   end_s: number;
   frequency_hz: number;
-  at: 'entry' | 'exit';
+  at: 'entry' | 'exit' | 'air';
 }
 
 export interface DetectPage extends Head {

@@ -157,7 +157,8 @@ function eventsTable({ events, advice_by }: DetectPage['answer']): string {
 }
 
 function edgeWords(e: EdgeEvent, revolutions: number): string {
-  return `${fixed(e.start_s, 3)} to ${fixed(e.end_s, 3)} s: ${hertz(e.frequency_hz)} within ${plain(revolutions)} revolutions of the tool’s ${e.at}; not counted as chatter`;
+  const where = e.at === 'air' ? 'begins while the tool is out of the cut' : `within ${plain(revolutions)} revolutions of the tool’s ${e.at}`;
+  return `${fixed(e.start_s, 3)} to ${fixed(e.end_s, 3)} s: ${hertz(e.frequency_hz)} ${where}; not counted as chatter`;
 }
 
 function verdict(page: DetectPage): string {

@@ -76,7 +76,7 @@ describe('chatter', () => {
     mock.layer.wanted = 'act';
     await as('viewer', 'chatter');
     await until(`document.querySelector('.vibration .before .value').textContent.includes('92')`);
-    await until(`document.querySelector('#chatter-now').textContent === 'The cut chatters at 922\u00a0Hz · Spindle at 90 % against chatter'`);
+    await until(`document.querySelector('#chatter-now').textContent === 'The cut chatters at 931\u00a0Hz · Spindle at 90 % against chatter'`);
     mock.layer.wanted = 'observe';
     await until(`document.querySelector('#chatter-now').textContent.endsWith('Better: spindle at 90 %')`);
   });

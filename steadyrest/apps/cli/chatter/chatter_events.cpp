@@ -26,6 +26,7 @@ class Stretch {
     speeds_rev_s_ += told_rev_s;
     spindle_rev_s_ += heard.speed_rev_s;
     confidence_.add(heard);
+    line_energy_ += heard.line_energy;
     lines_.push_back(heard.line);
   }
 
@@ -42,6 +43,7 @@ class Stretch {
     event.frequency_hz = frequency_hz_[static_cast<std::size_t>(half)];
     event.speed_rev_s = speeds_rev_s_ / count;
     event.spindle_rev_s = spindle_rev_s_ / count;
+    event.line_energy = line_energy_ / count;
     event.flip = 2 * flips_ > frequency_hz_.size();
     event.channels = {channel};
     // Of the spectra the one whose line is nearest to the median.
@@ -65,6 +67,7 @@ class Stretch {
   std::size_t flips_ = 0;
   double speeds_rev_s_ = 0.0;
   double spindle_rev_s_ = 0.0;
+  double line_energy_ = 0.0;
   online::LineConfidence confidence_;
 };
 
@@ -72,17 +75,16 @@ class Stretch {
 class FoundSpeed {
  public:
   void add(const online::Detector::Output& heard, double told_rev_s) {
-    told_ += told_rev_s;
-    ++samples_;
     if (online::shows_speed(heard)) {
+      told_ += told_rev_s;
       found_ += heard.speed_rev_s;
       variance_ += heard.speed_sd * heard.speed_sd;
       ++shown_;
     }
   }
   void put(HeardChannel& out) const {
-    out.told_rev_s = told_ / std::max(1.0, samples_);
     if (shown_ > 0.0) {
+      out.told_rev_s = told_ / shown_;
       out.found_rev_s = found_ / shown_;
       out.found_sd_rev_s = out.found_rev_s * std::sqrt(variance_ / shown_);
     }
@@ -90,11 +92,20 @@ class FoundSpeed {
 
  private:
   double told_ = 0.0;
-  double samples_ = 0.0;
   double found_ = 0.0;
   double variance_ = 0.0;
   double shown_ = 0.0;
 };
+
+}  // namespace
+
+namespace {
+
+/// A sensor's constant part: its first step would sound like an entry.
+double offset_of(const std::vector<double>& value) {
+  const auto first = std::ranges::find_if(value, [](double v) { return std::isfinite(v); });
+  return first == value.end() ? 0.0 : *first;
+}
 
 }  // namespace
 
@@ -108,12 +119,14 @@ HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
   std::optional<Stretch> open;
   double t_s = signal.start_s;
   double told_rev_s = 0.0;
+  const double offset = offset_of(signal.value);
   for (std::size_t i = 0; i < samples; ++i) {
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
     told_rev_s = std::isfinite(signal.speed_rev_s[i]) ? signal.speed_rev_s[i] : told_rev_s;
     // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new readings;
     // the samples between them repeat the last verdict and must not be counted again.
-    const auto& heard = detector.update({.value = signal.value[i], .speed_rev_s = told_rev_s});
+    const auto& heard =
+        detector.update({.value = signal.value[i] - offset, .speed_rev_s = told_rev_s});
     if (heard.fresh) {
       found.add(heard, told_rev_s);
       out.levels.push_back(

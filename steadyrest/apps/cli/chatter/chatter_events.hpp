@@ -28,11 +28,12 @@ struct ChatterEvidence {
 struct ChatterEvent {
   double start_s = 0.0;
   double end_s = 0.0;
-  double frequency_hz = 0.0;                                     ///< median over the stretch
-  double speed_rev_s = 0.0;                                      ///< as told, mean over the stretch
-  double spindle_rev_s = 0.0;                                    ///< the same as the orders show it
-  bool flip = false;                                             ///< majority of the spectra
-  chatter::offline::AtEdge at = chatter::offline::AtEdge::none;  ///< of the cut
+  double frequency_hz = 0.0;   ///< median over the stretch
+  double speed_rev_s = 0.0;    ///< as told, mean over the stretch
+  double spindle_rev_s = 0.0;  ///< the same as the orders show it
+  bool flip = false;           ///< majority of the spectra
+  double line_energy = 0.0;    ///< unit², mean
+  chatter::offline::CutPlace at = chatter::offline::CutPlace::cut;
   std::vector<std::size_t> channels;      ///< that hear it, the first to do so in front
   std::vector<ChatterEvidence> evidence;  ///< of each
 };
@@ -40,7 +41,7 @@ struct ChatterEvent {
 /// A channel as it was heard.
 struct HeardChannel {
   std::vector<ChatterEvent> events;
-  double told_rev_s = 0.0;   ///< mean of the stated speed
+  double told_rev_s = 0.0;   ///< mean of the stated speed, while the orders show theirs
   double found_rev_s = 0.0;  ///< mean by the orders, while they show it; 0: they never do
   double found_sd_rev_s = 0.0;
   std::vector<chatter::offline::ForcedLevel> levels;  ///< of each spectrum

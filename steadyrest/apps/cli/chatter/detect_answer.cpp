@@ -135,8 +135,14 @@ Json event_json(const offline::RecordedChannels& channels, const DetectEvent& ev
       {"decision", event.plan ? Json(offline::name(event.plan->decision)) : Json(nullptr)}};
 }
 
-const char* edge_name(offline::AtEdge at) {
-  return at == offline::AtEdge::entry ? "entry" : "exit";
+const char* place_name(offline::CutPlace at) {
+  return at == offline::CutPlace::entry ? "entry" : at == offline::CutPlace::exit ? "exit" : "air";
+}
+
+std::string place_words(offline::CutPlace at, double edge_rev) {
+  return at == offline::CutPlace::air
+             ? "begins while the tool is out of the cut"
+             : fmt::format("within {:g} revolutions of the tool's {}", edge_rev, place_name(at));
 }
 
 void add_engagement(const DetectSetting& setting, Answer& answer) {
@@ -153,11 +159,10 @@ void add_engagement(const DetectSetting& setting, Answer& answer) {
     answer.json["at_edges"].push_back({{"start_s", event.start_s},
                                        {"end_s", event.end_s},
                                        {"frequency_hz", event.frequency_hz},
-                                       {"at", edge_name(event.at)}});
-    answer.text += fmt::format(
-        "{:.3f} to {:.3f} s: {:.1f} Hz within {:g} revolutions of the tool's {}; not counted as "
-        "chatter\n",
-        event.start_s, event.end_s, event.frequency_hz, setting.edge_rev, edge_name(event.at));
+                                       {"at", place_name(event.at)}});
+    answer.text +=
+        fmt::format("{:.3f} to {:.3f} s: {:.1f} Hz {}; not counted as chatter\n", event.start_s,
+                    event.end_s, event.frequency_hz, place_words(event.at, setting.edge_rev));
   }
 }
 

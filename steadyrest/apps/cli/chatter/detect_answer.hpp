@@ -32,9 +32,9 @@ struct DetectSetting {
   std::vector<std::string> sensor;  ///< Heard::sensor
   std::vector<std::string> notes;
   std::vector<chatter::offline::Engagement> cuts;  ///< Heard::cuts
-  std::vector<ChatterEvent> at_edges;  ///< stretches that the change of engagement can give
-  double edge_rev = 0.0;               ///< so near to it
-  double found_rpm = 0.0;              ///< Heard::found_rpm
+  std::vector<ChatterEvent> at_edges;              ///< stretches at an edge of a cut, or out of it
+  double edge_rev = 0.0;                           ///< so near to it
+  double found_rpm = 0.0;                          ///< Heard::found_rpm
   double found_sd_rpm = 0.0;
 };
 

@@ -162,6 +162,7 @@ namespace {
 constexpr double kToldSpeed = 0.003;
 constexpr double kHeardShare = 0.45;  ///< of the rate
 constexpr double kNarrowHz = 2500.0;
+constexpr double kEdge_s = 0.15;     // a mode rings so long, however fast the spindle is
 constexpr double kOffToSay = 0.001;  ///< of the speed
 
 void say_band(const RecordedSignal& signal, Heard& out) {
@@ -172,16 +173,6 @@ void say_band(const RecordedSignal& signal, Heard& out) {
         "are assumed to fold back, and lines near their folds count as forced",
         signal.rate_hz, most_hz));
   }
-}
-
-double mean_told(const RecordedSignal& signal) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double speed : signal.speed_rev_s) {
-    sum += std::isfinite(speed) ? speed : 0.0;
-    count += std::isfinite(speed) ? 1.0 : 0.0;
-  }
-  return sum / std::max(1.0, count);
 }
 
 /// The same part by part: several tools or speeds in one file. False: all parts are as stated.
@@ -220,11 +211,11 @@ bool check_parts(RecordedChannels& channels, std::size_t teeth, Heard& out) {
 /// Checks the stated speed and number of teeth against the lines of the recording. If the lines
 /// clearly fit another speed, that speed is used.
 bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) {
-  if (check_parts(channels, teeth, out)) {
-    return true;
-  }
   const RecordedSignal& first = channels.front();
-  const double told_rev_s = mean_told(first);
+  const double told_rev_s = chatter::offline::constant_speed(first.speed_rev_s);
+  if (!(told_rev_s > 0.0)) {
+    return false;
+  }
   const auto found = chatter::offline::check_orders(first.value, first.rate_hz, told_rev_s, teeth);
   if (found.other_speed) {
     out.sensor.push_back(fmt::format(
@@ -258,12 +249,36 @@ void say_speed(const HeardChannel& heard, bool orders_known, Heard& out) {
   } else if (!orders_known && heard.events.empty()) {
     out.sensor.emplace_back(
         "no spindle orders rise above the noise: the tool may be cutting air, the stated speed may "
-        "be wrong, or the sensor may not pick up the cut");
+        "be wrong, or other vibration may hide them");
   } else {
     out.sensor.push_back(fmt::format(
         "the orders do not show the spindle speed: it is taken to be within {:.1f} % of the stated "
         "one, and lines that close to an order count as forced",
         100.0 * kToldSpeed));
+  }
+}
+
+/// Where each of the channel's stretches is; its cuts.
+std::vector<chatter::offline::Engagement> place(HeardChannel& heard, double edge_rev) {
+  auto cuts = chatter::offline::engagements(heard.levels);
+  for (ChatterEvent& event : heard.events) {
+    const double within_s =
+        edge_rev > 0.0 ? std::max(edge_rev / event.spindle_rev_s, kEdge_s) : 0.0;
+    event.at = chatter::offline::place_of(
+        cuts, {.start_s = event.start_s, .end_s = event.end_s, .energy = event.line_energy},
+        within_s);
+  }
+  return cuts;
+}
+
+/// The notes of all channels, once each.
+void gather_notes(const RecordedChannels& channels, Heard& out) {
+  for (const RecordedSignal& signal : channels) {
+    for (const std::string& note : signal.notes) {
+      if (std::ranges::find(out.notes, note) == out.notes.end()) {
+        out.notes.push_back(note);
+      }
+    }
   }
 }
 
@@ -291,13 +306,7 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, double edge_re
                                                channels.front().value.size(), out.window),
                                    "give a longer recording: a few tenths of a second");
   }
-  for (const RecordedSignal& signal : channels) {
-    for (const std::string& note : signal.notes) {
-      if (std::ranges::find(out.notes, note) == out.notes.end()) {
-        out.notes.push_back(note);
-      }
-    }
-  }
+  gather_notes(channels, out);
   if (auto refusal = drop_dead(channels, file, out.notes)) {
     return std::unexpected(std::move(*refusal));
   }
@@ -306,33 +315,29 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, double edge_re
                                     channels.front().recorded_hz, channels.front().rate_hz));
   }
   say_band(channels.front(), out);
-  const bool orders_known = check_orders_of(channels, teeth, out);
+  const bool parts = check_parts(channels, teeth, out);
+  const bool orders_known = !parts && check_orders_of(channels, teeth, out);
   for (RecordedSignal& signal : channels) {
     auto detector = *made;
     HeardChannel heard = hear_channel(signal, detector, progress);
+    auto cuts = place(heard, edge_rev);
     if (heard.clips) {
       out.sensor.push_back(fmt::format(
           "channel {} clips: clipping adds harmonics at every order of the spindle, so every order "
           "counts as forced",
           channel_label(signal)));
     }
-    if (out.found_rpm == 0.0 && heard.found_rev_s > 0.0) {
+    if (!parts && out.found_rpm == 0.0 && heard.found_rev_s > 0.0) {
       out.found_rpm = rpm_from_rev_s(heard.found_rev_s);
       out.found_sd_rpm = rpm_from_rev_s(heard.found_sd_rev_s);
     }
-    if (&signal == &channels.front()) {
+    if (!parts && &signal == &channels.front()) {
       say_speed(heard, orders_known, out);
     }
-    if (out.cuts.empty()) {
-      out.cuts = chatter::offline::engagements(heard.levels);
-    }
+    out.cuts = out.cuts.empty() ? std::move(cuts) : std::move(out.cuts);
     std::ranges::move(heard.events, std::back_inserter(out.events));
   }
   out.events = as_one(std::move(out.events));
-  for (ChatterEvent& event : out.events) {
-    event.at = chatter::offline::at_edge(out.cuts, event.start_s, event.end_s,
-                                         edge_rev / event.spindle_rev_s);
-  }
   return out;
 }
 
@@ -350,6 +355,7 @@ std::vector<ChatterEvent> as_one(std::vector<ChatterEvent> events) {
       continue;
     }
     known->end_s = std::max(known->end_s, event.end_s);
+    known->at = event.at == chatter::offline::CutPlace::cut ? event.at : known->at;
     for (std::size_t i = 0; i < event.channels.size(); ++i) {
       if (std::ranges::find(known->channels, event.channels[i]) == known->channels.end()) {
         known->channels.push_back(event.channels[i]);

@@ -256,7 +256,7 @@ Outcome detect(const Options& options, const Machine& machine, std::size_t teeth
   std::vector<Event> events;
   std::vector<ChatterEvent> at_edges;
   for (ChatterEvent& event : heard->events) {
-    if (event.at == offline::AtEdge::none) {
+    if (event.at == offline::CutPlace::cut) {
       events.push_back({std::move(event), {}, {}, {}});
     } else {
       at_edges.push_back(std::move(event));

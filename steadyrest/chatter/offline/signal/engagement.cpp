@@ -13,6 +13,7 @@ constexpr double kAirShare = 0.02;
 constexpr double kCutShare = 0.9;
 constexpr double kApartDb = 10.0;
 constexpr double kLeastRev = 5.0;
+constexpr double kLoudShare = 0.1;
 constexpr double kBeforeShare = 0.2;  // of the reach: an alarm's time is that of a spectrum's end
 
 double decibel(double energy) {
@@ -24,6 +25,12 @@ double quantile(std::vector<double> values, double share) {
   std::ranges::nth_element(values, values.begin() + at);
   return values[static_cast<std::size_t>(at)];
 }
+
+/// Of levels, `end` the first beyond it.
+struct Span {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
 
 }  // namespace
 
@@ -40,9 +47,9 @@ std::vector<Engagement> engagements(const std::vector<ForcedLevel>& levels) {
     return {};
   }
   const double middle = 0.5 * (air + cut);
-  std::vector<Engagement> out;
-  const auto short_of = [&](double from_s, double to_s, std::size_t i) {
-    return (to_s - from_s) * levels[i].speed_rev_s < kLeastRev;
+  std::vector<Span> spans;
+  const auto short_of = [&](std::size_t from, std::size_t to) {
+    return (levels[to].t_s - levels[from].t_s) * levels[from].speed_rev_s < kLeastRev;
   };
   for (std::size_t i = 0; i < db.size(); ++i) {
     if (db[i] <= middle) {
@@ -52,30 +59,50 @@ std::vector<Engagement> engagements(const std::vector<ForcedLevel>& levels) {
     while (i < db.size() && db[i] > middle) {
       ++i;
     }
-    const bool ends = i < db.size();
-    const double begin_s = levels[first].t_s;
-    const double end_s = levels[ends ? i : i - 1].t_s;
-    if (!out.empty() && short_of(out.back().end_s, begin_s, first)) {
-      out.back().end_s = end_s;
-      out.back().exit = ends;
-    } else if (!short_of(begin_s, end_s, first)) {
-      out.push_back({.begin_s = begin_s, .end_s = end_s, .entry = first > 0, .exit = ends});
+    if (!spans.empty() && short_of(spans.back().end, first)) {
+      spans.back().end = std::min(i, db.size() - 1);
+    } else {
+      spans.push_back({first, std::min(i, db.size() - 1)});
     }
+  }
+  std::erase_if(spans, [&](const Span& span) { return short_of(span.begin, span.end); });
+  std::vector<Engagement> out;
+  for (const Span& span : spans) {
+    const double own = quantile({db.begin() + static_cast<std::ptrdiff_t>(span.begin),
+                                 db.begin() + static_cast<std::ptrdiff_t>(span.end)},
+                                0.5);
+    std::size_t end = span.end;
+    while (end > span.begin + 1 && db[end - 1] < own - kApartDb) {
+      --end;
+    }
+    out.push_back({.begin_s = levels[span.begin].t_s,
+                   .end_s = levels[end].t_s,
+                   .entry = span.begin > 0,
+                   .exit = end + 1 < db.size(),
+                   .energy = std::pow(10.0, 0.1 * own)});
   }
   return out;
 }
 
-AtEdge at_edge(const std::vector<Engagement>& cuts, double start_s, double end_s, double within_s) {
+CutPlace place_of(const std::vector<Engagement>& cuts, const Vibration& vibration,
+                  double within_s) {
+  const double before_s = kBeforeShare * within_s;
+  bool within = cuts.empty();
+  double loudest = 0.0;
   for (const Engagement& cut : cuts) {
-    const double before_s = kBeforeShare * within_s;
-    if (cut.entry && start_s > cut.begin_s - before_s && end_s < cut.begin_s + within_s) {
-      return AtEdge::entry;
+    if (cut.entry && vibration.start_s > cut.begin_s - before_s &&
+        vibration.end_s < cut.begin_s + within_s) {
+      return CutPlace::entry;
     }
-    if (cut.exit && start_s > cut.end_s - within_s && end_s < cut.end_s + within_s) {
-      return AtEdge::exit;
+    if (cut.exit && vibration.start_s > cut.end_s - within_s &&
+        vibration.end_s < cut.end_s + within_s) {
+      return CutPlace::exit;
     }
+    within = within || (vibration.start_s > cut.begin_s - before_s &&
+                        vibration.start_s < cut.end_s + before_s);
+    loudest = std::max(loudest, cut.energy);
   }
-  return AtEdge::none;
+  return within || vibration.energy > kLoudShare * loudest ? CutPlace::cut : CutPlace::air;
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include <unsupported/Eigen/FFT>
@@ -30,6 +31,7 @@ constexpr double kTeethShare = 0.8;
 constexpr double kNotTeeth = 0.5;
 constexpr std::size_t kMostTeeth = 16;
 constexpr double kSameSpeed = 0.01;
+constexpr double kConstant = 0.005;
 constexpr std::size_t kFewWindows = 3;
 
 /// Amplitude above the noise in each bin of the mean spectrum.
@@ -160,6 +162,16 @@ std::size_t teeth_by(const Lines& lines, double speed_rev_s, std::size_t told) {
 
 }  // namespace
 
+double constant_speed(std::span<const double> told_rev_s) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const double speed : told_rev_s) {
+    least = std::isfinite(speed) ? std::min(least, speed) : least;
+    most = std::isfinite(speed) ? std::max(most, speed) : most;
+  }
+  return most - least <= kConstant * most ? 0.5 * (least + most) : 0.0;
+}
+
 OrderFindings check_orders(std::span<const double> value, double rate_hz, double told_rev_s,
                            std::size_t teeth) {
   OrderFindings out;
@@ -206,14 +218,34 @@ OrderFindings check_orders(std::span<const double> value, double rate_hz, double
 
 namespace {
 
-double mean_speed(std::span<const double> told_rev_s) {
-  double sum = 0.0;
-  double count = 0.0;
-  for (const double speed : told_rev_s) {
-    sum += std::isfinite(speed) ? speed : 0.0;
-    count += std::isfinite(speed) ? 1.0 : 0.0;
+bool agrees(const OtherCut& a, const OtherCut& b) {
+  return std::abs(a.speed_rev_s - b.speed_rev_s) <= kSameSpeed * a.speed_rev_s &&
+         a.other_teeth == b.other_teeth;
+}
+
+/// Runs of enough windows, each to the middle of the gap between it and the next; without those
+/// that are as stated.
+std::vector<OtherCut> parts_of(const std::vector<OtherCut>& runs,
+                               const std::vector<std::size_t>& windows, std::size_t samples) {
+  std::vector<OtherCut> out;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (windows[i] < kFewWindows) {
+      continue;
+    }
+    if (!out.empty() && agrees(out.back(), runs[i])) {
+      out.back().end = runs[i].end;
+    } else {
+      out.push_back(runs[i]);
+    }
   }
-  return sum / std::max(1.0, count);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const bool last = i + 1 == out.size();
+    out[i].begin = i == 0 ? 0 : out[i - 1].end;
+    out[i].end = last ? samples : std::midpoint(out[i].end, out[i + 1].begin);
+  }
+  std::erase_if(out,
+                [](const OtherCut& cut) { return cut.speed_rev_s == 0.0 && cut.other_teeth == 0; });
+  return out;
 }
 
 }  // namespace
@@ -221,35 +253,30 @@ double mean_speed(std::span<const double> told_rev_s) {
 std::vector<OtherCut> other_cuts(std::span<const double> value, std::span<const double> told_rev_s,
                                  double rate_hz, std::size_t teeth) {
   const std::size_t n = window_of(rate_hz);
-  std::vector<OtherCut> windows;
+  std::vector<OtherCut> runs;  // of windows that agree
+  std::vector<std::size_t> windows;
   for (std::size_t begin = 0; begin + n <= value.size(); begin += n / 2) {
-    const double told = mean_speed(told_rev_s.subspan(begin, n));
-    OtherCut window{.begin = begin + n / 4, .end = begin + n / 4 + n / 2, .told_rev_s = told};
-    if (told > 0.0) {
-      const auto found = check_orders(value.subspan(begin, n), rate_hz, told, teeth);
-      window.speed_rev_s = found.other_speed ? found.speed_rev_s : 0.0;
-      window.other_teeth = found.other_teeth;
+    const double told = constant_speed(told_rev_s.subspan(begin, n));
+    const auto found =
+        told > 0.0 ? check_orders(value.subspan(begin, n), rate_hz, told, teeth) : OrderFindings{};
+    // Air and windows that two cuts share say nothing.
+    if (!found.known || (!found.other_speed && found.told_share < kOtherShare)) {
+      continue;
     }
-    windows.push_back(window);
-  }
-  std::vector<OtherCut> out;
-  for (std::size_t i = 0; i < windows.size();) {
-    const OtherCut& first = windows[i];
-    const auto agrees = [&](const OtherCut& w) {
-      return std::abs(w.speed_rev_s - first.speed_rev_s) <= kSameSpeed * first.speed_rev_s &&
-             w.other_teeth == first.other_teeth;
-    };
-    const std::size_t from = i;
-    while (i < windows.size() && agrees(windows[i])) {
-      ++i;
-    }
-    if (i - from >= kFewWindows && (first.speed_rev_s > 0.0 || first.other_teeth > 0)) {
-      out.push_back(first);
-      out.back().begin = from == 0 ? 0 : first.begin;
-      out.back().end = i == windows.size() ? value.size() : windows[i - 1].end;
+    const OtherCut window{.begin = begin + n / 4,
+                          .end = begin + n / 4 + n / 2,
+                          .told_rev_s = told,
+                          .speed_rev_s = found.other_speed ? found.speed_rev_s : 0.0,
+                          .other_teeth = found.other_teeth};
+    if (!runs.empty() && agrees(runs.back(), window)) {
+      runs.back().end = window.end;
+      ++windows.back();
+    } else {
+      runs.push_back(window);
+      windows.push_back(1);
     }
   }
-  return out;
+  return parts_of(runs, windows, value.size());
 }
 
 }  // namespace steadyrest::chatter::offline

@@ -31,6 +31,10 @@ struct OrderFindings {
 [[nodiscard]] OrderFindings check_orders(std::span<const double> value, double rate_hz,
                                          double told_rev_s, std::size_t teeth);
 
+/// The stated speed, where it is the same throughout within 0.5 %; else 0. Samples that are not
+/// finite are passed over.
+[[nodiscard]] double constant_speed(std::span<const double> told_rev_s);
+
 /// A part of a recording with a cut that is not the stated one: another tool, or another speed.
 struct OtherCut {
   std::size_t begin = 0;  ///< samples
@@ -41,8 +45,9 @@ struct OtherCut {
 };
 
 /// check_orders() for one window after the other, by half of their length. Three in a row that
-/// agree (speeds to 1 %) are a part, from middle to middle of where the findings change.
-/// `told_rev_s`: of each sample, not finite where it is unknown.
+/// agree (speeds to 1 %; windows that show no orders are passed over) are a part, which reaches to
+/// the middle of the gap between it and the next. `told_rev_s`: of each sample, not finite where it
+/// is unknown.
 [[nodiscard]] std::vector<OtherCut> other_cuts(std::span<const double> value,
                                                std::span<const double> told_rev_s, double rate_hz,
                                                std::size_t teeth);

@@ -118,18 +118,24 @@ class PartFinder {
   std::optional<SignalFault> find_signals() {
     const auto value = head_.place("value");
     std::vector<std::string> unread;
+    std::vector<std::string> slow;
     for (std::size_t i = 0; i < out_.name.size(); ++i) {
       if (is_time(i) || out_.speed == i || head_.written[i].empty() || numbers_rows(out_.name[i])) {
         continue;
       }
       if (value && *value != i) {
         unread.push_back(shown_name(head_.written[i]));
+      } else if (is_slow_quantity(out_.name[i])) {
+        slow.push_back(shown_name(head_.written[i]));
       } else {
         out_.signal.push_back(i);
       }
     }
     if (!unread.empty()) {
       out_.notes.push_back(fmt::format("value alone is judged, not {}", fmt::join(unread, ", ")));
+    }
+    if (!slow.empty()) {
+      out_.notes.push_back(fmt::format("not vibration, not judged: {}", fmt::join(slow, ", ")));
     }
     if (out_.signal.empty()) {
       return SignalFault{0, fmt::format("the column value is missing in {}", written_names()),

@@ -64,7 +64,16 @@ class SignalSink final : public table::Sink {
 
   OrFault<RecordedChannels> take(const SignalLayout& layout) {
     const std::string& clock = layout.time.empty() ? columns_.time : layout.time;
-    const auto times = even_times(time_s_, lines_, clock);
+    auto times = even_times(time_s_, lines_, clock);
+    if (!times && format_.rows_are_samples && time_s_.size() > 1 &&
+        !unfit_rate(format_.sample_hz)) {
+      times = EvenTimes{.start_s = 0.0,
+                        .rate_hz = format_.sample_hz,
+                        .samples = time_s_.size(),
+                        .place = {},
+                        .notes = {fmt::format("{} is not even: replaced by {:.6g} samples a second",
+                                              clock, format_.sample_hz)}};
+    }
     if (!times) {
       return std::unexpected(times.error());
     }

@@ -237,6 +237,15 @@ bool same_name(std::string_view a, std::string_view b) {
   return plain(a) == plain(b);
 }
 
+bool is_slow_quantity(const ColumnName& column) {
+  constexpr std::array<std::string_view, 9> kUnits = {"c",  "°c",  "degc", "k", "f",
+                                                      "°f", "bar", "kpa",  "%"};
+  constexpr std::array<std::string_view, 8> kWords = {"temp",         "temperature", "temperatur",
+                                                      "coolant temp", "load",        "spindle load",
+                                                      "last",         "humidity"};
+  return among(kUnits, plain_words(column.unit)) || among(kWords, plain_words(column.name));
+}
+
 bool numbers_rows(const ColumnName& column) {
   return column.unit.empty() && among(kRowWords, plain_words(column.name));
 }

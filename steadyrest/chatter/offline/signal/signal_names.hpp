@@ -46,6 +46,9 @@ struct SpeedName {
 /// Whether two names are the same but for capitals, `_` and blanks.
 [[nodiscard]] bool same_name(std::string_view a, std::string_view b);
 
+/// Whether a column is no vibration, sound or power: a temperature, a load in percent, a pressure.
+[[nodiscard]] bool is_slow_quantity(const ColumnName& column);
+
 /// Whether a column numbers the rows: `Sample`, `No.`, `index`.
 [[nodiscard]] bool numbers_rows(const ColumnName& column);
 

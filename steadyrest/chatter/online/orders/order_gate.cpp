@@ -46,9 +46,9 @@ void OrderGate::follow(const Line& line, double speed_rev_s) noexcept {
   seconds_ = keep * seconds_ + line.seconds;
 }
 
-bool OrderGate::is_asked(double order) const noexcept {
+bool OrderGate::is_asked(double order, bool folded) const noexcept {
   const auto teeth = static_cast<double>(config_.teeth);
-  return order >= 1.0 && (clipped_ || order <= static_cast<double>(config_.orders) ||
+  return order >= 1.0 && (!folded || clipped_ || order <= static_cast<double>(config_.orders) ||
                           (std::fmod(order, teeth) == 0.0 &&
                            order <= teeth * static_cast<double>(config_.tooth_orders)));
 }
@@ -56,7 +56,8 @@ bool OrderGate::is_asked(double order) const noexcept {
 void OrderGate::ask(const Near& near, double speed_rev_s, double speed_sd) noexcept {
   const double by_speed = kApartSigmas * near.order * speed_sd * speed_rev_s;
   // Of an order whose place is not known yet nothing can have been learnt.
-  if (!is_asked(near.order) || (near.folded && by_speed < kLearnable_hz && !could_be(near.order))) {
+  if (!is_asked(near.order, near.folded) ||
+      (near.folded && by_speed < kLearnable_hz && !could_be(near.order))) {
     return;
   }
   // A line that has just gone over into another is for a while where neither is.
@@ -77,6 +78,7 @@ void OrderGate::ask(const Near& near, double speed_rev_s, double speed_sd) noexc
     out_.off_hz = off_hz;
     out_.sd_hz = (by_line + by_speed) / kApartSigmas;
     out_.forced = share < 1.0;
+    out_.by_speed = out_.forced && std::abs(off_hz) > by_line;
   }
 }
 

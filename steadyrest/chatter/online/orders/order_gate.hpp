@@ -15,8 +15,8 @@ namespace steadyrest::chatter::online {
 /// seconds it turns by φ turns, order k by k·∫Ω dt, Ω the spindle's speed with the relative
 /// standard deviation σ. Order k is excluded where they differ by more than kApart turns + 3·k·σ·∫Ω
 /// dt. A line that is new is nearer than it looks: kNewBins bins and 3·k·σ·Ω are added to what is
-/// forced. After kLongest_s the past fades. A fold of order k is at |k·Ω − m·fs|; only orders up to
-/// `orders`, of the teeth up to `tooth_orders` times their number, are asked for.
+/// forced. After kLongest_s the past fades. A fold of order k is at |k·Ω − m·fs|; only folds of
+/// orders up to `orders`, of the teeth up to `tooth_orders` times their number, are asked for.
 class OrderGate {
  public:
   struct Config {
@@ -42,6 +42,7 @@ class OrderGate {
   struct Output {
     bool forced = false;
     unsigned orders = 0;        ///< how many orders and folds it can be
+    bool by_speed = false;      ///< only because the speed is not known well enough
     double order = 0.0;         ///< nearest, whole
     bool folded = false;        ///< it is beyond half of the rate
     double frequency_hz = 0.0;  ///< of the line, by its phase
@@ -65,7 +66,7 @@ class OrderGate {
   void follow(const Line& line, double speed_rev_s) noexcept;
   void ask(const Near& near, double speed_rev_s, double speed_sd) noexcept;
   [[nodiscard]] bool could_be(double order) const noexcept;
-  [[nodiscard]] bool is_asked(double order) const noexcept;
+  [[nodiscard]] bool is_asked(double order, bool folded) const noexcept;
 
   Config config_;
   double turns_ = 0.0;  ///< of the line …

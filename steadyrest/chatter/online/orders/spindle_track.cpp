@@ -16,10 +16,12 @@ constexpr double kUnsure = 0.002;        // above it blocks have only so many sa
 constexpr double kLeastNoise = 0.05;     // of the residual's energy
 constexpr double kSettledRev = 12.0;
 constexpr double kRingsRev = 3.0;
+constexpr double kMostMissing = 0.2;  // of a block
 constexpr double kLeastSnr = 8.0;     // of an order's energy over its noise's
 constexpr double kRestless = 0.015;   // rad: phases of orders wander with the engagement
 constexpr double kWithinTurns = 0.4;  // that an order may have turned by
 constexpr double kPriorSigmas = 3.0;
+constexpr double kSigmas2 = 9.0;  // squared, that an order may stray from those below it
 constexpr double kSigmasOfReach = 2.0;
 constexpr double kForget = 0.15;          // of a block, of how an order strays from the others
 constexpr double kUnknownStrange = 0.03;  // rad²
@@ -27,13 +29,14 @@ constexpr double kOutlier = 2.0;          // standard deviations
 constexpr double kMostApart = 30.0;
 constexpr double kWalk = 0.0003;    // relative, in a second
 constexpr double kInAir = 0.005;    // relative: what a load may change
+constexpr double kLost = 0.003;     // relative, in a second, where vibration hides the orders
 constexpr double kMoreInAir = 2.0;  // of what the speed may be off anyway
 constexpr double kMostGain = 0.5;
+constexpr double kLag = 0.3;  // of a block, of what the blocks find again and again
 constexpr double kRestlessBlocks = 8.0;
 constexpr double kMostRestless = 1e4;
-constexpr double kAgree = 1.5;
-constexpr std::size_t kFewToAgree = 2;
-constexpr double kOutlierVariance = 4.0;  // an innovation counts for two standard deviations
+constexpr std::size_t kFewToAgree = 3;
+constexpr unsigned kFewStrays = 3;
 constexpr double kLeastVariance = 1e-12;
 
 std::complex<double> phasor(const OrderFilter::Order& order) {
@@ -53,7 +56,7 @@ SpindleTrack::SpindleTrack(double told_sd, std::size_t orders)
 }
 
 double SpindleTrack::sd() const noexcept {
-  return std::sqrt(variance_);
+  return std::hypot(std::sqrt(variance_), behind_);
 }
 
 void SpindleTrack::begin_block(OrderFilter& filter, double angle_rev, double speed_rev_s,
@@ -69,7 +72,7 @@ void SpindleTrack::begin_block(OrderFilter& filter, double angle_rev, double spe
   const double block_rev = std::max(1.0, std::round(block_s * speed_rev_s));
   comparable_ = comparable_ && block_rev == block_rev_;
   block_rev_ = block_rev;
-  samples_ = 0;
+  samples_ = missing_ = 0;
 }
 
 void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_rev_s, double rate_hz,
@@ -85,7 +88,13 @@ void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_re
     return;
   }
   ++samples_;
+  missing_ += residual.gap ? 1 : 0;
   if (angle_rev - begin_rev_ < block_rev_) {
+    return;
+  }
+  if (static_cast<double>(missing_) > kMostMissing * static_cast<double>(samples_)) {
+    begin_block(filter, angle_rev, speed_rev_s, rate_hz);
+    comparable_ = false;
     return;
   }
   const auto orders = filter.orders();
@@ -106,13 +115,15 @@ void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_re
                                        (residual.energy - at_orders) / std::max(0.5, free_share));
   // Of white noise with that energy |Y|² has 4/n.
   const Fit found = comparable_ ? fit(orders, 2.0 * each * noise_energy) : Fit{};
-  follow(found, static_cast<double>(samples_) / rate_hz);
+  follow(found, static_cast<double>(samples_) / rate_hz, residual.loud);
   std::swap(now_, before_);
   comparable_ = true;
   begin_block(filter, angle_rev, speed_rev_s, rate_hz);
 }
 
-/// From the lowest order up: what those below say tells by how many turns more the next has turned.
+/// From the lowest order up: what those below say tells by how many turns more the next has turned,
+/// and whether its phase is its own. Chatter has a line beside each tooth order, all at one
+/// distance, and hides the higher ones.
 void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
                           double noise_energy) noexcept {
   turned_.clear();
@@ -121,7 +132,7 @@ void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
   double above = 0.0;
   for (std::size_t i = 1; i < orders.size(); ++i) {
     const double k = orders[i].order;
-    if (!orders[i].used || !orders[i].tooth || orders[i].folded) {
+    if (!orders[i].used || orders[i].folded) {
       continue;
     }
     const double energy = std::min(std::norm(now_[i]), std::norm(before_[i]));
@@ -135,7 +146,13 @@ void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
     const double expected = k * above / below;
     const double phase = std::arg(now_[i] * std::conj(before_[i]));
     const double turned = expected + std::remainder(phase - expected, kTurn);
-    const double v = noise_energy / energy + std::max(kRestless * kRestless, strange_[i]);
+    const double noise = noise_energy / energy;
+    const double stray = turned - expected;
+    if (stray * stray > kSigmas2 * (k * k / below + noise + kRestless * kRestless)) {
+      strange_[i] += kForget * (stray * stray - strange_[i]);
+      continue;
+    }
+    const double v = noise + std::max(kRestless * kRestless, strange_[i]);
     turned_.push_back({.at = i, .order = k, .turned = turned, .sd = std::sqrt(v)});
     above += k * turned / v;
     below += k * k / v;
@@ -163,7 +180,10 @@ double SpindleTrack::median() noexcept {
 SpindleTrack::Fit SpindleTrack::fit(std::span<const OrderFilter::Order> orders,
                                     double noise_energy) noexcept {
   gather(orders, noise_energy);
-  if (turned_.empty()) {
+  if (turned_.size() < kFewToAgree) {
+    for (const Turned& t : turned_) {
+      strange_[t.at] += kForget * (t.turned * t.turned - strange_[t.at]);
+    }
     return {};
   }
   const double middle = median();
@@ -184,27 +204,29 @@ SpindleTrack::Fit SpindleTrack::fit(std::span<const OrderFilter::Order> orders,
   const double per_block = 1.0 / (kTurn * block_rev_);
   return {.off = above / below * per_block,
           .variance = spread * spread / below * per_block * per_block,
-          .known = true,
-          .agrees = spread < kAgree && turned_.size() >= kFewToAgree};
+          .known = true};
 }
 
-void SpindleTrack::follow(const Fit& found, double seconds) noexcept {
+void SpindleTrack::follow(const Fit& found, double seconds, bool loud) noexcept {
   const double walk = kWalk * kWalk * seconds;
   if (!found.known) {
+    // In air, or where lines beside the orders hide them.
+    behind_ -= kLag * behind_;
+    const double lost = loud ? kLost * kLost * seconds : walk;
     const double most = std::min(kInAir, kMoreInAir * told_sd_);
-    variance_ = std::max(variance_, std::min(variance_ + walk, most * most));
+    variance_ = std::max(variance_, std::min(variance_ + lost, most * most));
     return;
   }
   const double innovation = found.off * found.off;
-  // Innovations say that the spindle moves only where its orders say so together; else they are
-  // outliers.
-  const bool moves = found.agrees;
   const double usual = variance_ + walk + found.variance;
-  restless_ += ((moves ? innovation / usual : 1.0) - restless_) / kRestlessBlocks;
+  strays_ = innovation > kSigmas2 * usual ? strays_ + 1 : 0;
+  if (strays_ > 0 && strays_ < kFewStrays) {
+    return;
+  }
+  behind_ += kLag * (found.off - behind_);
+  restless_ += (innovation / usual - restless_) / kRestlessBlocks;
   const double prior = variance_ + walk * std::clamp(restless_ * restless_, 1.0, kMostRestless);
-  const double measured =
-      moves ? found.variance : std::max(found.variance, innovation / kOutlierVariance);
-  const double gain = std::min(kMostGain, prior / (prior + measured));
+  const double gain = std::min(kMostGain, prior / (prior + found.variance));
   off_ = std::clamp(off_ + gain * found.off, -kMost, kMost);
   variance_ = std::clamp((1.0 - gain) * prior, kLeastVariance, kMost * kMost);
 }
@@ -213,6 +235,8 @@ void SpindleTrack::reset() noexcept {
   off_ = 0.0;
   variance_ = told_sd_ * told_sd_;
   restless_ = 1.0;
+  behind_ = 0.0;
+  strays_ = 0;
   std::ranges::fill(strange_, kUnknownStrange);
   started_ = comparable_ = false;
 }

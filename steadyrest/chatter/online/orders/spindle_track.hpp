@@ -14,18 +14,20 @@ namespace steadyrest::chatter::online {
 ///
 /// Law. The told speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
 /// revolutions, as integrated, order k has the phasor Yₖ; from block to block it turns by
-/// aₖ = 2π·k·B·ε. The tooth orders that stand clear of the noise and are not folded vote,
+/// aₖ = 2π·k·B·ε. The orders that stand clear of the noise and are not folded vote,
 ///   ε̂ = Σ wₖ·k·aₖ / (2π·B·Σ wₖ·k²),  wₖ = h/vₖ,  vₖ = 1/SNRₖ + what the order has strayed by
 ///   lately,
 /// from the lowest up, each unwrapped by what those below it say, as far as that leaves its turn
-/// known; the noise is the residual, kSettledRev revolutions after the tool's entry what the tooth
-/// orders leave of it over a block (at a wrong speed they are nearly all of it); h is Huber's
-/// weight about the median of aₖ/k that k/√vₖ weights, which chatter beside some orders does not
-/// move. A Kalman filter with one state follows: ε is a random walk of kWalk·√t, faster where two
-/// orders at least agree that it moved (a spindle that droops as it enters); an innovation that
-/// they do not agree on counts as an outlier. What it finds turns the angle that the orders refer
-/// to, so later blocks see what is left. In air no order shows it: the uncertainty grows to kInAir,
-/// or to twice `told_sd` where that is less.
+/// known, and left out where it strays from them by three standard deviations: the lines of chatter
+/// beside the tooth orders turn them all by one angle. Three orders at least must vote. The noise
+/// is the residual; from kSettledRev revolutions after the tool's entry on, what the tooth orders
+/// leave of it over a block (at a wrong speed they are nearly all of it). h is Huber's weight about
+/// the median of aₖ/k that k/√vₖ weights. A Kalman filter with one state follows: ε is a random
+/// walk of kWalk·√t, faster while it keeps moving (a spindle that droops as it enters); beyond
+/// three standard deviations three blocks in a row are believed. What it finds turns the angle that
+/// the orders refer to, so later blocks see what is left. For kRingsRev revolutions after an entry
+/// nothing is believed; where no order shows ε, in air or behind other vibration, the uncertainty
+/// grows to kInAir, or to twice `told_sd` where that is less.
 class SpindleTrack {
  public:
   static constexpr double kMost = 0.025;
@@ -36,6 +38,8 @@ class SpindleTrack {
   struct Residual {
     double energy = 0.0;   ///< of the filter's residual, mean over a revolution
     double cut_rev = 0.0;  ///< revolutions since the cut began
+    bool gap = false;      ///< this sample: the filter has learnt nothing
+    bool loud = false;     ///< lines that may be orders at a wrong speed
   };
 
   /// To be called with each sample, after the filter has used it. `angle_rev`: as integrated with
@@ -55,8 +59,8 @@ class SpindleTrack {
     double off = 0.0;
     double variance = 0.0;
     bool known = false;
-    bool agrees = false;  ///< the orders with one another
   };
+  void follow(const Fit& found, double seconds, bool loud) noexcept;
   void begin_block(OrderFilter& filter, double angle_rev, double speed_rev_s,
                    double rate_hz) noexcept;
   struct Turned {
@@ -68,7 +72,6 @@ class SpindleTrack {
   void gather(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
   [[nodiscard]] double median() noexcept;
   [[nodiscard]] Fit fit(std::span<const OrderFilter::Order> orders, double noise_energy) noexcept;
-  void follow(const Fit& found, double seconds) noexcept;
 
   double told_sd_;
   std::vector<Complex> at_begin_;  ///< the filter's phasors as the block began
@@ -79,9 +82,12 @@ class SpindleTrack {
   double off_ = 0.0;
   double variance_;
   double restless_ = 1.0;  ///< mean of innovation²/its variance
+  unsigned strays_ = 0;    ///< blocks in a row that found another speed
+  double behind_ = 0.0;    ///< what the blocks find again and again: the estimate lags
   double begin_rev_ = 0.0;
   double block_rev_ = 1.0;
   std::size_t samples_ = 0;
+  std::size_t missing_ = 0;  ///< of those
   bool started_ = false;
   bool comparable_ = false;  ///< the block before was as long as this one
 };

@@ -63,15 +63,21 @@ TEST(Engagement, ARecordingThatBeginsOrEndsInTheCutHasNoEntryOrExit) {
 }
 
 TEST(Engagement, AStretchIsAtAnEdgeIfItEndsThere) {
-  const std::vector<Engagement> cuts{{2.0, 8.0, true, true}, {9.0, 20.0, true, false}};
-  const double within_s = 0.2;
-  EXPECT_EQ(at_edge(cuts, 2.05, 2.15, within_s), AtEdge::entry);
-  EXPECT_EQ(at_edge(cuts, 2.05, 2.3, within_s), AtEdge::none) << "chatter begins with the entry";
-  EXPECT_EQ(at_edge(cuts, 7.9, 8.1, within_s), AtEdge::exit);
-  EXPECT_EQ(at_edge(cuts, 7.5, 8.1, within_s), AtEdge::none);
-  EXPECT_EQ(at_edge(cuts, 5.0, 5.1, within_s), AtEdge::none);
-  EXPECT_EQ(at_edge(cuts, 19.9, 20.0, within_s), AtEdge::none) << "the recording ends";
-  EXPECT_EQ(at_edge(cuts, 2.05, 2.15, 0.0), AtEdge::none);
+  const std::vector<Engagement> cuts{{2.0, 8.0, true, true, 1.0}, {9.0, 20.0, true, false, 1.0}};
+  const auto at = [&](double start_s, double end_s, double energy, double within_s = 0.2) {
+    return place_of(cuts, {.start_s = start_s, .end_s = end_s, .energy = energy}, within_s);
+  };
+  EXPECT_EQ(at(2.05, 2.15, 1.0), CutPlace::entry);
+  EXPECT_EQ(at(2.05, 2.3, 1.0), CutPlace::cut) << "chatter begins with the entry";
+  EXPECT_EQ(at(7.9, 8.1, 1.0), CutPlace::exit);
+  EXPECT_EQ(at(7.5, 8.1, 1.0), CutPlace::cut);
+  EXPECT_EQ(at(5.0, 5.1, 1.0), CutPlace::cut);
+  EXPECT_EQ(at(19.9, 20.0, 1.0), CutPlace::cut) << "the recording ends";
+  EXPECT_EQ(at(2.05, 2.15, 1.0, 0.0), CutPlace::cut);
+  EXPECT_EQ(at(1.0, 6.0, 0.01), CutPlace::air) << "a tone that was there before";
+  EXPECT_EQ(at(8.5, 8.9, 0.01), CutPlace::air);
+  EXPECT_EQ(at(8.5, 8.9, 0.5), CutPlace::cut) << "a light cut";
+  EXPECT_EQ(place_of({}, {.start_s = 1.0, .end_s = 2.0}, 0.2), CutPlace::cut);
 }
 
 }  // namespace

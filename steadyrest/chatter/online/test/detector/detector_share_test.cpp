@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/chatter/online/free_share.hpp>
-#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/lines/line_spectrum.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
 // Bounds of the constants of free_share.cpp and line_spectrum.cpp: README, "What the constants do".

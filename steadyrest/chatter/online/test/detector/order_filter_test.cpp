@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/lines/line_spectrum.hpp>
 #include <steadyrest/chatter/online/orders/order_filter.hpp>
 #include <steadyrest/chatter/online/revolution_spread.hpp>
 #include <steadyrest/kernel/units/constants.hpp>

@@ -78,12 +78,11 @@ TEST(OrderGate, AFoldIsForcedWhereTheSensorHasNoFilter) {
   }
 }
 
-// Orders beyond the 64th are asked for where the teeth make them, and all of them where the sensor
-// clips.
-TEST(OrderGate, HighOrdersAreThoseOfTheTeeth) {
+// A mode of the sensor shows the 67th and the 68th order; 3375 Hz lies between them.
+TEST(OrderGate, HighOrdersAreForcedToo) {
   EXPECT_TRUE(after(3400.0, 0.3, {}).forced);
-  EXPECT_FALSE(after(3350.0, 0.3, {}).forced);
-  EXPECT_TRUE(after(3350.0, 0.3, {.clipped = true}).forced);
+  EXPECT_TRUE(after(3350.0, 0.3, {}).forced);
+  EXPECT_FALSE(after(3375.0, 0.3, {}).forced);
 }
 
 TEST(OrderGate, ALineThatBecomesAnotherIsFollowedAnew) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <steadyrest/chatter/online/orders/line_choice.hpp>
+#include <algorithm>
+
+#include <steadyrest/chatter/online/lines/line_choice.hpp>
 
 namespace steadyrest::chatter::online {
 namespace {
@@ -30,6 +32,7 @@ const LineChoice::Output& LineChoice::look(const LineSpectrum::Output& lines,
             .line_energy = energy,
             .order_energy = others,
             .noise_energy = lines.noise_energy,
+            .alone = line.energy / std::max(lines.line_energy, 1e-300),
             .order = order};
   };
   const bool is_beside = lines.beside.frequency_hz > 0.0 && !beside.forced &&

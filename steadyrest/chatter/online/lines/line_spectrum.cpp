@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/lines/line_spectrum.hpp>
 #include <steadyrest/chatter/online/orders/detector_refusal.hpp>
 #include <steadyrest/kernel/units/constants.hpp>
 
@@ -21,6 +21,7 @@ constexpr double kClip = 3.0;  // bins above are not noise; of white noise e⁻�
 // White noise's bins are exponential. Clipping at c = 3 times the mean leaves the mean
 // 1 − c·e⁻ᶜ/(1 − e⁻ᶜ): 0.843, 0.781, 0.751, 0.735 after kNoisePasses, of which this is the inverse.
 constexpr double kClipBias = 1.36;
+constexpr double kHeard = 0.45;        // of the rate, as far as the OrderFilter knows the orders
 constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
 constexpr double kBesideBins = 1.5;    // an order's line has 3 % of its peak there
 
@@ -53,6 +54,7 @@ LineSpectrum::LineSpectrum(const Config& config, std::size_t n)
       bin_hz_(config.sample_rate_hz / static_cast<double>(n)),
       first_bin_(std::max<std::size_t>(
           2, static_cast<std::size_t>(std::ceil(config.lowest_hz / bin_hz_)))),
+      end_bin_(static_cast<std::size_t>(kHeard * static_cast<double>(n))),
       ring_(2 * n),
       window_(n),
       reversed_(n),
@@ -168,7 +170,7 @@ void LineSpectrum::power(const Orders& orders) noexcept {
   const auto n = static_cast<double>(n_);
   // Energy of a real line over both of its bins, without the window's own energy.
   const double scale = 2.0 / (kHannEnergy * n * n);
-  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  const std::size_t end = std::min(end_bin_, at_ + kCopy);
   for (; at_ < end; ++at_) {
     const double hz = static_cast<double>(at_) * bin_hz_;
     const double off_hz = orders.guard_hz > 0.0 ? from_multiple(hz, orders.spacing_hz) : hz;
@@ -202,7 +204,7 @@ void LineSpectrum::power(const Orders& orders) noexcept {
       peak_ = p > power_[peak_] ? at_ : peak_;
     }
   }
-  if (at_ == n_ / 2) {
+  if (at_ == end_bin_) {
     step_ = Step::noise;
     level_ = looked_at_ > 0 ? sum_ / static_cast<double>(looked_at_) : 0.0;
     pass_ = 0;
@@ -213,7 +215,7 @@ void LineSpectrum::power(const Orders& orders) noexcept {
 }
 
 void LineSpectrum::noise() noexcept {
-  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  const std::size_t end = std::min(end_bin_, at_ + kCopy);
   for (; at_ < end; ++at_) {
     const double p = power_[at_];
     // Noise power is exponential over the bins. Clipped at three times the level, its mean of 1
@@ -223,7 +225,7 @@ void LineSpectrum::noise() noexcept {
       ++count_;
     }
   }
-  if (at_ < n_ / 2) {
+  if (at_ < end_bin_) {
     return;
   }
   level_ = count_ > 0 ? sum_ / static_cast<double>(count_) : level_;
@@ -239,11 +241,11 @@ void LineSpectrum::noise() noexcept {
 }
 
 void LineSpectrum::lines() noexcept {
-  const std::size_t end = std::min(n_ / 2, at_ + kCopy);
+  const std::size_t end = std::min(end_bin_, at_ + kCopy);
   for (; at_ < end; ++at_) {
     sum_ += power_[at_] > kPart * level_ ? power_[at_] - level_ : 0.0;
   }
-  if (at_ == n_ / 2) {
+  if (at_ == end_bin_) {
     finish();
   }
 }
@@ -253,7 +255,7 @@ LineSpectrum::Line LineSpectrum::line_at(std::size_t peak) const noexcept {
   // δ); solved, δ = (2r − 1)/(r + 1) (Grandke 1983).
   const double here = std::abs(power_[peak]);
   const double left = std::abs(power_[std::max(peak, first_bin_ + 1) - 1]);
-  const double right = std::abs(power_[std::min(peak + 1, n_ / 2 - 1)]);
+  const double right = std::abs(power_[std::min(peak + 1, end_bin_ - 1)]);
   const double ratio = here > 0.0 ? std::min(1.0, std::sqrt(std::max(left, right) / here)) : 0.5;
   // Of a line between two bins under a Hann window: exact for a single line.
   const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
@@ -271,7 +273,7 @@ void LineSpectrum::finish() noexcept {
   out_.beside = beside_ > 0 ? line_at(beside_) : Line{};
   out_.guarded = guarded_ > 0 ? line_at(guarded_) : Line{};
   out_.line_energy = sum_;
-  out_.noise_energy = level_ * static_cast<double>(looked_at_);
+  out_.noise_energy = level_ * static_cast<double>(looked_at_) * (0.5 / kHeard);
   out_.advance_s = static_cast<double>(passed_) / config_.sample_rate_hz;
   known_ = true;
   out_.fresh = true;

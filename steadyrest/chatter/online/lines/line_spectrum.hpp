@@ -18,6 +18,8 @@ namespace steadyrest::chatter::online {
 /// δ = (2r − 1)/(r + 1), r the amplitude ratio of the stronger neighbour to the peak (Grandke
 /// 1983).
 ///
+/// Lines above 0.45·fs are not looked for.
+///
 /// Accuracy: two lines are told apart from 4·fs/n on (39 Hz at 10 kHz); a single line's frequency
 /// is within 0.02·fs/n without noise. The answer is up to n/8 + 12·log2(n) samples old, the
 /// window's middle n/2 more. No sample costs more than kQuota butterflies or kCopy bins.
@@ -80,6 +82,7 @@ class LineSpectrum {
   std::size_t n_;
   double bin_hz_;
   std::size_t first_bin_;
+  std::size_t end_bin_;
   std::vector<double> ring_;  ///< 2n, so that copying is not overtaken by new samples
   std::vector<double> window_;
   std::vector<std::uint32_t> reversed_;

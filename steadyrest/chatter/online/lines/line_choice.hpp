@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <steadyrest/chatter/online/line_spectrum.hpp>
+#include <steadyrest/chatter/online/lines/line_spectrum.hpp>
 #include <steadyrest/chatter/online/orders/order_gate.hpp>
 
 namespace steadyrest::chatter::online {
@@ -19,6 +19,7 @@ class LineChoice {
     double line_energy = 0.0;   ///< of all lines that can be chatter, unit²
     double order_energy = 0.0;  ///< of the other lines
     double noise_energy = 0.0;
+    double alone = 0.0;       ///< the line's part of the energy of all lines
     OrderGate::Output order;  ///< the order nearest to the line
   };
 
