@@ -61,8 +61,8 @@ constexpr double kRingPeriods = 30.0;  // at a damping of 3 % nothing is left
 constexpr double kLowHz = 300.0;
 constexpr double kFoldsRev = 20.0;  // until the folds that a cut has are learnt
 constexpr double kOutweighs = 0.9;  // of the energy
-constexpr double kLoud = 0.3;
-constexpr double kAlone = 0.5;  // at a wrong speed all orders are lines
+constexpr double kLoud = 0.3;       // of the energy: lines that may be orders at a wrong speed
+constexpr double kAlone = 0.5;      // at a wrong speed all orders are lines
 constexpr double kLastsS = 0.3;
 constexpr double kProvedS = 0.2;  // a line that its phase has shown to be no order for so long
 
@@ -197,14 +197,14 @@ void Detector::follow_energy(const OrderFilter::Output& forced, double moving,
 /// Period doubling that runout cannot give: what is at half tooth orders has grown beyond all that
 /// this cut has shown, while the teeth's own orders have stayed as they were. A fold that lies
 /// there too beats with it.
-bool Detector::doubles(double line_energy) const noexcept {
+bool Detector::doubles() const noexcept {
   const auto teeth = static_cast<double>(config_.teeth);
   const bool half = std::fmod(2.0 * out_.line.order, teeth) == 0.0 &&
                     std::fmod(out_.line.order, teeth) != 0.0 && !out_.line.folded &&
                     out_.line.orders == 1;
   const double changed = state_.tooth_energy / std::max(state_.slow_energy, 1e-300);
   return half && levels_.judged_s() > config_.learn_s &&
-         line_energy > config_.margin * levels_.all_energy() &&
+         line_.line_energy > config_.margin * levels_.all_energy() &&
          out_.energy_ratio > config_.sure_ratio && changed > 1.0 / kSameTeeth &&
          changed < kSameTeeth;
 }
@@ -265,15 +265,15 @@ void Detector::judge(const FreeShare::Output& share) noexcept {
                                          kRingPeriods * config_.sample_rate_hz;
   const bool strong = cuts && settled && rung && lines.peak_ratio > config_.line_ratio;
   // Vibration at an order of the spindle is forced, whatever its course.
-  state_.forced = steady && out_.line.forced && !doubles(lines.line_energy) && !outweighs();
-  const bool line = strong && !state_.forced && (!steady || lasts(lines) || state_.evidence > 0.0);
+  state_.forced = steady && out_.line.forced && !doubles() && !outweighs();
+  const bool line = strong && !state_.forced && (!steady || lasts() || state_.evidence > 0.0);
   // A cumulative sum with a floor at 0 (Page 1954): many weak signs in a row decide like a few
   // strong ones, and a single spectrum, which gives at most 0.2, never does.
   const double over =
       strong ? std::clamp(out_.free_ratio - free_bound(), -kEvidenceFall, kEvidenceStep)
              : -kEvidenceFall;
   state_.evidence = std::clamp(state_.evidence + over, 0.0, enough());
-  const bool suspect = line && (over > 0.0 || (steady && suspect_steady(lines, share)));
+  const bool suspect = line && (over > 0.0 || (steady && suspect_steady(share)));
   // Hopf chatter is not a spindle order: once it is reported, runout may be learnt again; otherwise
   // what was learnt at its beginning would stay forever. For the same reason flip is held only for
   // a while.
@@ -294,7 +294,7 @@ void Detector::judge(const FreeShare::Output& share) noexcept {
                             : out_.free_ratio < kFreeOff * config_.free_ratio;
   state_.quiet = below || !line ? state_.quiet + 1 : 0;
   decide(steady);
-  name(lines, line, cuts);
+  name(line, cuts);
 }
 
 void Detector::decide(bool steady) noexcept {
@@ -310,13 +310,13 @@ void Detector::decide(bool steady) noexcept {
   }
 }
 
-void Detector::name(const LineChoice::Output& lines, bool line, bool cuts) noexcept {
+void Detector::name(bool line, bool cuts) noexcept {
   if (out_.chatter && line) {
-    out_.frequency_hz = lines.frequency_hz;
-    out_.kind = kind_of(lines.frequency_hz);
+    out_.frequency_hz = line_.frequency_hz;
+    out_.kind = kind_of(line_.frequency_hz);
   } else if (!out_.chatter) {
-    out_.frequency_hz = line ? lines.frequency_hz : 0.0;
-    out_.kind = cuts && state_.forced_energy > lines.noise_energy ? Kind::forced : Kind::none;
+    out_.frequency_hz = line ? line_.frequency_hz : 0.0;
+    out_.kind = cuts && state_.forced_energy > line_.noise_energy ? Kind::forced : Kind::none;
   }
   state_.reason = out_.chatter ? Reason::chatter_detected
                   : !cuts      ? Reason::not_cutting
@@ -325,15 +325,14 @@ void Detector::name(const LineChoice::Output& lines, bool line, bool cuts) noexc
 }
 
 /// The line is still in the last revolution, and the second check does not contradict it.
-bool Detector::lasts(const LineChoice::Output& lines) const noexcept {
-  return state_.residual_energy > kLasting * lines.line_energy &&
-         witnessed(lines.line_energy, lines.frequency_hz / state_.mean_speed_rev_s);
+bool Detector::lasts() const noexcept {
+  return state_.residual_energy > kLasting * line_.line_energy &&
+         witnessed(line_.line_energy, line_.frequency_hz / state_.mean_speed_rev_s);
 }
 
-bool Detector::suspect_steady(const LineChoice::Output& lines,
-                              const FreeShare::Output& share) const noexcept {
+bool Detector::suspect_steady(const FreeShare::Output& share) const noexcept {
   const bool grown = levels_.judged_s() > config_.learn_s &&
-                     lines.line_energy > config_.margin * levels_.line_energy();
+                     line_.line_energy > config_.margin * levels_.line_energy();
   return (out_.energy_ratio > config_.sure_ratio ||
           (out_.energy_ratio > config_.on_ratio && grown)) &&
          (!share.known || out_.free_ratio > kFreeSteady || out_.line.followed_s > kProvedS);

@@ -39,17 +39,17 @@ namespace steadyrest::chatter::online {
 ///   order and energy gives; a line whose phase has shown for 0.2 s that it is not an order does
 ///   not need F.
 /// Vibration at an order of the spindle is forced: at constant speed the line that LineChoice
-/// judges is not chatter where OrderGate does not tell it from an order, or the fold of one; with
-/// two exceptions. A line that alone has nine tenths of the energy, and is an order of runout only
-/// by the uncertainty of the speed, is no order. Period doubling, at half tooth orders, is claimed
-/// where the line stands `margin` times above all that the cut has shown and R above `sure_ratio`,
-/// while the energy of the tooth orders is what it was lately (within a factor of 1.3): runout
-/// grows with the engagement, and so do they. The speed is that of SpindleTrack where it is not
-/// exact (`speed_sd`). Chatter is over once R (while the speed moves, F) has been below `off_ratio`
-/// (half of `free_ratio`) for a whole window. For `settle_rev` revolutions after a jump of the
-/// signal's energy (the tool enters; from air, a jump of seven times the spread of the noise energy
-/// counts, so that noise as loud as the cut does not hide it) nothing is judged, and below 300 Hz
-/// for 30 periods of the line: what the entry has struck rings.
+/// judges is not chatter where OrderGate cannot tell it from an order, or from the fold of one.
+/// There are two exceptions. A line that alone has nine tenths of the energy, and could be an order
+/// of runout only because the speed is uncertain, does not count as that order. Period doubling, at
+/// half tooth orders, is claimed where the line is `margin` times as strong as all that the cut has
+/// shown and R is above `sure_ratio`, while the energy of the tooth orders is what it was lately
+/// (within a factor of 1.3): runout grows with the engagement, and so do they. The speed is that of
+/// SpindleTrack where it is not exact (`speed_sd`). Chatter is over once R (while the speed moves,
+/// F) has been below `off_ratio` (half of `free_ratio`) for a whole window. For `settle_rev`
+/// revolutions after a jump of the signal's energy (the tool enters; from air, a jump of seven
+/// times the spread of the noise energy counts, so that noise as loud as the cut does not hide it)
+/// nothing is judged, and below 300 Hz for 30 periods of the line: what the entry has struck rings.
 ///
 /// The frequency is that of the residual's strongest line; see LineSpectrum for its accuracy. Flip:
 /// within a line's width of a half-odd tooth order; lines there are learnt as forced only in
@@ -164,14 +164,13 @@ class Detector {
   void follow_energy(const OrderFilter::Output& forced, double moving, double turn_share) noexcept;
   void judge(const FreeShare::Output& share) noexcept;
   void decide(bool steady) noexcept;
-  void name(const LineChoice::Output& lines, bool line, bool cuts) noexcept;
-  [[nodiscard]] bool lasts(const LineChoice::Output& lines) const noexcept;
-  [[nodiscard]] bool suspect_steady(const LineChoice::Output& lines,
-                                    const FreeShare::Output& share) const noexcept;
+  void name(bool line, bool cuts) noexcept;
+  [[nodiscard]] bool lasts() const noexcept;
+  [[nodiscard]] bool suspect_steady(const FreeShare::Output& share) const noexcept;
   [[nodiscard]] double free_bound() const noexcept;
   [[nodiscard]] bool later() const noexcept;
   [[nodiscard]] double enough() const noexcept;
-  [[nodiscard]] bool doubles(double line_energy) const noexcept;
+  [[nodiscard]] bool doubles() const noexcept;
   [[nodiscard]] bool outweighs() const noexcept;
   [[nodiscard]] bool witnessed(double line_energy, double order) const noexcept;
   [[nodiscard]] Kind kind_of(double frequency_hz) const noexcept;

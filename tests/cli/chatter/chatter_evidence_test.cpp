@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "examples.hpp"
@@ -145,6 +146,24 @@ TEST(ChatterEvidence, NamesEntryAndExitAndWhatTheyExplain) {
   const Finished refused = run_line(line + " --edge-revolutions -1");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("allowed: 0 … 1000"));
+}
+
+// The first channel alone shows the cut; the second has noise.
+TEST(ChatterEvidence, ACutIsNamedByTheChannelThatShowsIt) {
+  const Scratch scratch;
+  std::mt19937_64 rng(3);
+  std::normal_distribution<double> noise(0.0, 0.05);
+  std::string both = "Time (s),Accel X (m/s^2),Accel Y (m/s^2),Temp (C)\n";
+  std::istringstream lines(rows({}));
+  for (std::string line; std::getline(lines, line);) {
+    both += fmt::format("{},{:.4f},21.5\n", line, noise(rng));
+  }
+  const json answer = answer_of("chatter detect " + scratch.file("both.csv", both) + kOnVmc +
+                                " --teeth 4 --speed-rpm 2982");
+  ASSERT_EQ(answer["cuts"].size(), 1U);
+  EXPECT_NEAR(answer["cuts"][0]["start_s"], kCutFrom_s, 0.06);
+  EXPECT_EQ(answer["channels"].size(), 2U);
+  EXPECT_THAT(answer["notes"].dump(), HasSubstr("Temp (C) is not vibration"));
 }
 
 // The second tool chatters at another speed, with three teeth.

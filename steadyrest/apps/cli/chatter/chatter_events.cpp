@@ -99,16 +99,6 @@ class FoundSpeed {
 
 }  // namespace
 
-namespace {
-
-/// A sensor's constant part: its first step would sound like an entry.
-double offset_of(const std::vector<double>& value) {
-  const auto first = std::ranges::find_if(value, [](double v) { return std::isfinite(v); });
-  return first == value.end() ? 0.0 : *first;
-}
-
-}  // namespace
-
 HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
                           chatter::online::Detector& detector, Progress& progress) {
   // Samples between two updates of the bar: a few seconds of signal, microseconds of bookkeeping.
@@ -119,14 +109,12 @@ HeardChannel hear_channel(chatter::offline::RecordedSignal& signal,
   std::optional<Stretch> open;
   double t_s = signal.start_s;
   double told_rev_s = 0.0;
-  const double offset = offset_of(signal.value);
   for (std::size_t i = 0; i < samples; ++i) {
     t_s = signal.start_s + static_cast<double>(i) / signal.rate_hz;
     told_rev_s = std::isfinite(signal.speed_rev_s[i]) ? signal.speed_rev_s[i] : told_rev_s;
     // The detector judges one spectrum per hop of samples. Only `fresh` outputs are new readings;
     // the samples between them repeat the last verdict and must not be counted again.
-    const auto& heard =
-        detector.update({.value = signal.value[i] - offset, .speed_rev_s = told_rev_s});
+    const auto& heard = detector.update({.value = signal.value[i], .speed_rev_s = told_rev_s});
     if (heard.fresh) {
       found.add(heard, told_rev_s);
       out.levels.push_back(

@@ -175,6 +175,14 @@ void say_band(const RecordedSignal& signal, Heard& out) {
   }
 }
 
+void scale_speed(RecordedChannels& channels, std::size_t begin, std::size_t end, double ratio) {
+  for (RecordedSignal& signal : channels) {
+    for (std::size_t i = begin; i < end; ++i) {
+      signal.speed_rev_s[i] *= ratio;
+    }
+  }
+}
+
 /// The same part by part: several tools or speeds in one file. False: all parts are as stated.
 bool check_parts(RecordedChannels& channels, std::size_t teeth, Heard& out) {
   const RecordedSignal& first = channels.front();
@@ -193,17 +201,13 @@ bool check_parts(RecordedChannels& channels, std::size_t teeth, Heard& out) {
     if (other.speed_rev_s > 0.0) {
       what += fmt::format(" the lines fit a spindle at {:.0f} rpm, not {:.0f} rpm",
                           rpm_from_rev_s(other.speed_rev_s), rpm_from_rev_s(other.told_rev_s));
+      scale_speed(channels, other.begin, other.end, other.speed_rev_s / other.told_rev_s);
     }
     if (other.other_teeth > 0) {
       what += fmt::format("{} the strong orders are multiples of {}, not of {}",
                           other.speed_rev_s > 0.0 ? ", and" : "", other.other_teeth, teeth);
     }
     out.sensor.push_back(what + ": another tool or speed than stated; judged by its lines");
-    for (RecordedSignal& signal : channels) {
-      for (std::size_t i = other.begin; i < other.end && other.speed_rev_s > 0.0; ++i) {
-        signal.speed_rev_s[i] *= other.speed_rev_s / other.told_rev_s;
-      }
-    }
   }
   return true;
 }
@@ -223,11 +227,7 @@ bool check_orders_of(RecordedChannels& channels, std::size_t teeth, Heard& out) 
         "({:.0f} %): the stated speed or sampling rate is wrong; judged at the speed of the lines",
         rpm_from_rev_s(found.speed_rev_s), 100.0 * found.found_share, rpm_from_rev_s(told_rev_s),
         100.0 * std::max(0.0, found.told_share)));
-    for (RecordedSignal& signal : channels) {
-      for (double& speed : signal.speed_rev_s) {
-        speed *= found.speed_rev_s / told_rev_s;
-      }
-    }
+    scale_speed(channels, 0, first.value.size(), found.speed_rev_s / told_rev_s);
   }
   if (found.other_teeth > 0) {
     out.sensor.push_back(
@@ -334,7 +334,9 @@ Result<Heard> hear(RecordedChannels& channels, std::size_t teeth, double edge_re
     if (!parts && &signal == &channels.front()) {
       say_speed(heard, orders_known, out);
     }
-    out.cuts = out.cuts.empty() ? std::move(cuts) : std::move(out.cuts);
+    if (out.cuts.empty()) {
+      out.cuts = std::move(cuts);
+    }
     std::ranges::move(heard.events, std::back_inserter(out.events));
   }
   out.events = as_one(std::move(out.events));

@@ -341,8 +341,8 @@ void add_verb_chatter_detect(Session& session, Verb& verb) {
       ->excludes(teeth);
   verb.also_reads([options] { return chatter::offline::response_files(options->process); });
   verb.add_option("--rate-hz", options->rate_hz,
-                  "Samples per second, for a CSV without a column of times; its header may be "
-                  "missing too")
+                  "Samples per second, for a CSV without a column of times, or with uneven ones; "
+                  "its header may be missing too")
       ->excludes(verb.get_option("--sample-hz"));
   verb.add_option("--channel", options->channel,
                   "Judge this channel alone, by its number from 1 or its name; default: all");

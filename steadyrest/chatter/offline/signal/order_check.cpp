@@ -169,7 +169,7 @@ double constant_speed(std::span<const double> told_rev_s) {
     least = std::isfinite(speed) ? std::min(least, speed) : least;
     most = std::isfinite(speed) ? std::max(most, speed) : most;
   }
-  return most - least <= kConstant * most ? 0.5 * (least + most) : 0.0;
+  return most > 0.0 && most - least <= kConstant * most ? 0.5 * (least + most) : 0.0;
 }
 
 OrderFindings check_orders(std::span<const double> value, double rate_hz, double told_rev_s,

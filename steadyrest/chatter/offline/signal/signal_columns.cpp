@@ -118,7 +118,7 @@ class PartFinder {
   std::optional<SignalFault> find_signals() {
     const auto value = head_.place("value");
     std::vector<std::string> unread;
-    std::vector<std::string> slow;
+    std::vector<std::size_t> slow;
     for (std::size_t i = 0; i < out_.name.size(); ++i) {
       if (is_time(i) || out_.speed == i || head_.written[i].empty() || numbers_rows(out_.name[i])) {
         continue;
@@ -126,7 +126,7 @@ class PartFinder {
       if (value && *value != i) {
         unread.push_back(shown_name(head_.written[i]));
       } else if (is_slow_quantity(out_.name[i])) {
-        slow.push_back(shown_name(head_.written[i]));
+        slow.push_back(i);
       } else {
         out_.signal.push_back(i);
       }
@@ -134,8 +134,13 @@ class PartFinder {
     if (!unread.empty()) {
       out_.notes.push_back(fmt::format("value alone is judged, not {}", fmt::join(unread, ", ")));
     }
-    if (!slow.empty()) {
-      out_.notes.push_back(fmt::format("not vibration, not judged: {}", fmt::join(slow, ", ")));
+    // The only column is judged, whatever it is: a drive's load may have been recorded on purpose.
+    if (out_.signal.empty()) {
+      std::swap(out_.signal, slow);
+    }
+    for (const std::size_t i : slow) {
+      out_.notes.push_back(
+          fmt::format("{} is not vibration: not judged", shown_name(head_.written[i])));
     }
     if (out_.signal.empty()) {
       return SignalFault{0, fmt::format("the column value is missing in {}", written_names()),

@@ -46,7 +46,7 @@ struct SpeedName {
 /// Whether two names are the same but for capitals, `_` and blanks.
 [[nodiscard]] bool same_name(std::string_view a, std::string_view b);
 
-/// Whether a column is no vibration, sound or power: a temperature, a load in percent, a pressure.
+/// Whether a column is a temperature, a load in percent or a pressure: not a vibration.
 [[nodiscard]] bool is_slow_quantity(const ColumnName& column);
 
 /// Whether a column numbers the rows: `Sample`, `No.`, `index`.

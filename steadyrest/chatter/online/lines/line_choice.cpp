@@ -6,8 +6,8 @@
 namespace steadyrest::chatter::online {
 namespace {
 
-constexpr double kLeastBeside = 0.1;
-constexpr double kLeastGuarded = 2.0;
+constexpr double kLeastBeside = 0.1;   // of all lines' energy
+constexpr double kLeastGuarded = 2.0;  // the same
 constexpr double kShownGuarded_s = 0.15;
 
 }  // namespace

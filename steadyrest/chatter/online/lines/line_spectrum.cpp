@@ -25,7 +25,7 @@ constexpr double kHeard = 0.45;        // of the rate, as far as the OrderFilter
 constexpr double kHannEnergy = 0.375;  // mean of the squared window, sin⁴
 constexpr double kBesideBins = 1.5;    // an order's line has 3 % of its peak there
 
-/// 0 where there is no spacing.
+/// Distance to the nearest multiple; 0 without a spacing.
 double from_multiple(double hz, double spacing_hz) {
   return spacing_hz > 0.0 ? std::abs(hz - spacing_hz * std::round(hz / spacing_hz)) : 0.0;
 }

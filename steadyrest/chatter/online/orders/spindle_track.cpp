@@ -36,6 +36,7 @@ constexpr double kLag = 0.3;  // of a block, of what the blocks find again and a
 constexpr double kRestlessBlocks = 8.0;
 constexpr double kMostRestless = 1e4;
 constexpr std::size_t kFewToAgree = 3;
+constexpr std::size_t kMajority = 2;  // must agree for each that is left out
 constexpr unsigned kFewStrays = 3;
 constexpr double kLeastVariance = 1e-12;
 
@@ -127,6 +128,7 @@ void SpindleTrack::update(OrderFilter& filter, double angle_rev, double speed_re
 void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
                           double noise_energy) noexcept {
   turned_.clear();
+  left_out_ = 0;
   const double prior = kPriorSigmas * sd() * kTurn * block_rev_;
   double below = 1.0 / (prior * prior);
   double above = 0.0;
@@ -150,6 +152,7 @@ void SpindleTrack::gather(std::span<const OrderFilter::Order> orders,
     const double stray = turned - expected;
     if (stray * stray > kSigmas2 * (k * k / below + noise + kRestless * kRestless)) {
       strange_[i] += kForget * (stray * stray - strange_[i]);
+      ++left_out_;
       continue;
     }
     const double v = noise + std::max(kRestless * kRestless, strange_[i]);
@@ -180,7 +183,7 @@ double SpindleTrack::median() noexcept {
 SpindleTrack::Fit SpindleTrack::fit(std::span<const OrderFilter::Order> orders,
                                     double noise_energy) noexcept {
   gather(orders, noise_energy);
-  if (turned_.size() < kFewToAgree) {
+  if (turned_.size() < std::max(kFewToAgree, kMajority * left_out_)) {
     for (const Turned& t : turned_) {
       strange_[t.at] += kForget * (t.turned * t.turned - strange_[t.at]);
     }

@@ -14,12 +14,13 @@ namespace steadyrest::chatter::online {
 ///
 /// Law. The told speed is wrong by a factor 1 + ε, |ε| ≤ kMost. Over a block of B whole
 /// revolutions, as integrated, order k has the phasor Yₖ; from block to block it turns by
-/// aₖ = 2π·k·B·ε. The orders that stand clear of the noise and are not folded vote,
+/// aₖ = 2π·k·B·ε. Every order that is well above the noise and is not folded votes,
 ///   ε̂ = Σ wₖ·k·aₖ / (2π·B·Σ wₖ·k²),  wₖ = h/vₖ,  vₖ = 1/SNRₖ + what the order has strayed by
 ///   lately,
 /// from the lowest up, each unwrapped by what those below it say, as far as that leaves its turn
 /// known, and left out where it strays from them by three standard deviations: the lines of chatter
-/// beside the tooth orders turn them all by one angle. Three orders at least must vote. The noise
+/// beside the tooth orders turn them all by one angle. Three orders at least must vote, and twice
+/// as many as are left out. The noise
 /// is the residual; from kSettledRev revolutions after the tool's entry on, what the tooth orders
 /// leave of it over a block (at a wrong speed they are nearly all of it). h is Huber's weight about
 /// the median of aₖ/k that k/√vₖ weights. A Kalman filter with one state follows: ε is a random
@@ -78,6 +79,7 @@ class SpindleTrack {
   std::vector<Complex> before_;    ///< Yₖ of the block before
   std::vector<Complex> now_;
   std::vector<Turned> turned_;
+  std::size_t left_out_ = 0;     ///< strayed too far to be among them
   std::vector<double> strange_;  ///< of each order: mean square by which it strays from the others
   double off_ = 0.0;
   double variance_;

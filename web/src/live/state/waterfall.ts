@@ -5,7 +5,7 @@ import type { Spectrum } from '../api/types';
 
 export const COLUMNS = 225;
 export const COLUMN_S = 0.2;
-/** A row stands for the time up to it, as far back as this; a longer silence is a gap. */
+/** A row covers this much time before it; a longer pause is shown as a gap. */
 const HOLD_S = 0.5;
 
 export interface Heard {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -99,6 +101,19 @@ TEST(OrderCheck, NamesTheSecondToolOfAFile) {
   EXPECT_EQ(three[0].speed_rev_s, 0.0);
   EXPECT_EQ(three[0].begin, 0U);
   EXPECT_TRUE(other_cuts(second, told, kRateHz, 4).empty());
+}
+
+// A spindle that runs up, and two speeds, as the column says: nothing is wrong.
+TEST(OrderCheck, AsksOnlyWhereTheStatedSpeedIsConstant) {
+  std::vector<double> told(static_cast<std::size_t>(6.0 * kRateHz), 53.0);
+  EXPECT_EQ(constant_speed(told), 53.0);
+  for (std::size_t i = 0; i < told.size() / 3; ++i) {
+    told[i] = 53.0 * 3.0 * static_cast<double>(i) / static_cast<double>(told.size());
+  }
+  EXPECT_EQ(constant_speed(told), 0.0);
+  EXPECT_TRUE(other_cuts(cut(4, 0.3), told, kRateHz, 4).empty());
+  std::ranges::fill(told, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(constant_speed(told), 0.0);
 }
 
 // A cut that only chatters, air, and less than a window say nothing.

@@ -67,6 +67,23 @@ TEST(SignalSpelling, EveryColumnOfNumbersIsAChannelWithItsNameAndUnit) {
   EXPECT_THAT(all_notes(two), HasSubstr("column State has words"));
 }
 
+TEST(SignalSpelling, TemperaturesAreLeftOutUnlessTheyAreAllThereIs) {
+  const auto one = read("Time (s),Accel (g),Temp (C),Spindle load (%)\n0,1,20,5\n0.001,2,20,6\n");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].name, "Accel");
+  EXPECT_THAT(all_notes(one), HasSubstr("Temp (C) is not vibration: not judged"));
+  EXPECT_EQ(read("Time (s),Spindle load (%)\n0,5\n0.001,6\n")[0].name, "Spindle load");
+}
+
+TEST(SignalSpelling, AGivenRateReplacesTimesThatAreNotEven) {
+  const std::string jitters = "Time (s),Mic (V)\n0,1\n0.0007,2\n0.0007,3\n";
+  EXPECT_THAT(refusal(jitters), HasSubstr("even steps"));
+  const auto rate = read(jitters, rated(2000.0));
+  EXPECT_EQ(rate[0].rate_hz, 2000.0);
+  EXPECT_THAT(rate[0].value, ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_THAT(all_notes(rate), HasSubstr("is not even: replaced by 2000 samples a second"));
+}
+
 TEST(SignalSpelling, AColumnNamedValueIsTheOnlySignal) {
   const auto one = read("t_s,value,mic\n0,1,5\n0.001,2,6\n");
   ASSERT_EQ(one.size(), 1U);
