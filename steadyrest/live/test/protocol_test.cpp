@@ -122,7 +122,7 @@ TEST_F(Protocol, AnswersAnyBytesWithOneObject) {
        {std::string("\xff\xfe{\"version\":1}"), std::string(4000, '['),
         std::string("{\"version\":"),
         std::string(R"({"version":1,"ask":")") + std::string(3000, 'x') + "\"}",
-        std::string("{\"version\":1,\"ask\":\"\\ud800\"}")}) {
+        std::string(R"({"version":1,"ask":"\ud800"})")}) {
     const std::string text = answer({.loop = loop, .port = "sim"}, line);
     EXPECT_TRUE(Json::parse(text).contains("error")) << line.substr(0, 30);
     EXPECT_LT(text.size(), 400U);

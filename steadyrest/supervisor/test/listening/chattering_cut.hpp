@@ -57,7 +57,8 @@ class ChatteringCut {
     samples_.clear();
     const double ratio = frame_.spindle.effective_ratio;
     const bool loud = frame_.time_s > 0.6 && ratio > 0.95;
-    for (int i = 0; i < static_cast<int>(kCycle_s * kRate_hz + 0.5); ++i) {
+    const auto count = static_cast<int>(std::lround(kCycle_s * kRate_hz));
+    for (int i = 0; i < count; ++i) {
       angle_rev_ += ratio * kSpeed_rev_s / kRate_hz;
       time_s_ += 1.0 / kRate_hz;
       samples_.push_back(std::sin(2.0 * std::numbers::pi * 2.0 * angle_rev_) +

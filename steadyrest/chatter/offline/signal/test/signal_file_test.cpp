@@ -29,7 +29,9 @@ struct Wav {
   std::uint32_t channels = 1;
   std::uint32_t rate_hz = 8000;
   std::uint32_t bits = 16;
-  std::string extra = "";  ///< chunks before the data
+  // Lets designated initialisers leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
+  std::string extra{};  ///< chunks before the data
 };
 
 std::string wav(const Wav& how, const std::vector<std::uint32_t>& words) {

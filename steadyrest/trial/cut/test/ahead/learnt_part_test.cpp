@@ -76,7 +76,7 @@ Part cut_part(const std::string& file, const std::string& original, const Machin
 /// Cuts one part after another, each learnt from the one before.
 class Series {
  public:
-  Series(std::string program, Machine machine, Machine believed)
+  Series(const std::string& program, Machine machine, Machine believed)
       : program_(kExamples + "programs/" + program),
         machine_(std::move(machine)),
         believed_(std::move(believed)) {}
