@@ -4,12 +4,30 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace steadyrest::kernel::machine {
+
+/// What a word does that the machine builder has defined: a line of `[program.words]`.
+struct BuildersWord {
+  enum class Does : std::uint8_t {
+    nothing,  ///< no axis moves, and the program goes on
+    stop,     ///< the axes come to rest first
+    dwell,    ///< and stand for `dwell_s`
+    moves,    ///< it moves `axes`; where they end is not known
+    opaque    ///< anything
+  };
+  std::string word;  ///< as programs have it, in capitals: M50, G187, L_TIME
+  Does does = Does::opaque;
+  double dwell_s = 0.0;
+  std::string axes;  ///< their letters
+
+  friend bool operator==(const BuildersWord&, const BuildersWord&) = default;
+};
 
 /// What the control's own configuration makes of a program: what a program's text does not say.
 struct Program {
@@ -30,6 +48,7 @@ struct Program {
   double arc_tolerance_mm = 0.0;                ///< linuxcnc: of an arc's radii in mm; 0 = its own
   double inch_arc_tolerance_mm = 0.0;           ///< linuxcnc: the same while G20 is in force
   std::string subprogram_folders;  ///< folders for calls, in search order, separated by `:`
+  std::vector<BuildersWord> words;
 
   friend bool operator==(const Program&, const Program&) = default;
 };

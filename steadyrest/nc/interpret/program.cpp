@@ -10,6 +10,7 @@
 #include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/program_counter.hpp>
+#include <steadyrest/nc/interpret/program_fence.hpp>
 #include <steadyrest/nc/interpret/program_refusals.hpp>
 #include <steadyrest/nc/interpret/provenance/provenance.hpp>
 #include <steadyrest/nc/read/reader.hpp>
@@ -36,9 +37,17 @@ class ProgramRun::Run {
         flow_(files_, interpreter_->parameters(), reader_, config),
         macro_(interpreter_->state()),
         rules_(rules_of(config.dialect)),
-        provenance_(config, rules_.settable_frames, interpreter_->parameters()),
+        provenance_(config, rules_, interpreter_->parameters()),
         block_delete_(config.block_delete),
-        counter_(sink, report_) {
+        counter_(sink, report_),
+        fence_(config, {.files = files_,
+                        .interpreter = *interpreter_,
+                        .provenance = provenance_,
+                        .counter = counter_,
+                        .lose_values = [this] {
+                          macro_.lose_all();
+                          typed_.lose_all();
+                        }}) {
     switch (rules_.variables) {
       case Variables::parameters:
         reader_.set_values(&interpreter_->parameters());
@@ -69,6 +78,8 @@ class ProgramRun::Run {
     }
     report_.subprograms = files_.subprograms();
     report_.unknown = std::move(provenance_.known().assumed);
+    report_.opaque_blocks = provenance_.stretches().blocks();
+    report_.opaque = provenance_.stretches().take();
     return std::move(report_);
   }
 
@@ -82,6 +93,7 @@ class ProgramRun::Run {
     line_ = files_.now().number();
     interpreter_->at_line(line_);
     provenance_.at_line(line_, flow_.in_doubt(), flow_.repeating());
+    fence_.at_line();
   }
 
   /// False when it is refused.
@@ -97,8 +109,9 @@ class ProgramRun::Run {
     const LineSource& source = files_.now();
     if (!same_as_ahead(source) &&
         !reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
-      return refuse(reader_.refused());
+      return not_understood(reader_.refused());
     }
+    fence_.take_declared(block_);
     if (rules_.programs_in_a_row && !ends_in_order()) {
       return false;
     }
@@ -117,15 +130,16 @@ class ProgramRun::Run {
     }
     executed_ = !(block_.deleted() && block_delete_);
     if (executed_ && block_.acting() > read::Acting::message) {
-      return refuse(acting_comment(block_, provenance_.known().doubt));
+      return not_understood(acting_comment(block_, provenance_.known().doubt));
     }
-    if (!interpreter_->execute(block_, counter_)) {
-      return refuse(interpreter_->refused());
+    if (!interpreter_->execute(block_, counter_) && !fence_.without_functions(block_)) {
+      return not_understood(interpreter_->refused());
     }
     const bool plain = interpreter_->moved_alone() && reader_.numbers_alone();
     if (executed_ && !(plain && provenance_.settled())) {
       provenance_.executed(block_, interpreter_->state());
     }
+    fence_.executed(block_);
     report_.blocks += block_.words().empty() ? 0U : 1U;
     if (rules_.named_calls && interpreter_->finished() && flow_.in_call()) {
       return refuse(at_block(block_, "subprogram_end",
@@ -178,10 +192,10 @@ class ProgramRun::Run {
       return true;
     }
     if (block_.flow().kind == read::FlowKind::call) {
-      return follow(flow_.call_named(block_));
+      return flow_.call_named(block_) ? follow(true) : not_understood(flow_.refused());
     }
     ++report_.blocks;
-    return interpreter_->execute_cycle(block_, counter_) || refuse(interpreter_->refused());
+    return interpreter_->execute_cycle(block_, counter_) || not_understood(interpreter_->refused());
   }
 
   // M99, M17 or RET: back to the caller, or to the head where the call repeats.
@@ -228,6 +242,16 @@ class ProgramRun::Run {
       typed_.leave();
     }
     return accepted || refuse(flow_.refused());
+  }
+
+  /// A block of which nothing has acted opens an opaque stretch, or refuses the program.
+  bool not_understood(const Refused& refused) {
+    if (!fence_.opens(block_, refused)) {
+      return refuse(refused);
+    }
+    executed_ = !(block_.deleted() && block_delete_);
+    report_.blocks += executed_ ? 1U : 0U;
+    return true;
   }
 
   bool refuse(const Refused& refused) {
@@ -313,6 +337,7 @@ class ProgramRun::Run {
   Report report_;
   std::uint64_t moves_before_ = 0;  ///< of the current line
   Counter counter_;
+  ProgramFence fence_;
   Block block_;
   bool source_failed_ = false;
   std::uint32_t line_ = 0;
@@ -364,6 +389,9 @@ bool ProgramRun::in_main() const noexcept {
 }
 const Block& ProgramRun::block() const noexcept {
   return run_->block_;
+}
+bool ProgramRun::at_opaque() const noexcept {
+  return run_->provenance_.at_opaque();
 }
 Doubt ProgramRun::doubt() const noexcept {
   return run_->provenance_.doubt();

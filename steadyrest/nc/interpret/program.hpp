@@ -16,6 +16,7 @@
 #include <steadyrest/nc/interpret/state/assumption.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
+#include <steadyrest/nc/interpret/state/opaque.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
 #include <steadyrest/nc/read/text/line_source.hpp>
@@ -36,6 +37,9 @@ struct Report {
   std::vector<Assumption> assumed;
   /// What the program has read of values that the control decides, and what was taken for them.
   std::vector<Assumed> unknown;
+  /// Blocks that are not understood, where Config::opaque_stretches lets them be; the first 200.
+  std::vector<OpaqueStretch> opaque;
+  std::uint64_t opaque_blocks = 0;       ///< all of them, each time that it was executed
   std::vector<std::string> subprograms;  ///< files that it calls
 
   static constexpr std::size_t kMostRefused = 50;
@@ -79,6 +83,8 @@ class ProgramRun {
   [[nodiscard]] const read::Block& block() const noexcept;
   /// What its expressions have read of the control's own state.
   [[nodiscard]] const Asked& asked() const noexcept;
+  /// It was not understood: what it does, only the control knows.
+  [[nodiscard]] bool at_opaque() const noexcept;
   /// What it depends on that only the control knows.
   [[nodiscard]] Doubt doubt() const noexcept;
   /// So far: see Report.

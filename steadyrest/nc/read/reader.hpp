@@ -52,6 +52,7 @@ class Reader {
   /// Lines that begin with / are left out: their assignments are dropped.
   void set_block_delete(bool on) noexcept { block_delete_ = on; }
 
+  [[nodiscard]] Dialect dialect() const noexcept { return reading_.dialect; }
   [[nodiscard]] const Refused& refused() const noexcept { return reading_.refused; }
   /// The last line was read, and no value was asked for or set.
   [[nodiscard]] bool numbers_alone() const noexcept { return reading_.numbers_alone; }

@@ -14,6 +14,7 @@
 #include <steadyrest/passport/file/override_table.hpp>
 #include <steadyrest/passport/file/port_sections.hpp>
 #include <steadyrest/passport/file/thermal_section.hpp>
+#include <steadyrest/passport/file/words_section.hpp>
 #include <steadyrest/passport/keys/section_reader.hpp>
 #include <steadyrest/passport/text/text_check.hpp>
 #include <steadyrest/passport/text/text_file.hpp>
@@ -57,9 +58,9 @@ class FileReader {
              {"control", "program", "axis", "override", "spindle", "contour", "chatter",
               "compensation", "thermal", "envelope", "simulation", "lines", "recorder", "opcua"});
     section<Control>(root, "control", control_keys(), machine_.control, contradictions, true);
-    section(root, "program", program_keys(), machine_.program, contradictions);
+    program(root);
     axes(root);
-    overrides(root);
+    read_overrides(root, machine_, faults_);
     section<Spindle>(root, "spindle", spindle_keys(), machine_.spindle, contradictions);
     section<Contour>(root, "contour", contour_keys(), machine_.contour, contradictions);
     section<Chatter>(root, "chatter", chatter_keys(), machine_.chatter, contradictions);
@@ -73,27 +74,11 @@ class FileReader {
   }
 
  private:
-  /// The table below `name`; null when absent, a fault when it is something else.
-  const toml::table* table_at(const toml::table& parent, std::string_view name,
-                              std::string_view shown_name) {
-    const toml::node* node = parent.get(name);
-    if (node == nullptr) {
-      return nullptr;
-    }
-    const toml::table* table = node->as_table();
-    if (table == nullptr) {
-      faults_.add(line_of(node->source()),
-                  fmt::format("{} = {} is not a section", name, shown(*node)),
-                  fmt::format("write {} on a separate line, with its keys below", shown_name));
-    }
-    return table;
-  }
-
   template <class S>
   void section(const toml::table& root, std::string_view name, std::span<const Key<S>> keys, S& out,
                void (*check)(const S&, const Given&, Faults&), bool mandatory = false) {
     const std::string head = fmt::format("[{}]", name);
-    const toml::table* table = table_at(root, name, head);
+    const toml::table* table = table_below(faults_, root, name, head);
     if (table == nullptr) {
       if (mandatory && root.get(name) == nullptr) {
         faults_.add(0, fmt::format("there is no {}", head),
@@ -112,6 +97,22 @@ class FileReader {
     const Given given = reader.read(table, out);
     if (check != nullptr && faults_.list.size() == before) {
       check(out, given, faults_);
+    }
+  }
+
+  void program(const toml::table& root) {
+    const toml::table* table = table_below(faults_, root, "program", "[program]");
+    if (table == nullptr) {
+      return;
+    }
+    const std::size_t before = faults_.list.size();
+    SectionReader<kernel::machine::Program> reader(faults_, program_keys(), "[program]");
+    const Given given = reader.read(*table, machine_.program, {"words"});
+    if (faults_.list.size() == before) {
+      contradictions(machine_.program, given, faults_);
+    }
+    if (const toml::table* words = table_below(faults_, *table, "words", "[program.words]")) {
+      read_words(*words, machine_.program.words, faults_);
     }
   }
 
@@ -162,11 +163,11 @@ class FileReader {
                     "use one of X, Y, Z, U, V, W (linear), A, B, C (rotary)");
       }
     }
-    if (const toml::table* encoder = table_at(table, "encoder", "[axis.encoder]")) {
+    if (const toml::table* encoder = table_below(faults_, table, "encoder", "[axis.encoder]")) {
       read_checked<Encoder>(*encoder, "[axis.encoder]", encoder_keys(), out.encoder, contradictions,
                             kind);
     }
-    if (const toml::table* friction = table_at(table, "friction", "[axis.friction]")) {
+    if (const toml::table* friction = table_below(faults_, table, "friction", "[axis.friction]")) {
       read_checked<Friction>(*friction, "[axis.friction]", friction_keys(), out.friction,
                              contradictions, kind);
     }
@@ -260,52 +261,6 @@ class FileReader {
       check("thermal_tau_error_percent", machine_.simulation.thermal_tau_error_ratio);
       check("thermal_gain_error_percent", machine_.simulation.thermal_gain_error_ratio);
     }
-  }
-
-  void overrides(const toml::table& root) {
-    const toml::table* table = table_at(root, "override", "[override.feed]");
-    const bool absent = root.get("override") == nullptr;
-    if (absent || (table != nullptr && table->get("feed") == nullptr)) {
-      faults_.add(
-          absent ? 0 : line_of(table->source()), "there is no [override.feed]",
-          "add the table of the feed override switch: coding and percent, or binary_max_percent");
-    }
-    if (table == nullptr) {
-      return;
-    }
-    constexpr std::array<std::string_view, 3> kNames = {"feed", "rapid", "spindle"};
-    for (const auto& [name, node] : *table) {
-      if (std::find(kNames.begin(), kNames.end(), name.str()) == kNames.end()) {
-        const std::string_view close = kernel::outcome::nearest(name.str(), kNames);
-        faults_.add(line_of(name.source()), fmt::format("[override] has no {}", name.str()),
-                    close.empty()
-                        ? "use [override.feed], [override.rapid] or [override.spindle]"
-                        : fmt::format("write [override.{}] if that is what you mean", close));
-      }
-    }
-    const bool feed = override_at(*table, "feed", machine_.feed_override);
-    if (!override_at(*table, "rapid", machine_.rapid_override) && feed) {
-      machine_.rapid_override = rapid_from_feed(machine_.feed_override);
-    }
-    if (!override_at(*table, "spindle", machine_.spindle_override)) {
-      machine_.spindle_override = without_override();
-    }
-  }
-
-  bool override_at(const toml::table& parent, std::string_view name, OverrideTable& out) {
-    const std::string head = fmt::format("[override.{}]", name);
-    const toml::table* table = table_at(parent, name, head);
-    if (table == nullptr) {
-      return false;
-    }
-    OverrideKeys keys;
-    const std::size_t before = faults_.list.size();
-    SectionReader<OverrideKeys> reader(faults_, override_keys(), head);
-    const Given given = reader.read(*table, keys);
-    if (faults_.list.size() != before) {
-      return false;
-    }
-    return make_override(keys, given, faults_, out);
   }
 
   Faults& faults_;

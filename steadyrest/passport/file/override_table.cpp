@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <set>
@@ -156,8 +157,6 @@ bool listed_steps(const OverrideKeys& keys, const Given& given, Faults& faults,
   return distinct(given, faults, out) && gray_neighbours(given, faults, out);
 }
 
-}  // namespace
-
 /// Either even steps or a list; both would be two tables.
 bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
                    OverrideTable& out) {
@@ -220,6 +219,52 @@ OverrideTable without_override() {
   table.code = {100};
   table.max_ratio = 1.0;
   return table;
+}
+
+bool override_at(const toml::table& parent, std::string_view name, Faults& faults,
+                 OverrideTable& out) {
+  const std::string head = fmt::format("[override.{}]", name);
+  const toml::table* table = table_below(faults, parent, name, head);
+  if (table == nullptr) {
+    return false;
+  }
+  OverrideKeys keys;
+  const std::size_t before = faults.list.size();
+  SectionReader<OverrideKeys> reader(faults, override_keys(), head);
+  const Given given = reader.read(*table, keys);
+  return faults.list.size() == before && make_override(keys, given, faults, out);
+}
+
+}  // namespace
+
+void read_overrides(const toml::table& root, kernel::machine::Machine& out, Faults& faults) {
+  const toml::table* table = table_below(faults, root, "override", "[override.feed]");
+  const bool absent = root.get("override") == nullptr;
+  if (absent || (table != nullptr && table->get("feed") == nullptr)) {
+    faults.add(
+        absent ? 0 : line_of(table->source()), "there is no [override.feed]",
+        "add the table of the feed override switch: coding and percent, or binary_max_percent");
+  }
+  if (table == nullptr) {
+    return;
+  }
+  constexpr std::array<std::string_view, 3> kNames = {"feed", "rapid", "spindle"};
+  for (const auto& [name, node] : *table) {
+    if (std::find(kNames.begin(), kNames.end(), name.str()) == kNames.end()) {
+      const std::string_view close = kernel::outcome::nearest(name.str(), kNames);
+      faults.add(line_of(name.source()), fmt::format("[override] has no {}", name.str()),
+                 close.empty()
+                     ? "use [override.feed], [override.rapid] or [override.spindle]"
+                     : fmt::format("write [override.{}] if that is what you mean", close));
+    }
+  }
+  const bool feed = override_at(*table, "feed", faults, out.feed_override);
+  if (!override_at(*table, "rapid", faults, out.rapid_override) && feed) {
+    out.rapid_override = rapid_from_feed(out.feed_override);
+  }
+  if (!override_at(*table, "spindle", faults, out.spindle_override)) {
+    out.spindle_override = without_override();
+  }
 }
 
 }  // namespace steadyrest::passport

@@ -7,15 +7,9 @@
 /// From an override section of the machine file to the table of steps. Internal to the reader.
 namespace steadyrest::passport {
 
-/// False (and a fault) when steps and codes contradict each other.
-bool make_override(const OverrideKeys& keys, const Given& given, Faults& faults,
-                   kernel::machine::OverrideTable& out);
-
-/// A machine file without [override.rapid]: the feed switch acts on rapids, never above 100 %.
-[[nodiscard]] kernel::machine::OverrideTable rapid_from_feed(
-    const kernel::machine::OverrideTable& feed);
-
-/// A machine file without [override.spindle]: one step, 100 %.
-[[nodiscard]] kernel::machine::OverrideTable without_override();
+/// Reads `[override.feed]`, `[override.rapid]` and `[override.spindle]` from the root of a file.
+/// Without [override.rapid] the feed switch acts on rapids, never above 100 %; without
+/// [override.spindle] there is one step, 100 %.
+void read_overrides(const toml::table& root, kernel::machine::Machine& out, Faults& faults);
 
 }  // namespace steadyrest::passport

@@ -144,6 +144,22 @@ std::string reference_page() {
                  "one with this machine file reads it so.\n",
                  program_keys());
   out +=
+      "\n## `[program.words]`\n\n"
+      "What the machine builder's own words do, for programs that have them: `M50 = \"none\"`. A "
+      "key "
+      "is a letter with its\nnumber (`M50`, `H12`, `G187`), or the name of a subprogram "
+      "(`L_TIME`); small and capital letters are the same.\n"
+      "A word with P, Q and other letters that belong to nothing else in its block takes these "
+      "with "
+      "it. `program words` writes\nthe section for a folder of programs.\n\n"
+      "| value | meaning |\n|---|---|\n"
+      "| `\"none\"` | no axis moves, and the program goes on |\n"
+      "| `\"stop\"` | the axes come to rest first |\n"
+      "| `\"dwell 0.5\"` | they come to rest, and stand for so many seconds |\n"
+      "| `\"moves X Z\"` | it moves these axes; where they end is not known until the program says "
+      "it |\n"
+      "| `\"opaque\"` | it may do anything; so does a word that is not understood |\n";
+  out +=
       section("`[[axis]]`",
               "\nOnce for each axis: at least two, at most eight counting X, Y and Z. A machine "
               "without X, Y or Z (a lathe has\nno Y) gets an ideal stand-in that does not move.\n",

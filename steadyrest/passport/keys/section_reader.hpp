@@ -71,6 +71,10 @@ struct Given {
 [[nodiscard]] std::string shown(double value);
 [[nodiscard]] std::size_t line_of(const toml::source_region& source);
 
+/// The table below `name`; null when absent, a fault when it is something else.
+[[nodiscard]] const toml::table* table_below(Faults& faults, const toml::table& parent,
+                                             std::string_view name, std::string_view shown_name);
+
 /// Reads plain values and reports what is wrong with them.
 class ValueReader {
  public:

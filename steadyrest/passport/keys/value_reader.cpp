@@ -72,6 +72,20 @@ std::string shown(const toml::node& node) {
 }
 
 /// toml++ counts lines from 1; 0 means the file as a whole.
+const toml::table* table_below(Faults& faults, const toml::table& parent, std::string_view name,
+                               std::string_view shown_name) {
+  const toml::node* node = parent.get(name);
+  if (node == nullptr) {
+    return nullptr;
+  }
+  const toml::table* table = node->as_table();
+  if (table == nullptr) {
+    faults.add(line_of(node->source()), fmt::format("{} = {} is not a section", name, shown(*node)),
+               fmt::format("write {} on a separate line, with its keys below", shown_name));
+  }
+  return table;
+}
+
 std::size_t line_of(const toml::source_region& source) {
   return source.begin.line;
 }

@@ -314,6 +314,7 @@ Outcome run(const Options& options, Progress& progress) {
   answer.text += put_assumed(answer, planned->report);
   answer.text += put_warnings(answer, planned->warnings, planned->warning_count);
   put_unknown(answer, planned->report.unknown);
+  put_opaque(answer, planned->report);
   put_vibration(answer, setup.chatter, cuts->without, cuts->with);
   if (auto done = put_batch(answer, options.batch, options.program, setup.machine, options.report,
                             progress);

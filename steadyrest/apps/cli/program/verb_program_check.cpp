@@ -9,15 +9,46 @@
 #include <steadyrest/apps/cli/shared/program_options.hpp>
 #include <steadyrest/apps/cli/shared/program_warnings.hpp>
 #include <steadyrest/apps/cli/shared/table.hpp>
+#include <steadyrest/nc/interpret/state/move_table.hpp>
 
 namespace steadyrest::apps::cli {
 namespace program_check {
 namespace {
 
+using nc::interpret::Move;
+using nc::interpret::MoveKind;
+
+/// The way of the cutting moves, mm: all of it, and what is in opaque stretches.
+class CutLengths final : public nc::interpret::Sink {
+ public:
+  explicit CutLengths(nc::interpret::Sink& next) : next_(next) {}
+  void on_move(const Move& move) override {
+    if (move.kind != MoveKind::rapid && move.kind != MoveKind::dwell) {
+      const double mm = nc::interpret::path_length(move);
+      all_mm += mm;
+      opaque_mm += move.opaque ? mm : 0.0;
+    }
+    next_.on_move(move);
+  }
+  void on_event(const nc::interpret::Event& event) override { next_.on_event(event); }
+  double all_mm = 0.0;
+  double opaque_mm = 0.0;
+
+ private:
+  nc::interpret::Sink& next_;
+};
+
 /// Nothing is ignored: a word that is not understood is listed with its line and the reason.
-std::string text_of(const nc::interpret::Report& report) {
+std::string text_of(const nc::interpret::Report& report, const CutLengths& cut) {
   if (report.refused.empty()) {
-    return fmt::format("accepted: {} blocks, {} moves\n", report.blocks, report.moves);
+    std::string text = fmt::format("accepted: {} blocks, {} moves\n", report.blocks, report.moves);
+    if (report.opaque_blocks > 0) {
+      text += fmt::format(
+          "not understood: {} blocks; {:.1f} of {:.1f} mm cut ({:.1f} %) depend on them\n",
+          report.opaque_blocks, cut.opaque_mm, cut.all_mm,
+          cut.all_mm > 0.0 ? 100.0 * cut.opaque_mm / cut.all_mm : 0.0);
+    }
+    return text;
   }
   Table table({"reason", "line", "word"});
   for (const nc::read::Refused& refused : report.refused) {
@@ -45,7 +76,8 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
     check.emplace(*machine, known_of(options.program));
   }
   nc::interpret::Sink& sink = check ? static_cast<nc::interpret::Sink&>(*check) : nothing;
-  const auto report = run_program(options.program.file, *config, sink, progress);
+  CutLengths cut(sink);
+  const auto report = run_program(options.program.file, *config, cut, progress);
   if (!report) {
     return refused(report.error());
   }
@@ -55,7 +87,9 @@ Outcome run_on(const Options& options, const kernel::machine::Machine* machine,
     say_dialect(answer, options.program, *machine);
   }
   answer.json["moves"] = report->moves;
-  answer.text = text_of(*report) + put_assumed(answer, *report);
+  answer.json["cut_mm"] = cut.all_mm;
+  answer.json["opaque_cut_mm"] = cut.opaque_mm;
+  answer.text = text_of(*report, cut) + put_assumed(answer, *report);
   if (check) {
     answer.text += put_warnings(answer, check->warnings(), check->count());
   }

@@ -46,6 +46,9 @@ std::vector<CLI::Option*> add_data(Verb& verb, ProgramOptions& options) {
       verb.add_flag("--block-delete", options.block_delete, "Skip lines that begin with /"));
   made.push_back(verb.add_flag("--least-increment", options.least_increment,
                                "fanuc: X100 is 0.100 mm (without it: 100 mm)"));
+  made.push_back(verb.add_flag("--strict", options.strict,
+                               "Refuse the program at the first word that is not understood, "
+                               "instead of leaving alone what depends on it"));
   return made;
 }
 
@@ -91,6 +94,7 @@ Result<Config> program_config(const ProgramOptions& options) {
   Config config;
   config.dialect = nc::read::dialect_from_name(options.dialect).value_or(config.dialect);
   config.block_delete = options.block_delete;
+  config.opaque_stretches = !options.strict;
   config.axes = options.axes;
   config.inch = options.start_units == "inch";
   config.unit_known = !options.start_units.empty();
@@ -257,6 +261,47 @@ void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assu
   }
 }
 
+void put_opaque(Answer& answer, const nc::interpret::Report& report) {
+  constexpr std::size_t kShown = 10;
+  Json list = Json::array();
+  struct Word {
+    const nc::interpret::OpaqueStretch* first = nullptr;
+    std::size_t blocks = 0;
+  };
+  std::vector<Word> words;
+  for (const nc::interpret::OpaqueStretch& one : report.opaque) {
+    list.push_back({{"line", one.line},
+                    {"last_line", one.last_line == 0 ? Json() : Json(one.last_line)},
+                    {"word", one.word},
+                    {"reason", one.reason},
+                    {"text", one.text}});
+    if (!one.file.empty()) {
+      list.back()["file"] = one.file;
+    }
+    auto known = std::ranges::find_if(words, [&](const Word& word) {
+      return word.first->word == one.word && word.first->reason == one.reason;
+    });
+    known = known == words.end() ? words.insert(known, {.first = &one, .blocks = 0}) : known;
+    ++known->blocks;
+  }
+  answer.json["opaque"] = std::move(list);
+  answer.json["opaque_blocks"] = report.opaque_blocks;
+  for (std::size_t i = 0; i < std::min(kShown, words.size()); ++i) {
+    const nc::interpret::OpaqueStretch& one = *words[i].first;
+    const std::string until = one.last_line == 0
+                                  ? "nothing from here on counts as known"
+                                  : fmt::format("known again after line {}", one.last_line);
+    answer.notes += fmt::format(
+        "opaque: {}line {}: `{}`: {}; read as if it did nothing, {}{}\n",
+        one.file.empty() ? std::string{} : one.file + ": ", one.line, one.word, one.text, until,
+        words[i].blocks > 1 ? fmt::format("; {} such blocks", words[i].blocks) : std::string{});
+  }
+  if (words.size() > kShown) {
+    answer.notes += fmt::format("… {} more words that are not understood (--json has them)\n",
+                                words.size() - kShown);
+  }
+}
+
 Result<nc::interpret::Report> run_program(const std::string& path,
                                           const nc::interpret::Config& config,
                                           nc::interpret::Sink& sink, Progress& progress) {
@@ -297,6 +342,7 @@ void put_report(Answer& answer, const nc::interpret::Report& report, const std::
   }
   answer.json["refused"] = std::move(list);
   put_unknown(answer, report.unknown);
+  put_opaque(answer, report);
   if (!report.refused.empty()) {
     answer.exit_code = kRefused;
     // The first refusal goes to stderr; the JSON has all.

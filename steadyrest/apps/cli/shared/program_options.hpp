@@ -26,6 +26,7 @@ struct ProgramOptions {
   std::vector<std::string> subprograms;  ///< folders; empty: the program's own
   bool block_delete = false;
   bool least_increment = false;
+  bool strict = false;  ///< what is not understood refuses the program
 };
 
 /// Adds FILE, --dialect and the options of the control's data.
@@ -56,6 +57,9 @@ std::string put_assumed(Answer& answer, const nc::interpret::Report& report);
 /// The key `assumed[]` (`line`, `name`, `value`): what the program reads of values that the control
 /// decides, and what was taken for them; the first ten as notes.
 void put_unknown(Answer& answer, const std::vector<nc::interpret::Assumed>& assumed);
+/// The keys `opaque[]` (`line`, `last_line`, null while open, `word`, `reason`, `text`, `file`) and
+/// `opaque_blocks`: what is not understood, and how far it reaches; the first ten words as notes.
+void put_opaque(Answer& answer, const nc::interpret::Report& report);
 /// Runs a program; how much of its file is read is shown.
 [[nodiscard]] kernel::outcome::Result<nc::interpret::Report> run_program(
     const std::string& path, const nc::interpret::Config& config, nc::interpret::Sink& sink,

@@ -111,6 +111,16 @@ bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
   return cycle_calls_.call(block.flow());
 }
 
+void Interpreter::pause(std::uint32_t line, double seconds, Sink& sink) {
+  cutter_.send_to(sink);
+  out_.begin_block(line);
+  plain_.forget();
+  out_.wait_for_rest();
+  if (seconds > 0.0) {
+    out_.dwell(seconds);
+  }
+}
+
 bool Interpreter::survey(const Block& block) {
   if (!block.words().empty() && block.words().front().qualifier == read::Qualifier::fine) {
     return true;
@@ -134,7 +144,7 @@ bool Interpreter::decode(const Block& block) {
   const bool accepted = control_.rules.decode(decoding_, block, step_);
   // fanuc: a motion word in the block of G28 or G53 only sets the mode; the axis words belong to
   // those.
-  if (step_.motion_mode != kNoCode) {
+  if (accepted && step_.motion_mode != kNoCode) {
     motion_in_force(step_.motion_mode);
   }
   return accepted;

@@ -40,6 +40,8 @@ class Interpreter {
   /// A call of a drilling cycle (sinumerik); with MCALL it runs after each block that moves from
   /// now on.
   bool execute_cycle(const read::Block& block, Sink& sink);
+  /// A word that the machine builder has defined: the axes come to rest, and stand for so long.
+  void pause(std::uint32_t line, double seconds, Sink& sink);
   /// Checks a block's words without executing: false when a word is not in the dialect.
   bool survey(const read::Block& block);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <steadyrest/nc/interpret/state/asked.hpp>
 #include <steadyrest/nc/interpret/state/config.hpp>
 #include <steadyrest/nc/interpret/state/refusals.hpp>
 #include <steadyrest/nc/interpret/state/state.hpp>
@@ -59,6 +60,9 @@ struct DialectRules {
   bool has_g92 = true;
   bool settable_frames = false;  ///< G54 … G57, G500 … G599 select them; G70, G71, G700, G710 units
   bool edge_chooses_length = false;  ///< D and T, not G43
+  /// Modes that a word of the dialect sets. What is not understood may have changed the others,
+  /// too, but then no text could say them again.
+  ModeMask said_modes = ~ModeMask{0};
 };
 
 [[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;

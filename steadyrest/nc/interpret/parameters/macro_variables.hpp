@@ -40,6 +40,8 @@ class MacroVariables final : public read::Values {
   }
   /// Where it is noted what the program reads that is not known; must outlive the object's use.
   void note_unknown(KnownState& known) noexcept { known_ = &known; }
+  /// From here on the control decides the values: they may have been set, or not.
+  void lose_all() noexcept { unknown_.fill(true); }
 
   [[nodiscard]] Asked& asked() noexcept { return asked_; }
   [[nodiscard]] const Asked& asked() const noexcept { return asked_; }

@@ -27,6 +27,10 @@ double converted(ValueType type, double value) noexcept {
 SinumerikVariables::SinumerikVariables()
     : numbers_(kParameters, std::numeric_limits<double>::quiet_NaN()), frames_(1) {}
 
+void SinumerikVariables::lose_all() noexcept {
+  std::ranges::fill(numbers_, std::numeric_limits<double>::quiet_NaN());
+}
+
 void SinumerikVariables::list(std::vector<std::pair<std::string, double>>& out) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     if (!std::isnan(numbers_[i])) {

@@ -34,6 +34,8 @@ class SinumerikVariables final : public read::TypedValues {
 
   /// The R-parameters that are set, `R5`, with their values, which the control keeps.
   void list(std::vector<std::pair<std::string, double>>& out) const;
+  /// What the control holds in the R-parameters is not known from here on.
+  void lose_all() noexcept;
   /// A subprogram begins with the values of its call, starts over (P), ends.
   void enter(const read::Flow& call);
   void restart();

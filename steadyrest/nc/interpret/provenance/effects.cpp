@@ -171,6 +171,9 @@ ModeMask modes_of_g(double code, bool settable_frames) noexcept {
   if (settable_frames && code >= 500.0 && code < 600.0) {
     return mode(GGroup::work_offset);
   }
+  if (settable_frames && code >= 641.0 && code < 646.0) {
+    return mode(GGroup::path_mode);
+  }
   const auto found = group_of_g(g::code_of(code));
   return found.known && found.group != GGroup::non_modal ? mode(found.group) : 0;
 }
@@ -195,9 +198,7 @@ ModeMask modes_of_m(double code) noexcept {
 }
 
 bool Effects::moves() const noexcept {
-  constexpr ModeMask kHarmless = kToolMode | kSpindleMode | kCoolantMode | kOverrideMode |
-                                 kSpeedMode | mode(GGroup::spindle_mode);
-  return all || ends || program || offsets || axes != 0 || (modes & ~kHarmless) != 0;
+  return all || ends || program || offsets || axes != 0 || (modes & ~kHarmlessModes) != 0;
 }
 
 void Effects::add(const Effects& other) noexcept {

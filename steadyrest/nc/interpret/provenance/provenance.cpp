@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <steadyrest/nc/interpret/provenance/provenance.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -35,18 +36,26 @@ struct Provenance::Words {
   }
 };
 
-Provenance::Provenance(const Config& config, bool settable_frames, Parameters& parameters)
+Provenance::Provenance(const Config& config, const DialectRules& rules, Parameters& parameters)
     : tools_known_(config.tools.has_value()),
-      settable_frames_(settable_frames),
+      rules_(rules),
       lathe_(config.axes.find('Y') == std::string::npos),
       parameters_(parameters),
       active_offset_(config.active_offset) {
   known_.offsets = config.start_known;
   known_.modes = config.start_known ? mode(GGroup::work_offset) : 0;
+  for (const char letter : config.on_machine ? config.axes : std::string{}) {
+    machine_axes_ |= std::uint32_t{1} << kOfAxes.find(letter);
+  }
   parameters.note_unknown(known_);
 }
 
 void Provenance::at_line(std::uint32_t line, bool in_doubt, bool repeating) {
+  if (opaque_.any_open()) {
+    opaque_.settle(known_.line, ~known_.axes, lost_);
+  }
+  at_opaque_ = false;
+  opaque_before_ = opaque_.any_open();
   known_.line = line;
   known_.doubt = in_doubt;
   known_.heard = false;
@@ -97,6 +106,32 @@ void Provenance::lose(FlowControl::Lost lost) {
   parameters_.lose_all();
 }
 
+void Provenance::not_understood(const read::Refused& refused, const Effects& effects,
+                                const State& state) {
+  Effects reach = effects;
+  if (effects.all) {
+    reach.modes = kModes;
+    reach.axes = Effects::kAllAxes;
+    reach.offsets = true;
+    reach.all = false;  // a mode without a word of the dialect could never be said again
+    parameters_.lose_all();
+  }
+  reach.modes &= rules_.said_modes;
+  apply(reach);
+  turn_.add(reach);
+  acts_ = true;
+  at_opaque_ = true;
+  // Without a machine file its further axes are those that the program has moved.
+  std::uint32_t axes = machine_axes_;
+  if (axes == 0) {
+    axes = kX | 1U << 1U | kZ;
+    for (std::size_t i = 3; i < state.position.size(); ++i) {
+      axes |= state.position[i] != 0.0 ? std::uint32_t{1} << i : 0U;
+    }
+  }
+  opaque_.open(refused, reach.axes & axes, reach.modes);
+}
+
 // The word's own unknown value.
 void Provenance::unknown_word(const read::Word& word, Words& words) {
   constexpr std::string_view kShape = "IJKR";
@@ -122,7 +157,7 @@ void Provenance::unknown_word(const read::Word& word, Words& words) {
 void Provenance::settle(const read::Word& word, Words& words) {
   ModeMask settled = 0;
   if (word.letter == 'G') {
-    settled = modes_of_g(word.value, settable_frames_);
+    settled = modes_of_g(word.value, rules_.settable_frames);
     words.length = words.length || settled == mode(GGroup::tool_length);
     words.selects = words.selects || settled == mode(GGroup::work_offset);
     words.code = settled == 0 ? g::code_of(word.value) : words.code;
@@ -135,12 +170,23 @@ void Provenance::settle(const read::Word& word, Words& words) {
     known_.axes &= (settled & kToolMode) != 0 ? 0U : ~0U;  // the control may lift the spindle
   } else if (word.letter == 'F' || word.letter == 'S') {
     settled = word.letter == 'F' ? kFeedMode : kSpeedMode;
-  } else if (word.letter == 'D' && settable_frames_) {
+  } else if (word.letter == 'D' && rules_.edge_chooses_length) {
+    settled = mode(GGroup::tool_length);
     words.length = true;
   }
+  const bool origin_off = words.code == g::kForgetOrigin || words.code == g::kOriginOff;
   if (!word.unknown) {
+    settled |= word.letter == 'G' && origin_off ? kFrameMode : 0U;
     known_.modes |= settled & ~never_;
     lost_ &= ~settled | never_;
+  }
+}
+
+// TRANS and ROT replace the programmed frame whole; ATRANS and AROT build on it.
+void Provenance::name(const read::Word& word) noexcept {
+  if (!known_.doubt) {
+    lost_ &= read::equal(word.name, "TRANS") || read::equal(word.name, "ROT") ? ~kFrameMode : ~0U;
+    lost_ &= read::equal(word.name, "TRAFOOF") ? ~kTransformMode : ~0U;
   }
 }
 
@@ -201,6 +247,7 @@ Provenance::Words Provenance::words_of(const read::Block& block) {
       words.frame = words.frame || word.qualifier == read::Qualifier::fine ||
                     word.name.find("ROT") != std::string_view::npos ||
                     word.name.find("TRANS") != std::string_view::npos;
+      name(word);
     } else if (const auto axis = kOfAxes.find(word.letter); axis != std::string_view::npos) {
       const auto bit = std::uint32_t{1} << axis;
       words.named |= bit;
@@ -222,7 +269,7 @@ Provenance::Words Provenance::words_of(const read::Block& block) {
 
 void Provenance::executed(const read::Block& block, const State& state) {
   if (repeating_ || known_.doubt) {
-    const Effects effects = effects_of(block, settable_frames_);
+    const Effects effects = effects_of(block, rules_.settable_frames);
     turn_.add(effects);
     if (known_.doubt) {
       apply(effects);

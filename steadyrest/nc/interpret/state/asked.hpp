@@ -20,6 +20,13 @@ inline constexpr ModeMask kCoolantMode = kToolMode << 2U;       ///< M7 M8 M9
 inline constexpr ModeMask kOverrideMode = kToolMode << 3U;      ///< M48 …
 inline constexpr ModeMask kFeedMode = kToolMode << 4U;          ///< F
 inline constexpr ModeMask kSpeedMode = kToolMode << 5U;         ///< S
+inline constexpr ModeMask kFrameMode = kToolMode << 6U;         ///< shift, rotation, scale, mirror
+inline constexpr ModeMask kTransformMode = kToolMode << 7U;     ///< TRAORI, a swivelled plane
+/// All of them.
+inline constexpr ModeMask kModes = ((kTransformMode << 1U) - 1U) & ~mode(GGroup::non_modal);
+/// They move nothing, and give no word another meaning.
+inline constexpr ModeMask kHarmlessModes = kToolMode | kSpindleMode | kCoolantMode | kOverrideMode |
+                                           kSpeedMode | mode(GGroup::spindle_mode);
 
 /// What the expressions of a line have read from the control: values that the program may not have
 /// set, so that they may come from the state in which it started.

@@ -89,6 +89,8 @@ struct Config {
   std::optional<std::int32_t> selected_tool;  ///< by T, at the start; else that in the spindle
   /// What the control's own configuration makes of a program; its folders are not used here.
   kernel::machine::Program settings;
+  /// What is not understood opens an opaque stretch (opaque.hpp); false: it refuses the program.
+  bool opaque_stretches = false;
   std::int32_t modulation_on = 0;  ///< M word that switches the speed modulation on; 0 = none
   std::int32_t modulation_off = 0;
 

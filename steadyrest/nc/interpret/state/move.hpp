@@ -67,6 +67,7 @@ struct Move {
   bool in_spline = false;         ///< one of the lines that a spline is planned as
   bool after_rest = false;        ///< the control lets the axes come to rest before it
   bool from_start = false;        ///< its place follows from where the axes stood at the start
+  bool opaque = false;  ///< its place or its modes follow from a block that is not understood
 };
 
 /// What the program permits lines that become one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -129,6 +130,13 @@ class Block {
     return true;
   }
   [[nodiscard]] std::span<const Word> words() const noexcept { return {shown_, count_}; }
+  /// Without the words for which `drops` is true.
+  template <class Drops>
+  void drop(const Drops& drops) {
+    const auto kept = std::remove_copy_if(shown_, shown_ + count_, words_.begin(), drops);
+    count_ = static_cast<std::size_t>(kept - words_.begin());
+    shown_ = words_.data();
+  }
   [[nodiscard]] std::uint32_t line() const noexcept { return line_; }
 
   /// The line begins with the block-delete mark `/`.

@@ -276,6 +276,9 @@ class CutSurvey {
     }
     // What comes in its place moves the axes that it moves, in space; the others may be anywhere.
     const std::uint32_t named = (used_ & kSpace) | axes_used(run_.block(), kept_.moves);
+    if (run_.doubt().opaque) {
+      return Stays::opaque;
+    }
     if (depends_on_control(run_.doubt(), state, move, named, dialect_)) {
       return Stays::by_control;
     }

@@ -21,6 +21,7 @@ enum class Stays : std::uint8_t {
   repeated,        ///< it is in a subprogram, a condition or a loop, or is executed twice
   switchable,      ///< the operator can skip it (block delete)
   after_switch,    ///< it begins, or cuts, as a block says that the operator can skip
+  opaque,          ///< a block before it is not understood (interpret/state/opaque.hpp)
   by_control,      ///< where it begins, or what its words mean, is the control's decision
   before_control,  ///< what the control decides may come next: it leaves everything as it was
   calculated,      ///< its words hold parameters or expressions

@@ -70,6 +70,10 @@ class SpanSurvey {
     if (const read::Word* feed = word_of(run_.block(), 'F'); feed != nullptr && acts && !dwells()) {
       add_feed(number, *feed, text);
     }
+    if (run_.at_opaque() && !spans_.empty() && spans_.back().stays.empty()) {
+      spans_.back().stays =
+          fmt::format("line {} is not understood, and may use the speed in force", number);
+    }
     for (const Move& move : kept_.moves) {
       if (feeds(move)) {
         add_cut(number, move);
@@ -160,6 +164,9 @@ class SpanSurvey {
     constexpr interpret::ModeMask kOfSpan =
         interpret::kSpeedMode | interpret::kSpindleMode | interpret::kFeedMode |
         mode(interpret::GGroup::feed_mode) | mode(interpret::GGroup::spindle_mode);
+    if (run_.doubt().opaque && span.stays.empty()) {
+      span.stays = fmt::format("line {} depends on a block that is not understood", number);
+    }
     if ((run_.doubt().lost & kOfSpan) != 0 && span.stays.empty()) {
       span.stays = fmt::format("the control decides the speed or the feed of line {}", number);
     }

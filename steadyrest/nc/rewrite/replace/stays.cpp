@@ -13,6 +13,9 @@ std::string_view sentence(Stays stays) noexcept {
       return "the operator can skip it (block delete)";
     case Stays::after_switch:
       return "it begins, or cuts, as a block says that the operator can skip (block delete)";
+    case Stays::opaque:
+      return "a block before it is not understood, and may have changed where it begins or what "
+             "its words mean";
     case Stays::by_control:
       return "the control decides where it begins or what its words mean";
     case Stays::before_control:

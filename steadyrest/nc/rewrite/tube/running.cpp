@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <steadyrest/nc/rewrite/prove/compare.hpp>
 #include <steadyrest/nc/rewrite/tube/running.hpp>
 #include <steadyrest/nc/rewrite/tube/same_line.hpp>
 #include <steadyrest/nc/rewrite/tube/stretch.hpp>
@@ -53,6 +54,11 @@ std::string parted(const Running& original, const Running& changed, double round
                    bool feeds) {
   if (!original.run->doubt().line) {
     return {};
+  }
+  if (original.run->at_opaque() &&
+      (modes_of(original.run->state()) != modes_of(changed.run->state()) ||
+       original.source.line() != changed.source.line())) {
+    return "is not understood, and has other words or other modes in force than in the original";
   }
   const Running::Standing& a = original.before;
   const Running::Standing& b = changed.before;

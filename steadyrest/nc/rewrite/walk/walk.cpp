@@ -208,6 +208,12 @@ bool Walk::step_alone() {
                kFirst << before_.active_offset | kFirst << run_->state().active_offset,
                line_or_call());
   }
+  if (run_->at_opaque()) {
+    said_.take(
+        {.line = line_or_call(),
+         .what = "it is not understood: it may move or store what a correction would be in",
+         .to_do = "say in [program.words] of the machine file what it does, or take it out"});
+  }
   if (run_->executed()) {
     look(run_->block());
     if (external_free_) {

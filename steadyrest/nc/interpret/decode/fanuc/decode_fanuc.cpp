@@ -328,18 +328,21 @@ bool decode_fanuc(const Decoding& in, const Block& block, Step& step) {
 const DialectRules& fanuc_rules() noexcept {
   // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
   // be omitted, no lift before moving across; G53 is a one-shot rapid.
-  static constexpr DialectRules kRules{.decode = decode_fanuc,
-                                       .starts_with_g98 = true,
-                                       .machine_frame_alone = true,
-                                       .machine_frame_is_rapid = true,
-                                       .g10_adds = true,
-                                       .cycle_words_stay = true,
-                                       .cycle_needs_dwell = false,
-                                       .cycle_keeps_all_words = true,
-                                       .cycles_are_a_group = true,
-                                       .cycle_lifts_first = false,
-                                       .variables = Variables::macros,
-                                       .numbered_programs = true};
+  static constexpr DialectRules kRules{
+      .decode = decode_fanuc,
+      .starts_with_g98 = true,
+      .machine_frame_alone = true,
+      .machine_frame_is_rapid = true,
+      .g10_adds = true,
+      .cycle_words_stay = true,
+      .cycle_needs_dwell = false,
+      .cycle_keeps_all_words = true,
+      .cycles_are_a_group = true,
+      .cycle_lifts_first = false,
+      .variables = Variables::macros,
+      .numbered_programs = true,
+      .said_modes =
+          ~(mode(GGroup::arc_centre) | mode(GGroup::lathe_diameter) | kFrameMode | kTransformMode)};
   return kRules;
 }
 

@@ -126,7 +126,8 @@ const DialectRules& linuxcnc_rules() noexcept {
                                        .programs_in_a_row = false,
                                        .words_wait = true,
                                        .short_way = true,
-                                       .plain_words = true};
+                                       .plain_words = true,
+                                       .said_modes = ~kTransformMode};
   return kRules;
 }
 

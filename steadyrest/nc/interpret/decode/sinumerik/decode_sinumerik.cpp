@@ -333,15 +333,17 @@ bool decode_sinumerik(const Decoding& in, const Block& block, Step& step) {
 const DialectRules& sinumerik_rules() noexcept {
   // SUPA may be alone in a block and keeps the tool length; the rounding distance (ADIS) stays in
   // force from block to block.
-  static constexpr DialectRules kRules{.decode = decode_sinumerik,
-                                       .machine_frame_alone = true,
-                                       .tool_in_machine_frame = true,
-                                       .rounding_distance = true,
-                                       .variables = Variables::typed,
-                                       .named_calls = true,
-                                       .has_g92 = false,
-                                       .settable_frames = true,
-                                       .edge_chooses_length = true};
+  static constexpr DialectRules kRules{
+      .decode = decode_sinumerik,
+      .machine_frame_alone = true,
+      .tool_in_machine_frame = true,
+      .rounding_distance = true,
+      .variables = Variables::typed,
+      .named_calls = true,
+      .has_g92 = false,
+      .settable_frames = true,
+      .edge_chooses_length = true,
+      .said_modes = ~(mode(GGroup::arc_centre) | mode(GGroup::lathe_diameter))};
   return kRules;
 }
 
