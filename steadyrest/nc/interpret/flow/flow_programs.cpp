@@ -120,11 +120,26 @@ bool FlowControl::enter_numbered(std::uint32_t line, std::string_view label, con
   return go(line, head);
 }
 
-bool FlowControl::call_named(const read::Block& block) {
-  const std::string name{block.flow().label.view()};
+// In the program's own file: %_N_NAME_SPF. A main program and its subprograms may come as one file.
+std::optional<Place> FlowControl::program_of_file(std::uint32_t line, std::string_view name) {
+  const ProgramMap* const map = map_here(line);
+  std::optional<Place> place = map == nullptr ? std::nullopt : map->program(name);
+  if (place) {
+    place->file = files_.line_end().file;
+  }
+  return place;
+}
+
+bool FlowControl::call_named(std::uint32_t line, const read::Flow& call) {
+  const std::string name{call.label.view()};
   if (frames_.size() > kDeepestCall) {
-    return refuse(block.line(), name, "calls_too_deep",
-                  "subprogram calls nested more than ten deep");
+    return refuse(line, name, "calls_too_deep", "subprogram calls nested more than ten deep");
+  }
+  values_ = call;
+  refused_ = {};
+  std::optional<Place> place = program_of_file(line, name);
+  if (!place && !refused_.reason.empty()) {
+    return false;
   }
   // The control ignores case, but many file systems do not.
   std::string big = name;
@@ -137,14 +152,62 @@ bool FlowControl::call_named(const read::Block& block) {
       names.push_back(stem + std::string{tail});
     }
   }
-  const auto file = files_.find(names);
-  if (!file) {
-    refuse(block.line(), name, "no_such_program",
+  place = place ? place : files_.find(names);
+  if (!place) {
+    refuse(line, name, "no_such_program",
            "an unknown word, and the subprogram folders have no NAME.SPF or NAME.MPF");
     refused_.word = name;
     return false;
   }
-  return enter_numbered(block.line(), name, *file, block.flow().repeats);
+  return enter_numbered(line, name, *place, values_.repeats);
+}
+
+bool FlowControl::end_program(std::uint32_t line) {
+  if (!in_call()) {
+    return refuse(line, {}, "endless_program",
+                  "M99 in the main program would restart it forever; end it with M30");
+  }
+  // M98 L5 executes the same frame five times: M99 returns to the head until none is left.
+  Frame& frame = frames_.back();
+  if (in_doubt(frame)) {
+    lose(Lost::all);
+  }
+  if (frame.left > 0.5) {
+    frame.left -= 1.0;
+    frame.open.clear();
+    frame.sections.clear();
+    return go(line, frame.head);
+  }
+  return leave(nullptr);
+}
+
+// Returns to the line after the call, with the caller's parameters.
+bool FlowControl::leave(const double* returned, bool unknown) {
+  const Place back = frames_.back().back;
+  const bool doubtful = in_doubt(frames_.back());
+  modal_running_ = modal_running_ && !frames_.back().modal;
+  frames_.pop_back();
+  carry_doubt_over(doubtful);
+  parameters_.leave(returned, unknown);
+  return go(back.line, back);
+}
+
+void FlowControl::set_modal(const read::Flow& call) {
+  modal_ = call;
+  modal_.kind = call.label.view().empty() ? read::FlowKind::none : read::FlowKind::call;
+}
+
+// Its own moves do not call it again.
+bool FlowControl::call_modal(std::uint32_t line) {
+  const bool numbered = read::is_digit(modal_.label.view().front());
+  const auto number = [&] { return std::stoi(std::string{modal_.label.view()}); };
+  values_ = modal_;
+  if (!(numbered ? call_numbered(line, number(), modal_.repeats)
+                 : call_named(line, modal_))) {
+    return false;
+  }
+  frames_.back().modal = modal_running_ = true;
+  return true;
 }
 
 }  // namespace steadyrest::nc::interpret
