@@ -87,9 +87,9 @@ class ProgramRun::Run {
   void at_line() {
     asked().clear();
     executed_ = false;
-    at_top_ = files_.in_main() && !flow_.repeating();
     in_main_ = files_.in_main();
     line_ = files_.now().number();
+    at_top_ = in_main_ && !flow_.repeating() && !flow_.may_repeat(line_);
     interpreter_->at_line(line_);
     provenance_.at_line(line_, flow_.in_doubt(), flow_.repeating());
   }
@@ -315,6 +315,9 @@ bool ProgramRun::step() {
 }
 void ProgramRun::read_with(const ProgramRun& other) {
   run_->ahead_ = other.run_.get();
+}
+void ProgramRun::note_jumps() {
+  run_->flow_.note_jumps();
 }
 Report ProgramRun::take() {
   return run_->take();

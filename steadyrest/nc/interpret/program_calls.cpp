@@ -67,11 +67,11 @@ bool ProgramCalls::after(const Block& block) {
                       "a call whose number or repeats the control decides: what it executes is not "
                       "known");
       }
-      accepted = parts_.rules.numbered_programs
-                     ? follow(flow.call_numbered(block.line(), call.number, call.repeats))
-                     : call.repeats < 0.5 ||
-                           follow(flow.call_program(block.line(), std::to_string(call.number),
-                                                    call.repeats));
+      accepted =
+          parts_.rules.numbered_programs
+              ? follow(flow.call_numbered(block.line(), call.number, call.repeats))
+              : call.repeats < 0.5 || follow(flow.call_program(
+                                          block.line(), std::to_string(call.number), call.repeats));
       break;
     case Kind::macro:
     case Kind::modal:
@@ -114,8 +114,7 @@ bool ProgramCalls::macro(const Block& block) {
     modal.repeats = call.repeats;
     parts_.macro.set_modal(call.arguments);
   }
-  flow.set_modal(modal);
-  return true;
+  return follow(flow.set_modal(block.line(), modal));
 }
 
 // M99, M17 or RET: back to the caller, or to the head where the call repeats.
@@ -159,11 +158,12 @@ bool ProgramCalls::named(const Block& block) {
     if (modal) {
       read::Flow none;
       none.label.clear();
-      parts_.flow.set_modal(flow.kind == FlowKind::modal_call ? flow : none);
+      accepted = follow(
+          parts_.flow.set_modal(block.line(), flow.kind == FlowKind::modal_call ? flow : none));
     }
-    accepted = parts_.interpreter.execute_cycle(block, parts_.sink);
-    if (!accepted) {
+    if (accepted && !parts_.interpreter.execute_cycle(block, parts_.sink)) {
       refused_ = parts_.interpreter.refused();
+      accepted = false;
     }
     if (flow.unknown != 0) {
       parts_.provenance.lose(FlowControl::Lost::all);

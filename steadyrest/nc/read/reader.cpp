@@ -35,10 +35,9 @@ bool read_sinumerik(Reading& reading, std::string_view line, std::uint32_t numbe
 // The longest lines: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are read, one more is
 // "Command too long"); the others are ours, far above what the controls store.
 constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, false, false, nullptr};
-constexpr Rules kFanucRules = {read_letters<kFanucLetters>, 1024, false, true, false,
-                               macro_landmark};
-constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true,
-                                   sinumerik_landmark};
+constexpr Rules kFanucRules = {
+    read_letters<kFanucLetters>, 1024, false, true, false, macro_landmark};
+constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true, sinumerik_landmark};
 
 // A switch, not an array: the compiler names a dialect that is missing here.
 constexpr const Rules& rules_of(Dialect dialect) noexcept {

@@ -64,7 +64,7 @@ class FlowControl {
   /// NAME.MPF in the folders.
   bool call_named(std::uint32_t line, const read::Flow& call);
   /// A program that is called after each block that moves: G66, MCALL NAME. Without a label: none.
-  void set_modal(const read::Flow& call);
+  bool set_modal(std::uint32_t line, const read::Flow& call);
   [[nodiscard]] bool modal_due() const noexcept {
     return modal_.kind != read::FlowKind::none && !modal_running_;
   }
@@ -76,6 +76,12 @@ class FlowControl {
   bool count_line(std::uint64_t moves_before);
   /// Why the file must not end here; false when it may.
   bool refuse_end();
+  /// Looks for the jumps of the main program, so that may_repeat() knows them; before it begins.
+  void note_jumps();
+  /// A jump of the main program may execute its line again: see ProgramMap.
+  [[nodiscard]] bool may_repeat(std::uint32_t line) const noexcept {
+    return main_map_ != nullptr && main_map_->may_repeat(line);
+  }
   [[nodiscard]] bool in_call() const noexcept { return frames_.size() > 1; }
   [[nodiscard]] bool repeating() const noexcept {
     return in_call() || !frames_.back().open.empty();
@@ -145,7 +151,7 @@ class FlowControl {
 
   // flow_jumps.cpp, flow_structures.cpp: by the map of the file
   bool act_mapped(const read::Block& block);
-  ProgramMap* map_here(std::uint32_t line);
+  const ProgramMap* map_of(std::uint32_t line, std::uint32_t file);
   bool jump(const read::Block& block, const ProgramMap& map);
   bool jump_to(std::uint32_t line, const ProgramMap& map, const Place& target);
   bool refuse_target(std::uint32_t line, std::string_view name, ProgramMap::Target::Found found);
@@ -165,8 +171,8 @@ class FlowControl {
   bool call(const read::Block& block);
   bool enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
                       double repeats);
+  std::optional<Place> find_named(std::uint32_t line, const std::string& name);
   std::optional<Place> program_of_file(std::uint32_t line, std::string_view name);
-  bool note_programs(std::uint32_t line, std::uint32_t file);
   bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
   bool leave(const double* returned, bool unknown = false);
   bool end_of_sub(const read::Block& block);
@@ -207,7 +213,6 @@ class FlowControl {
   std::map<std::string, Place> programs_;  ///< number → after the line of its O
   std::map<std::string, Place> heads_;     ///< labels that head a block
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
-  bool programs_noted_ = false;
   Passing passing_ = Passing::nothing;
   std::string passing_label_;
   std::uint32_t passing_from_ = 0;
@@ -216,6 +221,7 @@ class FlowControl {
   Lost lost_ = Lost::nothing;
   bool block_delete_;
   std::map<std::uint32_t, ProgramMap> maps_;  ///< by file
+  const ProgramMap* main_map_ = nullptr;      ///< where jumps were looked for
   std::uint32_t jumped_back_ = 0;             ///< the line that did so last
   read::Flow modal_;
   bool modal_running_ = false;  ///< its own moves do not call it

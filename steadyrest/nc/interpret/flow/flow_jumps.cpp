@@ -16,7 +16,7 @@ using read::Towards;
 bool FlowControl::act_mapped(const Block& block) {
   // Reads the whole file when it is first needed: from here on the block's words are gone, but its
   // flow is its own.
-  const ProgramMap* const map = map_here(block.line());
+  const ProgramMap* const map = map_of(block.line(), files_.line_end().file);
   if (map == nullptr) {
     return false;
   }
@@ -30,21 +30,33 @@ bool FlowControl::act_mapped(const Block& block) {
   }
 }
 
-/// The map of the file that is being read; null when it is refused.
-ProgramMap* FlowControl::map_here(std::uint32_t line) {
-  const Place here = files_.line_end();
-  const auto known = maps_.find(here.file);
+/// The map of a file; null when it is refused. The line that was read last is read again: its text
+/// is asked for after the step.
+const ProgramMap* FlowControl::map_of(std::uint32_t line, std::uint32_t file) {
+  const auto known = maps_.find(file);
   if (known != maps_.end()) {
     return &known->second;
   }
-  if (!go(line, {.file = here.file, .line = 0, .offset = 0})) {
+  const Place before = files_.line_begin();
+  const Place here = files_.line_end();
+  if (!go(line, {.file = file, .line = 0, .offset = 0})) {
     return nullptr;
   }
   ProgramMap map;
-  if (!map.note(files_, reader_, block_delete_, refused_) || !go(line, here)) {
+  const bool noted = map.note(files_, reader_, block_delete_, refused_);
+  const bool again = here.file == before.file && here.line == before.line + 1;
+  if (!go(line, again ? before : here) ||
+      (again && files_.next() != read::LineSource::Status::line) || !noted) {
     return nullptr;
   }
-  return &maps_.emplace(here.file, std::move(map)).first->second;
+  return &maps_.emplace(file, std::move(map)).first->second;
+}
+
+// A fault in the file is refused where it is reached, not here.
+void FlowControl::note_jumps() {
+  if (reader_.maps()) {
+    main_map_ = map_of(1, 0);
+  }
 }
 
 bool FlowControl::refuse_target(std::uint32_t line, std::string_view name,
@@ -92,15 +104,14 @@ bool FlowControl::jump(const Block& block, const ProgramMap& map) {
     return true;
   }
   const ProgramMap::Target target =
-      flow.towards == Towards::start
-          ? ProgramMap::Target{.found = ProgramMap::Target::Found::yes,
-                               .place = map.start_of_program(line)}
-          : map.find(flow.label.view(), line, flow.towards);
+      flow.towards == Towards::start ? ProgramMap::Target{.found = ProgramMap::Target::Found::yes,
+                                                          .place = map.start_of_program(line)}
+                                     : map.find(flow.label.view(), line, flow.towards);
   const bool found = target.found == ProgramMap::Target::Found::yes;
   if (flow.unknown != 0) {
     // Another target, or none; one behind the jump bounds the doubt.
-    const bool bounded = found && (flow.unknown & read::Flow::kUnknownLabel) == 0 &&
-                         target.place.line >= line;
+    const bool bounded =
+        found && (flow.unknown & read::Flow::kUnknownLabel) == 0 && target.place.line >= line;
     doubt_lines(map, line + 1, bounded ? target.place.line + 1 : ProgramMap::kToItsEnd);
   }
   if (!flow.holds) {
@@ -139,6 +150,7 @@ bool FlowControl::jump_to(std::uint32_t line, const ProgramMap& map, const Place
 
 // Back in the caller: at one of its blocks.
 bool FlowControl::end_program_at(std::uint32_t line, std::int32_t number) {
+  const Place asked = files_.line_end();
   if (in_call()) {
     if (frames_.back().left > 0.5) {
       return refuse(line, {}, "flow_control",
@@ -149,16 +161,19 @@ bool FlowControl::end_program_at(std::uint32_t line, std::int32_t number) {
       return false;
     }
   }
-  const ProgramMap* const map = map_here(line);
+  const ProgramMap* const map = map_of(line, files_.line_end().file);
   if (map == nullptr) {
     return false;
   }
   const std::string name = "N" + std::to_string(number);
   const std::uint32_t from = files_.line_end().line;
   const ProgramMap::Target target = map->find(name, from, Towards::anywhere);
-  return target.found == ProgramMap::Target::Found::yes
-             ? jump_to(from, *map, target.place)
-             : refuse_target(line, name, target.found);
+  if (target.found == ProgramMap::Target::Found::yes) {
+    return jump_to(from, *map, target.place);
+  }
+  // In the line of the return, unless that is in another file.
+  const bool same_file = asked.file == files_.line_end().file;
+  return refuse_target(same_file ? line : from, name, target.found);
 }
 
 // REPEATB LABEL P=n: its block. REPEAT LABEL P=n: from there to here. REPEAT A B P=n: from A to the

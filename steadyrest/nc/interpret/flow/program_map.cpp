@@ -73,10 +73,7 @@ class ProgramMap::Noting {
 
  private:
   bool refuse(std::uint32_t line, std::string_view reason, std::string_view text) {
-    refused_ = {.line = line,
-                .word = {},
-                .reason = std::string{reason},
-                .text = std::string{text}};
+    refused_ = {.line = line, .word = {}, .reason = std::string{reason}, .text = std::string{text}};
     return false;
   }
   [[nodiscard]] std::size_t inside() const noexcept { return open_.empty() ? kNone : open_.back(); }
@@ -103,7 +100,8 @@ class ProgramMap::Noting {
       case FlowKind::jump:
       case FlowKind::back:
       case FlowKind::modal_call:
-        map_.exits_.push_back({after.line, std::string{mark.target}, mark.towards});
+      case FlowKind::section:
+        map_.exits_.push_back({after.line, mark.kind, std::string{mark.target}, mark.towards});
         return true;
       default:
         return true;
@@ -112,7 +110,8 @@ class ProgramMap::Noting {
 
   bool open(const Landmark& mark, const Place& before, const Place& after) {
     // fanuc: loops within each other have different numbers.
-    if (!mark.name.empty() && std::ranges::find(names_, mark.name) != names_.end()) {
+    const bool numbered = !mark.name.empty() && read::is_digit(mark.name.front());
+    if (numbered && std::ranges::find(names_, mark.name) != names_.end()) {
       return refuse(after.line, "loop_number",
                     "a loop within another one of the same number; number them DO1 to DO3");
     }
@@ -131,7 +130,9 @@ class ProgramMap::Noting {
   }
 
   bool close(const Landmark& mark, const Place& before, const Place& after) {
-    if (open_.empty() || !ends(mark.kind, map_.structures_[open_.back()].kind)) {
+    const bool numbered = !mark.name.empty() && read::is_digit(mark.name.front());
+    if (open_.empty() || !ends(mark.kind, map_.structures_[open_.back()].kind) ||
+        (!numbered && names_.back() != mark.name)) {
       return refuse(after.line, "structure_unmatched",
                     "the end of a condition or loop that does not begin before it");
     }
@@ -179,7 +180,8 @@ bool ProgramMap::note(ProgramFiles& files, const read::Reader& reader, bool bloc
       continue;
     }
     // The first line's % opens the file, a later one closes it.
-    if (text[begin] == '%' && text.find_first_not_of(" \t\r", begin + 1) == std::string_view::npos) {
+    if (text[begin] == '%' &&
+        text.find_first_not_of(" \t\r", begin + 1) == std::string_view::npos) {
       if (!first) {
         break;
       }
@@ -193,7 +195,42 @@ bool ProgramMap::note(ProgramFiles& files, const read::Reader& reader, bool bloc
     }
   }
   std::ranges::stable_sort(numbers_, {}, &std::pair<std::uint32_t, Place>::first);
+  note_repeats();
   return noting.end();
+}
+
+void ProgramMap::note_repeats() {
+  std::vector<Lines> all;
+  for (const Exit& exit : exits_) {
+    if (exit.kind == FlowKind::modal_call) {
+      continue;
+    }
+    const Lines program = extent(exit.line);
+    const bool section = exit.kind == FlowKind::section;
+    const Target target = find(exit.target, exit.line, section ? Towards::beginning : exit.towards);
+    if (exit.kind == FlowKind::back) {
+      all.push_back(program);  // M99 P
+    } else if (exit.towards == Towards::start) {
+      all.emplace_back(program.first, exit.line);
+    } else if (target.found != Target::Found::yes || exit.target.empty()) {
+      all.push_back(program);
+    } else if (target.place.line < exit.line) {
+      all.emplace_back(target.place.line + 1, exit.line);
+    }
+  }
+  std::ranges::sort(all);
+  for (const Lines& lines : all) {
+    if (!repeats_.empty() && lines.first <= repeats_.back().second) {
+      repeats_.back().second = std::max(repeats_.back().second, lines.second);
+    } else {
+      repeats_.push_back(lines);
+    }
+  }
+}
+
+bool ProgramMap::may_repeat(std::uint32_t line) const noexcept {
+  const auto next = std::ranges::upper_bound(repeats_, line, {}, &Lines::first);
+  return next != repeats_.begin() && (next - 1)->second >= line;
 }
 
 std::size_t ProgramMap::at(std::uint32_t line) const noexcept {
@@ -208,7 +245,7 @@ std::size_t ProgramMap::around(std::uint32_t line) const noexcept {
 }
 
 // First and last line of the program that contains the line.
-std::pair<std::uint32_t, std::uint32_t> ProgramMap::extent(std::uint32_t line) const noexcept {
+ProgramMap::Lines ProgramMap::extent(std::uint32_t line) const noexcept {
   const auto next = std::ranges::upper_bound(programs_, line, {},
                                              [](const Place& place) { return place.line + 1; });
   return {next == programs_.begin() ? 1 : (next - 1)->line + 1,
@@ -270,7 +307,7 @@ std::uint32_t ProgramMap::end_of_doubt(std::uint32_t line, std::uint32_t to) con
   // Exits are in the order of lines, so one pass suffices while the end moves on.
   auto exit = std::ranges::lower_bound(exits_, line, {}, &Exit::line);
   for (; exit != exits_.end() && exit->line < to; ++exit) {
-    if (exit->target.empty()) {
+    if (exit->target.empty() || exit->kind != FlowKind::jump) {
       return kToItsEnd;
     }
     const Target target = find(exit->target, exit->line, exit->towards);

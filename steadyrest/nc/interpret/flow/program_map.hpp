@@ -68,6 +68,9 @@ class ProgramMap {
   /// between them are executed: a line, or kToItsEnd where one goes back, leaves the program or has
   /// a target that is calculated, and where a modal call begins or ends.
   [[nodiscard]] std::uint32_t end_of_doubt(std::uint32_t line, std::uint32_t to) const;
+  /// A jump or a repeated section may execute the line again: it is between a target and a jump
+  /// that goes back to it, or in the program of a jump whose target is calculated.
+  [[nodiscard]] bool may_repeat(std::uint32_t line) const noexcept;
 
  private:
   struct Mark {
@@ -77,15 +80,19 @@ class ProgramMap {
   };
   struct Exit {
     std::uint32_t line = 0;
+    read::FlowKind kind = read::FlowKind::jump;
     std::string target;  ///< empty: calculated, a return or a modal call
     read::Towards towards = read::Towards::either;
   };
   class Noting;
-  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> extent(std::uint32_t line) const noexcept;
+  using Lines = std::pair<std::uint32_t, std::uint32_t>;  ///< first and last
+  [[nodiscard]] Lines extent(std::uint32_t line) const noexcept;
+  void note_repeats();
 
   std::vector<Structure> structures_;
   std::vector<Mark> marks_;
-  std::vector<Exit> exits_;
+  std::vector<Exit> exits_;      ///< and sections
+  std::vector<Lines> repeats_;   ///< in order, apart
   std::vector<Place> programs_;  ///< before their first blocks, in order
   std::unordered_map<std::string, Place> program_names_;
   std::unordered_map<std::string, std::vector<Place>> labels_;

@@ -55,8 +55,8 @@ bool value_of(const Word& word, DecimalRule rule, double unit_mm, double& value)
 
 }  // namespace
 
-bool macro_arguments(const read::Block& block, DecimalRule rule, double unit_mm,
-                     Refusals& refusals, MacroArguments& out) {
+bool macro_arguments(const read::Block& block, DecimalRule rule, double unit_mm, Refusals& refusals,
+                     MacroArguments& out) {
   out.given = out.unknown = 0;
   Groups groups;
   for (const Word& word : block.words().subspan(1)) {

@@ -27,7 +27,7 @@ struct MacroArguments {
 /// variable the later counts. Where I, J and K do not say which group they belong to, a number
 /// without a decimal point has a unit that depends on the control (E and F with
 /// DecimalRule::least_increment), or an argument is before the G word, the call is refused.
-bool macro_arguments(const read::Block& block, DecimalRule rule, double unit_mm,
-                     Refusals& refusals, MacroArguments& out);
+bool macro_arguments(const read::Block& block, DecimalRule rule, double unit_mm, Refusals& refusals,
+                     MacroArguments& out);
 
 }  // namespace steadyrest::nc::interpret

@@ -182,9 +182,7 @@ void MacroVariables::commit() {
   for (const auto& [index, value, unknown] : pending_) {
     // What is set in doubt may have another value.
     numbers_[static_cast<std::size_t>(index)] = {
-        .value = value,
-        .set = true,
-        .unknown = unknown || (known_ != nullptr && known_->doubt)};
+        .value = value, .set = true, .unknown = unknown || (known_ != nullptr && known_->doubt)};
   }
   drop();
 }

@@ -38,7 +38,7 @@ bool SinumerikVariables::of_state(std::string_view name, char axis, double& valu
 }
 
 Lookup SinumerikVariables::system(std::string_view name, char axis, double& value) const {
-  constexpr std::array<std::string_view, 9> kKinds = {"$P_", "$A",  "$V",  "$MC_", "$MA_",
+  constexpr std::array<std::string_view, 9> kKinds = {"$P_",  "$A",   "$V",   "$MC_", "$MA_",
                                                       "$MN_", "$SC_", "$SA_", "$TC_"};
   if (state_ == nullptr || std::ranges::none_of(kKinds, [&](std::string_view kind) {
         return name.size() > kind.size() && name.starts_with(kind);

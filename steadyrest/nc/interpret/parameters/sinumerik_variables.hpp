@@ -86,7 +86,8 @@ class SinumerikVariables final : public read::TypedValues {
   };
   void hear(bool unknown) const noexcept;
   [[nodiscard]] bool in_doubt() const noexcept { return known_ != nullptr && known_->doubt; }
-  [[nodiscard]] bool of_state(std::string_view name, char axis, double& value, ModeMask& mode) const;
+  [[nodiscard]] bool of_state(std::string_view name, char axis, double& value,
+                              ModeMask& mode) const;
 
   const State* state_ = nullptr;
   KnownState* known_ = nullptr;

@@ -122,8 +122,8 @@ bool MacroExpression::read_condition(double& out) {
     return fail("missing_value", "a condition in brackets belongs here: [#1 EQ 2]");
   }
   conditional_ = true;
-  return bracket(out) &&
-         (compared_ || fail("flow_control", "a condition compares: [#1 EQ 2], with EQ NE GT GE LT "
+  return bracket(out) && (compared_ || fail("flow_control",
+                                            "a condition compares: [#1 EQ 2], with EQ NE GT GE LT "
                                             "or LE"));
 }
 

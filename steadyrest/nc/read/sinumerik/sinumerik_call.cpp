@@ -57,15 +57,14 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
     std::string_view name;
     bool (SinumerikLine::*read)(const char* word_begin);
   };
-  static constexpr std::array kStatements = {
-      Statement{"DEF", &SinumerikLine::definition},
-      Statement{"PROC", &SinumerikLine::head_of_subprogram},
-      Statement{"EXTERN", &SinumerikLine::declaration},
-      Statement{"MCALL", &SinumerikLine::modal_call},
-      Statement{"CALL", &SinumerikLine::indirect_call},
-      Statement{"PCALL", &SinumerikLine::indirect_call},
-      Statement{"SETAL", &SinumerikLine::alarm},
-      Statement{"SETMS", &SinumerikLine::master_spindle}};
+  static constexpr std::array kStatements = {Statement{"DEF", &SinumerikLine::definition},
+                                             Statement{"PROC", &SinumerikLine::head_of_subprogram},
+                                             Statement{"EXTERN", &SinumerikLine::declaration},
+                                             Statement{"MCALL", &SinumerikLine::modal_call},
+                                             Statement{"CALL", &SinumerikLine::indirect_call},
+                                             Statement{"PCALL", &SinumerikLine::indirect_call},
+                                             Statement{"SETAL", &SinumerikLine::alarm},
+                                             Statement{"SETMS", &SinumerikLine::master_spindle}};
   const auto* const known = std::ranges::find_if(
       kStatements, [&](const Statement& one) { return equal(name, one.name); });
   if (known != kStatements.end()) {

@@ -164,7 +164,8 @@ bool SinumerikLine::array_values(const char* word_begin, std::size_t count,
   const std::string_view how = letters();
   if (!(how.empty() || equal(how, "SET") || equal(how, "REP")) || next() != '(') {
     at_ = from;
-    return refuse(since(word_begin), "array", "an array's values are SET(1,2,…), (1,2,…) or REP(0)");
+    return refuse(since(word_begin), "array",
+                  "an array's values are SET(1,2,…), (1,2,…) or REP(0)");
   }
   do {
     ++at_;
@@ -270,7 +271,8 @@ bool SinumerikLine::text_value(const char* word_begin, std::string& out) {
         at_ = from;
         double value = 0.0;
         // Up to the next <<, of which an expression would take the first half for a comparison.
-        const char* const whole_line = std::exchange(end_, at_ + std::min(rest().size(), rest().find("<<")));
+        const char* const whole_line =
+            std::exchange(end_, at_ + std::min(rest().size(), rest().find("<<")));
         const bool read = calculated(word_begin, value);
         end_ = whole_line;
         if (!read) {

@@ -29,9 +29,9 @@ struct Jump {
   std::string_view name;
   Towards towards;
 };
-constexpr std::array kJumps = {
-    Jump{"GOTOF", Towards::end}, Jump{"GOTOB", Towards::beginning}, Jump{"GOTO", Towards::either},
-    Jump{"GOTOC", Towards::if_there}, Jump{"GOTOS", Towards::start}};
+constexpr std::array kJumps = {Jump{"GOTOF", Towards::end}, Jump{"GOTOB", Towards::beginning},
+                               Jump{"GOTO", Towards::either}, Jump{"GOTOC", Towards::if_there},
+                               Jump{"GOTOS", Towards::start}};
 
 constexpr std::string_view kOwnFlowBlock =
     "a jump, condition or loop needs a separate block, and its parts in their order: IF R1>5 GOTOF "

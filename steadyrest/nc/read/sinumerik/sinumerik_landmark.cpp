@@ -54,15 +54,22 @@ class WordScan {
 struct KeyWord {
   std::string_view name;
   FlowKind kind;
+  std::string_view loop = {};  ///< what it begins or ends
 };
-constexpr std::array kKeyWords = {
-    KeyWord{"IF", FlowKind::when},           KeyWord{"ELSE", FlowKind::otherwise},
-    KeyWord{"ENDIF", FlowKind::endif},       KeyWord{"WHILE", FlowKind::loop_while},
-    KeyWord{"ENDWHILE", FlowKind::end_loop}, KeyWord{"FOR", FlowKind::loop_count},
-    KeyWord{"ENDFOR", FlowKind::end_loop},   KeyWord{"LOOP", FlowKind::loop},
-    KeyWord{"ENDLOOP", FlowKind::end_loop},  KeyWord{"REPEAT", FlowKind::loop_until},
-    KeyWord{"UNTIL", FlowKind::until},       KeyWord{"CASE", FlowKind::jump},
-    KeyWord{"REPEATB", FlowKind::section},   KeyWord{"MCALL", FlowKind::modal_call}};
+constexpr std::array kKeyWords = {KeyWord{"IF", FlowKind::when},
+                                  KeyWord{"ELSE", FlowKind::otherwise},
+                                  KeyWord{"ENDIF", FlowKind::endif},
+                                  KeyWord{"WHILE", FlowKind::loop_while, "WHILE"},
+                                  KeyWord{"ENDWHILE", FlowKind::end_loop, "WHILE"},
+                                  KeyWord{"FOR", FlowKind::loop_count, "FOR"},
+                                  KeyWord{"ENDFOR", FlowKind::end_loop, "FOR"},
+                                  KeyWord{"LOOP", FlowKind::loop, "LOOP"},
+                                  KeyWord{"ENDLOOP", FlowKind::end_loop, "LOOP"},
+                                  KeyWord{"REPEAT", FlowKind::loop_until},
+                                  KeyWord{"UNTIL", FlowKind::until},
+                                  KeyWord{"CASE", FlowKind::jump},
+                                  KeyWord{"REPEATB", FlowKind::section},
+                                  KeyWord{"MCALL", FlowKind::modal_call}};
 
 struct JumpWord {
   std::string_view name;
@@ -74,8 +81,8 @@ constexpr std::array kJumpWords = {
     JumpWord{"GOTOS", Towards::start}};
 
 bool read_jump(std::string_view word, WordScan& scan, Landmark& out) noexcept {
-  const auto* const found = std::ranges::find_if(
-      kJumpWords, [&](const JumpWord& one) { return equal(word, one.name); });
+  const auto* const found =
+      std::ranges::find_if(kJumpWords, [&](const JumpWord& one) { return equal(word, one.name); });
   if (found == kJumpWords.end()) {
     return false;
   }
@@ -174,17 +181,21 @@ Landmark sinumerik_landmark(std::string_view line) noexcept {
   if (word.empty() || read_jump(word, scan, out)) {
     return out;
   }
-  const auto* const found = std::ranges::find_if(
-      kKeyWords, [&](const KeyWord& one) { return equal(word, one.name); });
+  const auto* const found =
+      std::ranges::find_if(kKeyWords, [&](const KeyWord& one) { return equal(word, one.name); });
   if (found == kKeyWords.end()) {
     read_return(word, scan, out);
     return out;
   }
   out.kind = found->kind;
+  out.name = found->loop;
   if (found->kind == FlowKind::when) {
     read_condition(scan, out);
   } else if (found->kind == FlowKind::loop_until && scan.peek() != '\0') {
     out.kind = FlowKind::section;
+  }
+  if (out.kind == FlowKind::section) {
+    out.target = scan.next();
   }
   return out;
 }

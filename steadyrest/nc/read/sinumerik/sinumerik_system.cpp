@@ -112,11 +112,13 @@ bool SinumerikExpression::system_variable(double& out) {
         return false;
       }
       if (index != std::floor(index) || index < 0.0 || index > 99999.0) {
-        return fail("system_variable", "a system variable with an index that is no axis letter "
-                                       "and not a whole number");
+        return fail("system_variable",
+                    "a system variable with an index that is no axis letter "
+                    "and not a whole number");
       }
       std::array<char, 8> digits{};
-      const auto* const end = std::to_chars(digits.begin(), digits.end(), static_cast<int>(index)).ptr;
+      const auto* const end =
+          std::to_chars(digits.begin(), digits.end(), static_cast<int>(index)).ptr;
       fits = fits && name.push('[');
       for (const char* digit = digits.begin(); digit != end; ++digit) {
         fits = fits && name.push(*digit);
@@ -127,8 +129,8 @@ bool SinumerikExpression::system_variable(double& out) {
       return false;
     }
   }
-  const Lookup lookup = fits && typed_ != nullptr ? typed_->system(name.view(), axis, out)
-                                                  : Lookup::not_known_here;
+  const Lookup lookup =
+      fits && typed_ != nullptr ? typed_->system(name.view(), axis, out) : Lookup::not_known_here;
   return lookup == Lookup::found ||
          fail("system_variable", "a system variable ($...) whose meaning is not known here");
 }
@@ -203,7 +205,8 @@ bool SinumerikExpression::text_comparison(double& out) {
   while (at_ != end_ && is_blank(*at_)) {
     ++at_;
   }
-  const std::string_view how{at_, static_cast<std::size_t>(std::min<std::ptrdiff_t>(2, end_ - at_))};
+  const std::string_view how{at_,
+                             static_cast<std::size_t>(std::min<std::ptrdiff_t>(2, end_ - at_))};
   if (how != "==" && how != "<>") {
     out = left.size() == 1 ? static_cast<double>(static_cast<unsigned char>(left.front())) : 0.0;
     return left.size() == 1 || fail("bad_value", "a string where a number belongs");

@@ -53,8 +53,8 @@ enum class FlowKind : std::uint8_t {
   loop_do,  ///< do
   repeat,
   endrepeat,
-  leave_loop,  ///< break
-  next_turn,   ///< continue
+  leave_loop,   ///< break
+  next_turn,    ///< continue
   cycle,        ///< sinumerik CYCLE…( )
   modal_cycle,  ///< sinumerik MCALL; without a label its end
   // Of dialects whose files are mapped (Landmark). Their `when`, `otherwise`, `endif` and

@@ -17,7 +17,7 @@ struct Landmark {
   bool numbered = false;  ///< has a block number
   std::uint32_t number = 0;
   std::string_view label;   ///< `NAME:` of sinumerik
-  std::string_view name;    ///< of the program that begins; fanuc: of a loop (DO1)
+  std::string_view name;    ///< of the program that begins; of a loop: its number or kind
   std::string_view target;  ///< of a jump, where it is written plainly
   Towards towards = Towards::either;
 };

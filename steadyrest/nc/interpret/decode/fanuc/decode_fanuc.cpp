@@ -131,8 +131,7 @@ bool FanucDecoder::macro_call(const Block& block) {
                   "a macro call without the number of its program (P)");
   }
   return !step_.has('L') || (step_['L'] >= 1.0 && step_['L'] == std::floor(step_['L'])) ||
-         in_.refusals.letter(step_, 'L', "bad_value",
-                             "repeats (L) are a whole number from 1");
+         in_.refusals.letter(step_, 'L', "bad_value", "repeats (L) are a whole number from 1");
 }
 
 // FANUC's G61 is an exact stop and G64 cutting mode. Decimal codes of LinuxCNC are refused:

@@ -15,6 +15,8 @@
 /// machine. Shares no code with the interpreter.
 namespace steadyrest::nc::interpret::test {
 
+inline constexpr int kFlowVariables = 4;
+
 class RandomFlow {
  public:
   /// What one line did when it was executed.
