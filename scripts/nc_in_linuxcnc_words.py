@@ -43,6 +43,58 @@ def macro_line(line, inch):
     return out
 
 
+def flow_lines(lines, dialect, names=frozenset()):
+    """Conditions and loops in LinuxCNC's O-words, line by line; None where a line jumps, which O-words cannot."""
+    out, open_loops, count = [], [], 7000
+    fanuc = dialect == "fanuc"
+    value = (lambda text: f"[{text}]") if fanuc else (lambda text: sinumerik_condition(text, names))
+    for line in lines:
+        code = re.sub(r"^\s*(N\d+\s*)?", "", line)
+        if re.search(r"(?i)\bGOTO|GOTO\s*[\d#\[]|\bCASE\b|^REPEATB?\s+\w|\bG6[56]|\bCALL\b", code):
+            return None
+        then = re.match(r"(?i)IF\s*(\[.*\])\s*THEN\s*(#.*)", code) if fanuc else None
+        head = re.match(r"(?i)(WHILE)\s*(\[.*\])\s*DO\s*\d" if fanuc else r"(?i)(IF|WHILE|FOR|LOOP|REPEAT)\b\s*(.*)", code)
+        end = re.match(r"(?i)(END)\s*\d" if fanuc else r"(?i)(ELSE|ENDIF|ENDWHILE|ENDFOR|UNTIL|ENDLOOP)\b\s*(.*)", code)
+        if then:
+            count += 1
+            out += [f"O{count} if {value(then.group(1))}", then.group(2), f"O{count} endif"]
+        elif head:
+            count += 1
+            word, condition = head.group(1).upper(), head.group(2).strip()
+            variable = step = None
+            if word == "FOR":
+                variable, begin, limit = re.match(r"(?i)(\w+)\s*=\s*(.*?)\s+TO\s+(.*)", condition).groups()
+                variable = sinumerik_value(variable, names)
+                out.append(f"{variable}=[{sinumerik_value(begin, names)}]")
+                step = f"{variable}=[{variable}+1]"
+                out.append(f"O{count} while [{variable} LE [{sinumerik_value(limit, names)}]]")
+            else:
+                out.append(f"O{count} do" if word == "REPEAT" else f"O{count} while [1]" if word == "LOOP"
+                           else f"O{count} {'if' if word == 'IF' else 'while'} {value(condition)}")
+            open_loops.append((count, word, step))
+        elif end:
+            number, word, step = open_loops[-1]
+            if end.group(1).upper() == "ELSE":
+                out.append(f"O{number} else")
+                continue
+            open_loops.pop()
+            out += [step] if step else []
+            out.append(f"O{number} while [{value(end.group(2))} EQ 0]" if word == "REPEAT"
+                       else f"O{number} {'endif' if word == 'IF' else 'endwhile'}")
+        else:
+            out.append(line)
+    return out
+
+
+def sinumerik_condition(text, names):
+    """A condition: comparisons bind last, as on LinuxCNC only in brackets."""
+    text = sinumerik_value(text, names)
+    for theirs, ours in (("==", " EQ "), ("<>", " NE "), ("<=", " LE "), (">=", " GE "), ("<", " LT "), (">", " GT ")):
+        text = re.sub(r"(?<![<>])" + re.escape(theirs) + r"(?![<>=\d-]*[<>])" if len(theirs) == 1 else re.escape(theirs), ours, text) \
+            if theirs not in ("<", ">") else re.sub(r"(#)<(\w+)>|<|>", lambda m: m.group(0) if m.group(1) else {"<": " LT ", ">": " GT "}[m.group(0)], text)
+    return f"[{text}]"
+
+
 def closing(text, at):
     """The place of the bracket that closes the one at `at`."""
     depth = 0

@@ -9,6 +9,7 @@
 #include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
 #include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
+#include <steadyrest/nc/interpret/program_calls.hpp>
 #include <steadyrest/nc/interpret/program_counter.hpp>
 #include <steadyrest/nc/interpret/program_fence.hpp>
 #include <steadyrest/nc/interpret/program_refusals.hpp>
@@ -47,7 +48,14 @@ class ProgramRun::Run {
                         .lose_values = [this] {
                           macro_.lose_all();
                           typed_.lose_all();
-                        }}) {
+                        }}),
+        calls_({.flow = flow_,
+                .interpreter = *interpreter_,
+                .macro = macro_,
+                .typed = typed_,
+                .provenance = provenance_,
+                .rules = rules_,
+                .sink = counter_}) {
     switch (rules_.variables) {
       case Variables::parameters:
         reader_.set_values(&interpreter_->parameters());
@@ -61,6 +69,8 @@ class ProgramRun::Run {
     }
     reader_.set_block_delete(config.block_delete);
     macro_.note_unknown(provenance_.known());
+    typed_.note_unknown(provenance_.known());
+    typed_.bind(interpreter_->state());
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -88,9 +98,9 @@ class ProgramRun::Run {
   void at_line() {
     asked().clear();
     executed_ = false;
-    at_top_ = files_.in_main() && !flow_.repeating();
     in_main_ = files_.in_main();
     line_ = files_.now().number();
+    at_top_ = in_main_ && !flow_.repeating() && !flow_.may_repeat(line_);
     interpreter_->at_line(line_);
     provenance_.at_line(line_, flow_.in_doubt(), flow_.repeating());
     fence_.at_line();
@@ -120,12 +130,9 @@ class ProgramRun::Run {
       return refuse(at_block(block_, "subprogram_call",
                              "a call with more values than the subprogram takes (PROC)"));
     }
-    if (rules_.named_calls && block_.flow().kind != read::FlowKind::none) {
-      return call();
-    }
     if (block_.flow().kind != read::FlowKind::none && !(block_.deleted() && block_delete_)) {
-      const bool accepted = follow(flow_.act(block_));
-      provenance_.lose(flow_.take_lost());
+      const bool accepted = flow();
+      calls_.lose();
       return accepted;
     }
     executed_ = !(block_.deleted() && block_delete_);
@@ -145,37 +152,46 @@ class ProgramRun::Run {
       return refuse(at_block(block_, "subprogram_end",
                              "the end of a program in a subprogram; write M17 or RET"));
     }
-    return program_call();
+    return calls_.idle() || !executed_ || calls_.after(block_) || not_understood(calls_.refused());
   }
 
-  /// A call or an end of a subprogram that the block has asked for.
-  bool program_call() {
-    using Kind = Interpreter::ProgramCall::Kind;
-    const Interpreter::ProgramCall& call = interpreter_->program_call();
-    if (call.kind != Kind::call) {
-      return call.kind == Kind::none || end_of_subprogram();
+  /// A block that says what comes next.
+  bool flow() {
+    switch (block_.flow().kind) {
+      case read::FlowKind::cycle:
+      case read::FlowKind::modal_cycle:
+      case read::FlowKind::modal_call:
+        ++report_.blocks;
+        if (block_.flow().label.view().empty()) {
+          provenance_.no_modal_call();
+        }
+        return calls_.named(block_) || not_understood(calls_.refused());
+      case read::FlowKind::call:
+        if (rules_.named_calls) {
+          return calls_.named(block_) || not_understood(calls_.refused());
+        }
+        break;
+      default:
+        break;
     }
-    if (rules_.numbered_programs) {
-      return follow(flow_.call_numbered(block_.line(), call.number, call.repeats));
-    }
-    return call.repeats < 0.5 ||
-           follow(flow_.call_program(block_.line(), std::to_string(call.number), call.repeats));
+    return calls_.follow(flow_.act(block_)) || refuse(calls_.refused());
   }
 
   /// A line that a condition, a count or a search skips.
   bool pass_over() {
     const bool branch = flow_.passing_branch();
-    const bool accepted = follow(flow_.pass_over(block_));
+    const bool accepted = calls_.follow(flow_.pass_over(block_)) || refuse(calls_.refused());
     if (provenance_.known().doubt && branch && provenance_.passed_over(files_.now().line())) {
       flow_.skip_program_word();
     }
-    provenance_.lose(flow_.take_lost());
+    calls_.lose();
     return accepted;
   }
 
   Asked& asked() noexcept {
-    return rules_.variables == Variables::macros ? macro_.asked()
-                                                 : interpreter_->parameters().asked();
+    return rules_.variables == Variables::macros  ? macro_.asked()
+           : rules_.variables == Variables::typed ? typed_.asked()
+                                                  : interpreter_->parameters().asked();
   }
 
   // For two runs over nearly equal texts, side by side: a line that the other has just split into
@@ -184,32 +200,6 @@ class ProgramRun::Run {
     return ahead_ != nullptr && ahead_->executed_ && ahead_->files_.now().line() == source.line() &&
            ahead_->files_.now().ending_length() == source.ending_length() &&
            reader_.take(ahead_->reader_, ahead_->block_, source.number(), block_);
-  }
-
-  /// A cycle or subprogram by its name.
-  bool call() {
-    if (block_.deleted() && block_delete_) {
-      return true;
-    }
-    if (block_.flow().kind == read::FlowKind::call) {
-      return flow_.call_named(block_) ? follow(true) : not_understood(flow_.refused());
-    }
-    ++report_.blocks;
-    return interpreter_->execute_cycle(block_, counter_) || not_understood(interpreter_->refused());
-  }
-
-  // M99, M17 or RET: back to the caller, or to the head where the call repeats.
-  bool end_of_subprogram() {
-    if (rules_.named_calls && !flow_.in_call()) {
-      return refuse(
-          at_block(block_, "subprogram_end",
-                   "the end of a subprogram (M17, RET) in the main program; end it with M30"));
-    }
-    const bool accepted = follow(flow_.end_program(block_.line()));
-    if (again_) {
-      typed_.restart();
-    }
-    return accepted;
   }
 
   /// A subprogram must end with its word, and a program before the next one begins. On fanuc and
@@ -228,32 +218,6 @@ class ProgramRun::Run {
                            label ? "O" : "%"));
   }
 
-  /// Tells the interpreter of calls that began or ended.
-  /// A call that ends and restarts in one step (M98 L, NAME P) leaves the depth unchanged.
-  bool follow(bool accepted) {
-    const std::size_t calls = interpreter_->parameters().calls();
-    again_ = calls_ == calls;
-    for (; calls_ < calls; ++calls_) {
-      interpreter_->enter_call();
-      typed_.enter(block_.flow());
-    }
-    for (; calls_ > calls; --calls_) {
-      interpreter_->leave_call(counter_);
-      typed_.leave();
-    }
-    return accepted || refuse(flow_.refused());
-  }
-
-  /// A block of which nothing has acted opens an opaque stretch, or refuses the program.
-  bool not_understood(const Refused& refused) {
-    if (!fence_.opens(block_, refused)) {
-      return refuse(refused);
-    }
-    executed_ = !(block_.deleted() && block_delete_);
-    report_.blocks += executed_ ? 1U : 0U;
-    return true;
-  }
-
   bool refuse(const Refused& refused) {
     report_.refused.push_back(refused);
     if (!files_.in_main()) {
@@ -265,6 +229,9 @@ class ProgramRun::Run {
   // The end of the file is a refusal unless the program has ended: half a program must not pass as
   // a whole one.
   bool next_line() {
+    if (!flow_.between_lines()) {
+      return refuse(flow_.refused());
+    }
     switch (files_.next()) {
       case LineSource::Status::line:
         ++report_.lines;
@@ -329,15 +296,14 @@ class ProgramRun::Run {
   FlowControl flow_;
   MacroVariables macro_;
   SinumerikVariables typed_;
-  bool again_ = false;  ///< a subprogram restarts: neither entered nor left
   const DialectRules& rules_;
   Provenance provenance_;
   bool block_delete_;
-  std::size_t calls_ = 0;
   Report report_;
   std::uint64_t moves_before_ = 0;  ///< of the current line
   Counter counter_;
   ProgramFence fence_;
+  ProgramCalls calls_;
   Block block_;
   bool source_failed_ = false;
   std::uint32_t line_ = 0;
@@ -367,6 +333,9 @@ bool ProgramRun::step() {
 }
 void ProgramRun::read_with(const ProgramRun& other) {
   run_->ahead_ = other.run_.get();
+}
+void ProgramRun::note_jumps() {
+  run_->flow_.note_jumps();
 }
 Report ProgramRun::take() {
   return run_->take();

@@ -67,6 +67,9 @@ class ProgramRun {
   /// ahead with the same configuration. A line that is equal byte for byte and has only numbers as
   /// values is split into words once; each run executes the words itself.
   void read_with(const ProgramRun& other);
+  /// Call before the first step where at_top() is asked: looks through the file for jumps that go
+  /// back (fanuc, sinumerik).
+  void note_jumps();
   /// The report; call once, after the last step.
   [[nodiscard]] Report take();
 
@@ -77,7 +80,8 @@ class ProgramRun {
   /// Its words are a straight move and numbers: of the state, only position, motion and feed may
   /// have changed.
   [[nodiscard]] bool moved_alone() const noexcept;
-  /// It is in the program itself, outside any subprogram, condition and loop.
+  /// It is in the program itself, outside any subprogram, condition and loop; after note_jumps()
+  /// also outside the lines that a jump may execute again.
   [[nodiscard]] bool at_top() const noexcept;
   [[nodiscard]] bool in_main() const noexcept;  ///< not in a subprogram's own file
   [[nodiscard]] const read::Block& block() const noexcept;

@@ -86,11 +86,15 @@ void ProgramFence::open_stretch(const Refused& refused, const Effects& effects) 
 }
 
 bool ProgramFence::opens(Block& block, const Refused& refused) {
-  const auto effects = fences_ ? may_change(refused, dialect_) : std::nullopt;
+  auto effects = fences_ ? may_change(refused, dialect_) : std::nullopt;
   functions_.clear();
   if (!effects) {
     return false;
   }
+  // What a modal call does, it does behind each block that moves.
+  const read::FlowKind kind = block.flow().kind;
+  const bool modal = kind == read::FlowKind::modal_cycle || kind == read::FlowKind::modal_call;
+  effects->modes |= modal ? kCallMode : 0U;
   take_words(block);
   if (!(block.deleted() && block_delete_)) {
     open_stretch(refused, *effects);

@@ -3,8 +3,10 @@
 #include <string>
 
 #include <steadyrest/nc/read/letter/letter_line.hpp>
+#include <steadyrest/nc/read/letter/macro_landmark.hpp>
 #include <steadyrest/nc/read/letter/o_word.hpp>
 #include <steadyrest/nc/read/reader.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_landmark.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_line.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
@@ -18,6 +20,7 @@ struct Rules {
   bool values_are_numbers;       ///< unless the line says otherwise: see Reader::numbers_alone
   bool percent_closes_unopened;  ///< a program may end with % without having begun with it
   bool archive_name;             ///< its first line may be %_N_NAME, as the control writes it
+  Landmark (*landmark)(std::string_view line) noexcept;  ///< null: files are not mapped
 };
 
 template <const LetterRules& kLetters>
@@ -31,9 +34,10 @@ bool read_sinumerik(Reading& reading, std::string_view line, std::uint32_t numbe
 
 // The longest lines: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are read, one more is
 // "Command too long"); the others are ours, far above what the controls store.
-constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, false, false};
-constexpr Rules kFanucRules = {read_letters<kFanucLetters>, 1024, false, true, false};
-constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true};
+constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, false, false, nullptr};
+constexpr Rules kFanucRules = {
+    read_letters<kFanucLetters>, 1024, false, true, false, macro_landmark};
+constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true, sinumerik_landmark};
 
 // A switch, not an array: the compiler names a dialect that is missing here.
 constexpr const Rules& rules_of(Dialect dialect) noexcept {
@@ -102,8 +106,12 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   if (first == line.size()) {
     return true;
   }
-  if (rules.archive_name && number == 1 && line.substr(first).starts_with("%_N_")) {
-    return true;
+  if (rules.archive_name && line.substr(first).starts_with("%_N_")) {
+    const bool head = number == 1 || !seen_line_;
+    seen_line_ = true;
+    return head || reading_.refuse(number, trimmed(line), "no_program_end",
+                                   "the program or subprogram above has no end; write M30, M17 or "
+                                   "RET");
   }
   if (line[first] == '%') {
     const bool accepted = percent(line, number, block);
@@ -121,6 +129,14 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
                                                     : reading_.values->drop();
   }
   return accepted;
+}
+
+bool Reader::maps() const noexcept {
+  return rules_of(reading_.dialect).landmark != nullptr;
+}
+
+Landmark Reader::landmark(std::string_view line) const noexcept {
+  return rules_of(reading_.dialect).landmark(line);
 }
 
 // Only where a % closes the program: elsewhere it is an ordinary line.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <steadyrest/nc/read/text/block.hpp>
+#include <steadyrest/nc/read/text/landmark.hpp>
 #include <steadyrest/nc/read/text/reading.hpp>
 
 namespace steadyrest::nc::read {
@@ -37,6 +38,12 @@ class Reader {
   /// Reads only the O-word of a skipped line, label and keyword; evaluates nothing but the label.
   /// False when that is refused.
   bool read_flow(std::string_view line, std::uint32_t number, Block& block);
+
+  /// The dialect's jumps and structures are found by a map of each file, from its landmarks.
+  [[nodiscard]] bool maps() const noexcept;
+  [[nodiscard]] Landmark landmark(std::string_view line) const noexcept;
+  /// The next line is the head of a FOR that begins another turn: its variable counts on.
+  void count_on() noexcept { reading_.counts_on = true; }
 
   /// A skipped line is the `%` that closes the program: the search ends there.
   [[nodiscard]] bool ends_program(std::string_view line) const noexcept;

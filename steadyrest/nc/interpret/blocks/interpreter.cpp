@@ -57,6 +57,7 @@ Interpreter::Interpreter(Config config) : control_(std::move(config)) {
 // useless.
 bool Interpreter::execute(const Block& block, Sink& sink) {
   program_call_.kind = ProgramCall::Kind::none;
+  moved_ = false;
   // `follows`: the previous block was plain, so the current move has everything but end and feed.
   const bool follows = plain_.forget();
   if (block.deleted() && control_.config.block_delete) {
@@ -83,6 +84,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   if (plain_.takes(step_)) {
     assumptions_.look(step_);
+    moved_ = (step_.mask & kAxisMask) != 0;
     return plain_.execute(step_, follows);
   }
   if (step_.frame != 0) {
@@ -96,7 +98,8 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return false;
   }
   // A modal cycle (MCALL) drills after each block that moves.
-  return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
+  moved_ = step_.moves_by >= 0 && (step_.mask & kAxisMask) != 0;
+  return !moved_ || cycle_calls_.after_move();
 }
 
 // sinumerik: CYCLE81(…) and MCALL have no words, so they bypass decoder and checks.
@@ -285,13 +288,30 @@ bool Interpreter::move(const Step& step) {
 
 bool Interpreter::call_program(const Step& step) {
   // program.cpp, which knows the lines, makes the call itself.
+  using Kind = ProgramCall::Kind;
   const int code = step.code(MGroup::program);
+  if (step.macro == 67) {
+    program_call_.kind = Kind::modal_end;
+    return true;
+  }
   if (code == kNoCode) {
     return true;
   }
-  program_call_.kind = code == m::kCall ? ProgramCall::Kind::call : ProgramCall::Kind::end;
+  program_call_.kind = step.macro == 65   ? Kind::macro
+                       : step.macro == 66 ? Kind::modal
+                       : code == m::kCall ? Kind::call
+                                          : Kind::end;
+  program_call_.unknown = std::ranges::any_of(step.block->words(), [](const read::Word& word) {
+    return (word.letter == 'P' || word.letter == 'L') && word.unknown;
+  });
   if (code == m::kReturn) {
+    program_call_.number = step.has('P') ? static_cast<std::int32_t>(step['P']) : 0;
     return true;
+  }
+  if (step.macro != 0 &&
+      !macro_arguments(*step.block, control_.config.decimal_rule, control_.state.unit_mm,
+                       control_.refusals, program_call_.arguments)) {
+    return false;
   }
   if (!step.has('P') || step['P'] != std::floor(step['P']) || step['P'] < 0.0) {
     return control_.refusals.m_word(step, 98, "word_missing",

@@ -18,6 +18,7 @@
 #include <steadyrest/nc/interpret/cycle/drilling.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 #include <steadyrest/nc/interpret/motion/threading.hpp>
+#include <steadyrest/nc/interpret/parameters/macro_arguments.hpp>
 
 namespace steadyrest::nc::interpret {
 
@@ -64,13 +65,24 @@ class Interpreter {
   /// A subprogram begins or ends: it has its own saved modes (M70, M73).
   void enter_call() { modes_.enter_call(); }
   void leave_call(Sink& sink);
-  /// M98 or M99 of the block that was executed last.
+  /// M98, M99 or a macro call of the block that was executed last.
   struct ProgramCall {
-    enum class Kind : std::uint8_t { none, call, end } kind = Kind::none;
+    enum class Kind : std::uint8_t {
+      none,
+      call,
+      end,       ///< number: M99 P; 0: without
+      macro,     ///< G65
+      modal,     ///< G66
+      modal_end  ///< G67
+    } kind = Kind::none;
     std::int32_t number = 0;
     double repeats = 1.0;
+    bool unknown = false;  ///< number or repeats are the control's decision
+    MacroArguments arguments{};
   };
   [[nodiscard]] const ProgramCall& program_call() const noexcept { return program_call_; }
+  /// The block that was executed last has moved an axis.
+  [[nodiscard]] bool moved() const noexcept { return moved_; }
 
  private:
   explicit Interpreter(Config config);
@@ -109,6 +121,7 @@ class Interpreter {
   PlainBlock plain_{control_, out_, machine_, cutter_, splines_};
   Step step_{};
   ProgramCall program_call_;
+  bool moved_ = false;
   bool finished_ = false;
 };
 

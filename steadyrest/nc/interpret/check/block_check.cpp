@@ -238,7 +238,7 @@ bool BlockCheck::check_unused_values(const Step& step) const {
   const bool kept_in_cycle = drilling && rules_.cycle_keeps_all_words;
   const bool p_override = override_switch >= m::kFeedOverride;
   const bool p_elsewhere = (io >= m::kOutputOnWithMove && io <= m::kWaitForInput) || orients ||
-                           step.code(MGroup::program) == m::kCall;
+                           step.code(MGroup::program) != kNoCode;  // M98 P, M99 P
   if (unused(step, 'P',
              p_elsewhere || arc || (kept_in_cycle && !pecks) || motion == g::kCubicSpline ||
                  motion == g::kSplinePoint || threads || non_modal == g::kDwell ||

@@ -63,6 +63,10 @@ bool CycleCalls::refuse(const Flow& call, std::string_view reason, std::string_v
 }
 
 bool CycleCalls::call(const Flow& call) {
+  if (call.kind == read::FlowKind::modal_call) {  // of a subprogram, instead of a cycle
+    modal_.reset();
+    return true;
+  }
   if (call.kind != read::FlowKind::modal_cycle) {
     return drill(call);
   }

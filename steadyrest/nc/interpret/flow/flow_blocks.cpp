@@ -71,7 +71,7 @@ bool FlowControl::close(const Block& block, FlowKind head) {
 }
 
 bool FlowControl::in_doubt(const Frame& frame) noexcept {
-  return frame.doubtful || std::ranges::any_of(frame.open, &Open::doubtful);
+  return frame.doubtful || frame.doubt_to != 0 || std::ranges::any_of(frame.open, &Open::doubtful);
 }
 
 bool FlowControl::in_doubt() const noexcept {

@@ -16,7 +16,8 @@ FlowControl::FlowControl(ProgramFiles& files, Parameters& parameters, read::Read
       parameters_(parameters),
       reader_(reader),
       most_repeated_lines_(config.most_repeated_lines),
-      frames_(1) {}
+      frames_(1),
+      block_delete_(config.block_delete) {}
 
 bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string_view reason,
                          std::string_view text) {
@@ -31,11 +32,17 @@ bool FlowControl::refuse(std::uint32_t line, std::string_view label, std::string
 // cycle's moves count too, so every program's time is bounded.
 bool FlowControl::count_line(std::uint64_t moves_before) {
   constexpr std::uint64_t kMovesOfALine = 100;  // a pecking cycle may make a million
-  repeated_lines_ += repeating() ? 1 + moves_before / kMovesOfALine : 0;
-  if (!repeating() || repeated_lines_ <= most_repeated_lines_) {
+  Frame& frame = frames_.back();
+  if (frame.doubt_to != 0 && files_.now().number() >= frame.doubt_to) {
+    frame.doubt_to = 0;
+  }
+  const bool counts = repeating() || jumped_back_ != 0;
+  repeated_lines_ += counts ? 1 + moves_before / kMovesOfALine : 0;
+  if (!counts || repeated_lines_ <= most_repeated_lines_) {
     return true;
   }
-  return refuse(files_.now().number(), {}, "endless_program",
+  // The loop's own line, where it is known: the line at hand may be any of it.
+  return refuse(jumped_back_ != 0 ? jumped_back_ : files_.now().number(), {}, "endless_program",
                 "loops and subprograms execute more than " + std::to_string(most_repeated_lines_) +
                     " lines: the program does not seem to end");
 }
@@ -57,6 +64,9 @@ bool FlowControl::go(std::uint32_t line, const Place& place) {
 
 // An executed O-word. Skipped lines go through pass_over() instead.
 bool FlowControl::act(const Block& block) {
+  if (reader_.maps() && block.flow().kind != FlowKind::label) {
+    return act_mapped(block);
+  }
   switch (block.flow().kind) {
     case FlowKind::label:
       return !in_call() || frames_.back().by_number ||
@@ -65,6 +75,15 @@ bool FlowControl::act(const Block& block) {
     case FlowKind::none:
     case FlowKind::cycle:
     case FlowKind::modal_cycle:
+    // Of mapped dialects.
+    case FlowKind::jump:
+    case FlowKind::loop:
+    case FlowKind::loop_count:
+    case FlowKind::loop_until:
+    case FlowKind::until:
+    case FlowKind::end_loop:
+    case FlowKind::section:
+    case FlowKind::modal_call:
       return true;
     case FlowKind::sub:
       return sub(block);
@@ -349,32 +368,6 @@ bool FlowControl::end_of_sub(const Block& block) {
     lose(Lost::all);
   }
   return leave(flow.count == 1 ? flow.values.data() : nullptr, flow.unknown != 0);
-}
-
-bool FlowControl::end_program(std::uint32_t line) {
-  if (!in_call()) {
-    return refuse(line, {}, "endless_program",
-                  "M99 in the main program would restart it forever; end it with M30");
-  }
-  // M98 L5 executes the same frame five times: M99 returns to the head until none is left.
-  Frame& frame = frames_.back();
-  if (in_doubt(frame)) {
-    lose(Lost::all);
-  }
-  if (frame.left > 0.5) {
-    frame.left -= 1.0;
-    frame.open.clear();
-    return go(line, frame.head);
-  }
-  return leave(nullptr);
-}
-
-// Returns to the line after the call, with the caller's parameters.
-bool FlowControl::leave(const double* returned, bool unknown) {
-  const Place back = frames_.back().back;
-  frames_.pop_back();
-  parameters_.leave(returned, unknown);
-  return go(back.line, back);
 }
 
 }  // namespace steadyrest::nc::interpret

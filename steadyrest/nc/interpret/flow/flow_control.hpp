@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <steadyrest/nc/interpret/flow/program_files.hpp>
+#include <steadyrest/nc/interpret/flow/program_map.hpp>
 #include <steadyrest/nc/interpret/parameters/parameters.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
@@ -26,9 +28,14 @@ namespace steadyrest::nc::interpret {
 /// skipped lines only O-words are read. Every program ends: lines executed in loops and calls count
 /// against a limit.
 ///
+/// In fanuc and sinumerik a map of the file (ProgramMap) says where jumps go and what belongs
+/// together. A jump out of a structure closes it, a jump into one is refused.
+///
 /// Where a condition, a count or a label follows from a value that the control decides, the lines
 /// up to its end are executed or skipped in doubt. `return`, `break` and `continue` in doubt carry
-/// it to the end of their subprogram or loop.
+/// it to the end of their subprogram or loop. A jump in doubt puts all lines up to its target in
+/// doubt, and up to the targets of the jumps among them; if one of them goes back, all lines up to
+/// the end of the subprogram.
 class FlowControl {
  public:
   static constexpr std::size_t kDeepestCall = 10;         ///< of fanuc and sinumerik
@@ -43,18 +50,38 @@ class FlowControl {
   bool pass_over(read::Block& block);
   /// Executes the O-word of a block. False when it is refused: see refused().
   bool act(const read::Block& block);
+  /// Before a line is read: a section that is repeated ends here. False when it is refused.
+  bool between_lines() { return frames_.back().sections.empty() || end_of_section(); }
   /// M98 P… L… and M99.
   bool call_program(std::uint32_t line, std::string_view label, double repeats);
   bool end_program(std::uint32_t line);
+  /// M99 P: back to a block of the caller; in the main program a jump.
+  bool end_program_at(std::uint32_t line, std::int32_t number);
   /// M98 of fanuc: a program anywhere in the same file, else a file in the folders named after its
   /// number.
   bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
-  /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
-  bool call_named(const read::Block& block);
+  /// A call by name of sinumerik: a program of the same file (%_N_NAME_SPF), else NAME.SPF or
+  /// NAME.MPF in the folders.
+  bool call_named(std::uint32_t line, const read::Flow& call);
+  /// A program that is called after each block that moves: G66, MCALL NAME. Without a label: none.
+  bool set_modal(std::uint32_t line, const read::Flow& call);
+  [[nodiscard]] bool modal_due() const noexcept {
+    return modal_.kind != read::FlowKind::none && !modal_running_;
+  }
+  [[nodiscard]] bool modal() const noexcept { return modal_.kind != read::FlowKind::none; }
+  bool call_modal(std::uint32_t line);
+  /// The values of the last call by name.
+  [[nodiscard]] const read::Flow& values() const noexcept { return values_; }
   /// To be called for each line, with the moves so far; false when the limit is reached.
   bool count_line(std::uint64_t moves_before);
   /// Why the file must not end here; false when it may.
   bool refuse_end();
+  /// Looks for the jumps of the main program, so that may_repeat() knows them; before it begins.
+  void note_jumps();
+  /// A jump of the main program may execute its line again: see ProgramMap.
+  [[nodiscard]] bool may_repeat(std::uint32_t line) const noexcept {
+    return main_map_ != nullptr && main_map_->may_repeat(line);
+  }
   [[nodiscard]] bool in_call() const noexcept { return frames_.size() > 1; }
   [[nodiscard]] bool repeating() const noexcept {
     return in_call() || !frames_.back().open.empty();
@@ -95,6 +122,15 @@ class FlowControl {
     Place head;
     bool doubtful = false;  ///< whether it is executed, or once more, is the control's decision
     bool left = false;      ///< in doubt, by break or continue
+    std::size_t structure = ProgramMap::kNone;  ///< in the map of its file
+    double limit = 0.0;                         ///< of a loop that counts
+  };
+  /// REPEAT LABEL: lines that are executed again before the program goes on.
+  struct Section {
+    Place first;
+    std::uint32_t last_line = 0;
+    Place back;
+    double left = 0.0;
   };
   struct Frame {
     std::string sub;
@@ -107,13 +143,36 @@ class FlowControl {
     /// Lines of loops whose further turns are in doubt. Designated initialisers may leave it out.
     // NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<std::uint32_t> left_heads = {};
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::vector<Section> sections = {};
+    std::uint32_t doubt_to = 0;  ///< lines before this one are in doubt; 0: none
+    bool modal = false;          ///< called by a modal call
   };
+
+  // flow_jumps.cpp, flow_structures.cpp: by the map of the file
+  bool act_mapped(const read::Block& block);
+  const ProgramMap* map_of(std::uint32_t line, std::uint32_t file);
+  bool jump(const read::Block& block, const ProgramMap& map);
+  bool jump_to(std::uint32_t line, const ProgramMap& map, const Place& target);
+  bool refuse_target(std::uint32_t line, std::string_view name, ProgramMap::Target::Found found);
+  void doubt_lines(const ProgramMap& map, std::uint32_t from, std::uint32_t to) noexcept;
+  bool structure(const read::Block& block, const ProgramMap& map);
+  bool branch(const read::Block& block, std::size_t index, const ProgramMap::Structure& structure);
+  bool loop_head(const read::Block& block, std::size_t index,
+                 const ProgramMap::Structure& structure);
+  bool loop_end(const read::Block& block, const ProgramMap& map,
+                const ProgramMap::Structure& structure);
+  bool section(const read::Block& block, const ProgramMap& map);
+  bool end_of_section();
+  bool go_back(std::uint32_t line, const Place& place);
+  void carry_doubt_over(bool doubtful) noexcept;
 
   bool sub(const read::Block& block);
   bool call(const read::Block& block);
   bool enter_numbered(std::uint32_t line, std::string_view label, const Place& head,
                       double repeats);
-  bool note_programs(std::uint32_t line, std::uint32_t file);
+  std::optional<Place> find_named(std::uint32_t line, const std::string& name);
+  std::optional<Place> program_of_file(std::uint32_t line, std::string_view name);
   bool enter(std::uint32_t line, std::string_view label, Passing how, Frame frame);
   bool leave(const double* returned, bool unknown = false);
   bool end_of_sub(const read::Block& block);
@@ -154,13 +213,19 @@ class FlowControl {
   std::map<std::string, Place> programs_;  ///< number → after the line of its O
   std::map<std::string, Place> heads_;     ///< labels that head a block
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
-  bool programs_noted_ = false;
   Passing passing_ = Passing::nothing;
   std::string passing_label_;
   std::uint32_t passing_from_ = 0;
   bool passing_in_doubt_ = false;
   bool any_doubt_ = false;  ///< has ever been: nearly no program has
   Lost lost_ = Lost::nothing;
+  bool block_delete_;
+  std::map<std::uint32_t, ProgramMap> maps_;  ///< by file
+  const ProgramMap* main_map_ = nullptr;      ///< where jumps were looked for
+  std::uint32_t jumped_back_ = 0;             ///< the line that did so last
+  read::Flow modal_;
+  bool modal_running_ = false;  ///< its own moves do not call it
+  read::Flow values_;
   bool after_continue_ = false;  ///< of a do loop, before any while loop
   bool after_break_ = false;     ///< of a while loop, before any do loop
   read::Refused refused_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,8 +11,8 @@ namespace {
 
 using read::Lookup;
 
-// Locals, volatile commons and permanent commons of FANUC's custom macro. All start vacant here:
-// values kept from earlier programs are unknown.
+// Locals, volatile commons and permanent commons of FANUC's custom macro. Values kept from earlier
+// programs are unknown.
 constexpr bool is_kept(int index) noexcept {
   return (index >= 1 && index <= 33) || (index >= 100 && index <= 199) ||
          (index >= 500 && index <= 999);
@@ -48,21 +49,22 @@ constexpr ModeMask mode_of(int index) noexcept {
 
 }  // namespace
 
-MacroVariables::MacroVariables(const State& state) : state_(state) {
-  // NaN means vacant: FANUC's #0, which differs from 0.
-  numbers_.fill(std::numeric_limits<double>::quiet_NaN());
-}
+// NaN means vacant: FANUC's #0, which differs from 0.
+MacroVariables::MacroVariables(const State& state) : state_(state) {}
 
 Lookup MacroVariables::number(int index, double& value) const {
   if (index == 0) {
-    return Lookup::no_such_name;
+    return Lookup::vacant;
   }
   if (is_kept(index)) {
-    value = numbers_[static_cast<std::size_t>(index)];
-    if (known_ != nullptr && unknown_[static_cast<std::size_t>(index)]) {
+    const Variable& variable = numbers_[static_cast<std::size_t>(index)];
+    value = variable.value;
+    if (known_ != nullptr && variable.unknown) {
       known_->heard = true;
     }
-    return std::isnan(value) ? Lookup::no_such_name : Lookup::found;
+    return !variable.set       ? Lookup::no_such_name
+           : std::isnan(value) ? Lookup::vacant
+                               : Lookup::found;
   }
   if (index < 1000) {
     return Lookup::no_such_number;
@@ -178,17 +180,89 @@ Lookup MacroVariables::set_name(std::string_view /*name*/, double /*value*/) {
 
 void MacroVariables::commit() {
   for (const auto& [index, value, unknown] : pending_) {
-    numbers_[static_cast<std::size_t>(index)] = value;
-    unknown_[static_cast<std::size_t>(index)] = unknown;
+    // What is set in doubt may have another value.
+    numbers_[static_cast<std::size_t>(index)] = {
+        .value = value, .set = true, .unknown = unknown || (known_ != nullptr && known_->doubt)};
   }
   drop();
 }
 
 void MacroVariables::list(std::vector<std::pair<std::string, double>>& out) const {
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
-    if (!std::isnan(numbers_[i])) {
-      out.emplace_back("#" + std::to_string(i), numbers_[i]);
+    if (numbers_[i].set && !std::isnan(numbers_[i].value)) {
+      out.emplace_back("#" + std::to_string(i), numbers_[i].value);
     }
+  }
+}
+
+MacroVariables::LocalSet MacroVariables::begun_with(const MacroArguments& arguments) {
+  LocalSet begun{};
+  for (std::size_t i = 1; i < begun.size(); ++i) {
+    const bool given = (arguments.given >> i & 1U) != 0;
+    begun[i] = {.value = given ? arguments.value[i] : std::numeric_limits<double>::quiet_NaN(),
+                .set = true,
+                .unknown = (arguments.unknown >> i & 1U) != 0};
+  }
+  return begun;
+}
+
+MacroVariables::LocalSet MacroVariables::locals() const {
+  LocalSet out{};
+  std::copy_n(numbers_.begin(), out.size(), out.begin());
+  return out;
+}
+
+void MacroVariables::put_locals(const LocalSet& locals) {
+  std::ranges::copy(locals, numbers_.begin());
+}
+
+void MacroVariables::enter(Locals kind, const MacroArguments& arguments) {
+  Level& level = levels_.emplace_back();
+  level.locals = kind;
+  if (kind == Locals::shared) {
+    return;
+  }
+  ++macros_;
+  level.callers = locals();
+  level.begun = kind == Locals::own ? begun_with(arguments) : modal_;
+  put_locals(level.begun);
+}
+
+void MacroVariables::leave() {
+  const Level& level = levels_.back();
+  if (level.locals == Locals::modal) {
+    modal_ = locals();
+  }
+  if (level.locals != Locals::shared) {
+    --macros_;
+    put_locals(level.callers);
+  }
+  levels_.pop_back();
+}
+
+// Vacant ones are equal, too, which NaN is not.
+bool MacroVariables::begins_alike() const {
+  if (levels_.empty() || levels_.back().locals == Locals::shared) {
+    return true;
+  }
+  return std::ranges::equal(locals(), levels_.back().begun, [](const auto& a, const auto& b) {
+    return a.set == b.set && a.unknown == b.unknown &&
+           (a.value == b.value || (std::isnan(a.value) && std::isnan(b.value)));
+  });
+}
+
+void MacroVariables::lose_all() {
+  for (Variable& variable : numbers_) {
+    variable.unknown = variable.set;
+  }
+  // Those of the callers, and of a modal call, may be set in the same lines.
+  for (Level& level : levels_) {
+    for (Variable& variable : level.callers) {
+      variable.unknown = variable.set;
+    }
+  }
+  for (Variable& variable : modal_) {
+    variable.unknown = variable.set;
   }
 }
 

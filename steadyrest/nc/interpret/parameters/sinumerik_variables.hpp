@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <steadyrest/nc/interpret/parameters/known_state.hpp>
+#include <steadyrest/nc/interpret/state/asked.hpp>
+#include <steadyrest/nc/interpret/state/state.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
 #include <steadyrest/nc/read/text/typed_values.hpp>
 
@@ -18,10 +21,18 @@ namespace steadyrest::nc::interpret {
 /// variable belongs to the program or subprogram that defines it. The value that the control kept
 /// in an R-parameter is unknown: it is unset until the program sets it. A block's assignments take
 /// effect once it has been read; setting and using a value in one block is refused.
+///
+/// System variables follow from the program where it has set what they show: $P_EP[X] (programmed
+/// end position, not in inches), $P_F, $P_S, $P_UIFRNUM, $P_GG[1], $P_GG[6], $P_GG[14]. The control
+/// decides all others of $P_…, $A…, $V…, $M…, $S…, $TC_…: they are taken as 0 and noted.
 class SinumerikVariables final : public read::TypedValues {
  public:
   SinumerikVariables();
 
+  /// The state that system variables show; outlives the object's use.
+  void bind(const State& state) noexcept { state_ = &state; }
+  /// Where it is noted what the program reads that is not known; must outlive the object's use.
+  void note_unknown(KnownState& known) noexcept { known_ = &known; }
   [[nodiscard]] read::Lookup number(int index, double& value) const override;
   [[nodiscard]] read::Lookup name(std::string_view name, double& value) const override;
   read::Lookup set_number(int index, double value) override;
@@ -31,11 +42,20 @@ class SinumerikVariables final : public read::TypedValues {
   bool define(std::string_view name, read::ValueType type, double value) override;
   bool define_argument(std::string_view name, read::ValueType type, std::size_t place,
                        double otherwise) override;
+  bool define_text(std::string_view name, std::string_view value) override;
+  [[nodiscard]] const std::string* text(std::string_view name) const override;
+  read::Lookup set_text(std::string_view name, std::string_view value) override;
+  [[nodiscard]] read::Lookup system(std::string_view name, char axis, double& value) const override;
+  [[nodiscard]] bool take_unknown() const noexcept override {
+    return known_ != nullptr && known_->take();
+  }
+  /// From here on the control decides every value that is set.
+  void lose_all();
+  [[nodiscard]] Asked& asked() noexcept { return asked_; }
+  [[nodiscard]] const Asked& asked() const noexcept { return asked_; }
 
   /// The R-parameters that are set, `R5`, with their values, which the control keeps.
   void list(std::vector<std::pair<std::string, double>>& out) const;
-  /// What the control holds in the R-parameters is not known from here on.
-  void lose_all() noexcept;
   /// A subprogram begins with the values of its call, starts over (P), ends.
   void enter(const read::Flow& call);
   void restart();
@@ -49,16 +69,35 @@ class SinumerikVariables final : public read::TypedValues {
   struct Variable {
     read::ValueType type;
     double value;
+    bool unknown = false;  ///< follows from a value that the control decides
   };
+  static constexpr std::size_t kMostVariables = 50'000;  ///< of one program, elements included
   struct Frame {
     std::map<std::string, Variable, std::less<>> variables;
+    std::map<std::string, std::string, std::less<>> texts;
     read::Flow call;
     std::size_t taken = 0;
   };
+  template <class Key>
+  struct Pending {
+    Key key;
+    double value = 0.0;
+    bool unknown = false;
+  };
+  void hear(bool unknown) const noexcept;
+  [[nodiscard]] bool in_doubt() const noexcept { return known_ != nullptr && known_->doubt; }
+  [[nodiscard]] bool of_state(std::string_view name, char axis, double& value,
+                              ModeMask& mode) const;
+
+  const State* state_ = nullptr;
+  KnownState* known_ = nullptr;
+  mutable Asked asked_;
   std::vector<double> numbers_;
+  std::vector<bool> unknown_;
   std::vector<Frame> frames_;
-  std::vector<std::pair<int, double>> pending_numbers_;
-  std::vector<std::pair<std::string, double>> pending_names_;
+  std::vector<Pending<int>> pending_numbers_;
+  std::vector<Pending<std::string>> pending_names_;
+  std::vector<std::pair<std::string, std::string>> pending_texts_;
 };
 
 }  // namespace steadyrest::nc::interpret

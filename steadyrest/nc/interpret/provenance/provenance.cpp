@@ -110,7 +110,7 @@ void Provenance::not_understood(const read::Refused& refused, const Effects& eff
                                 const State& state) {
   Effects reach = effects;
   if (effects.all) {
-    reach.modes = kModes;
+    reach.modes |= kModes;
     reach.axes = Effects::kAllAxes;
     reach.offsets = true;
     reach.all = false;  // a mode without a word of the dialect could never be said again

@@ -53,6 +53,8 @@ class Provenance {
   void not_understood(const read::Refused& refused, const Effects& effects, const State& state);
   /// An opaque stretch is open where the line at hand begins.
   [[nodiscard]] bool opaque() const noexcept { return opaque_.any_open(); }
+  /// MCALL alone: no modal call is on.
+  void no_modal_call() noexcept { lost_ &= known_.doubt ? ~ModeMask{0} : ~kCallMode; }
   /// The line at hand was not understood.
   [[nodiscard]] bool at_opaque() const noexcept { return at_opaque_; }
   /// After the last line.

@@ -22,7 +22,8 @@ inline constexpr ModeMask kFeedMode = kToolMode << 4U;          ///< F
 inline constexpr ModeMask kSpeedMode = kToolMode << 5U;         ///< S
 inline constexpr ModeMask kFrameMode = kToolMode << 6U;         ///< shift, rotation, scale, mirror
 inline constexpr ModeMask kTransformMode = kToolMode << 7U;     ///< TRAORI, a swivelled plane
-/// All of them.
+inline constexpr ModeMask kCallMode = kToolMode << 8U;  ///< a modal call that is not understood
+/// All that an unknown word may change; a modal call is seen to be one.
 inline constexpr ModeMask kModes = ((kTransformMode << 1U) - 1U) & ~mode(GGroup::non_modal);
 /// They move nothing, and give no word another meaning.
 inline constexpr ModeMask kHarmlessModes = kToolMode | kSpindleMode | kCoolantMode | kOverrideMode |

@@ -75,6 +75,7 @@ struct Step {
   std::string_view tool_name;                                         ///< sinumerik T="NAME"
   std::int8_t reference_point = 0;  ///< fanuc G30 P: 2 to 4; 0 = not given
   bool rigid_tap = false;           ///< fanuc M29
+  std::int8_t macro = 0;            ///< fanuc G65, G66, G67: 65 to 67
   bool first_spindle = false;       ///< linuxcnc $0, $-1
   double speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();  ///< fanuc G92 S
   const read::Block* block = nullptr;                                 ///< the text, for refusals
@@ -107,6 +108,7 @@ struct Step {
     tool_name = {};
     reference_point = 0;
     rigid_tap = false;
+    macro = 0;
     first_spindle = false;
     speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();
     block = &source;

@@ -231,6 +231,7 @@ bool Expression::looked_up(Lookup lookup) {
       return fail("parameter_of_the_control",
                   "a parameter that the control may have from before the program");
     case Lookup::assigned_in_block:  // of other dialects
+    case Lookup::vacant:
     case Lookup::not_known_here:
       break;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <steadyrest/nc/read/letter/expression.hpp>
@@ -51,7 +52,8 @@ bool LetterLine::read() {
 bool LetterLine::one_item() {
   const char c = *at_;
   if (is_letter(c)) {
-    return (!rules_.macros || macro_keyword()) && word();
+    bool done = false;
+    return (!rules_.macros || macro_keyword(done)) && (done || word());
   }
   if (c == ':' && rules_.colon_is_o) {
     return program_number(at_++);
@@ -94,13 +96,18 @@ bool LetterLine::word() {
   if (block_.flow().kind != FlowKind::none) {
     at_ = end_;
     return refuse(since(word_begin), "o_word",
-                  "words after an O-word; write them on a separate line");
+                  rules_.macros && block_.flow().kind != FlowKind::label
+                      ? "words after a jump or loop; write them on a separate line"
+                      : "words after an O-word; write them on a separate line");
   }
   if (!value(word_begin, word)) {
     return false;
   }
   if (assigned_) {
     return refuse(since(word_begin), "macro_statement", kStatementText);
+  }
+  if (std::isnan(word.value)) {  // a vacant variable: the control ignores its address
+    return true;
   }
   word.has_value = true;
   word.unknown = reading_.values != nullptr && reading_.values->take_unknown();

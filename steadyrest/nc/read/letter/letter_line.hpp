@@ -54,7 +54,12 @@ class LetterLine : private LineCursor {
   bool spaced_number(const char* word_begin, Word& word);
   bool o_word(const char* word_begin);
   bool program_number(const char* word_begin);
-  bool macro_keyword();
+  bool macro_keyword(bool& done);
+  bool macro_flow(const char* from, std::string_view keyword);
+  bool macro_condition(const char* from);
+  bool macro_jump(const char* from);
+  bool macro_then();
+  bool macro_loop_number(const char* from);
   bool macro_statement();
   bool macro_value(const char* word_begin, Word& word);
   bool expression(const char* word_begin, Word& word);

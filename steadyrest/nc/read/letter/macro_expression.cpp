@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
-#include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/read/letter/macro_expression.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 #include <steadyrest/nc/read/text/number.hpp>
@@ -12,44 +13,28 @@
 namespace steadyrest::nc::read {
 namespace {
 
-using kernel::units::kDegree;
-
 // FANUC stores decimal numbers; 1e-9 takes up what a double leaves of 0.1·10.
 constexpr double kWhole = 1e-9;  // how far a number may be from the whole one that is meant
-
-// Two letters are enough (manual, "Custom macro"): no two functions share them.
-constexpr std::array<std::string_view, 17> kFunctions = {
-    "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "ROUND",
-    "FIX", "FUP", "LN",  "EXP",  "POW",  "BIN",  "BCD",  "ADP"};
-
-// The whole name, or its first two letters.
-std::string_view function_named(std::string_view name) noexcept {
-  for (const std::string_view one : kFunctions) {
-    if (name == one || (name.size() == 2 && one.substr(0, 2) == name)) {
-      return one;
-    }
-  }
-  return {};
-}
 
 }  // namespace
 
 // Why a variable cannot be read or set, in FANUC's terms.
 LookupText macro_lookup_text(Lookup lookup) noexcept {
   switch (lookup) {
-    // Vacant is not 0: G0 X#1 with a vacant #1 does not move X at all. So reading a vacant variable
-    // is always refused.
+    // Vacant is not 0: G0 X#1 with a vacant #1 does not move X at all. So a variable that may be
+    // vacant is refused.
     case Lookup::no_such_name:
       return {.reason = "vacant_variable",
               .text =
-                  "a variable that was never set in this program: it is vacant, and its effect "
-                  "depends on the word; set it first"};
+                  "a variable that was never set in this program: it is vacant, or has what the "
+                  "control has kept in it; set it first"};
     case Lookup::read_only:
       return {.reason = "read_only_parameter", .text = "a read-only variable"};
     case Lookup::not_known_here:
     case Lookup::kept_by_control:
       return {.reason = "system_variable",
               .text = "a system variable whose value only the running control knows"};
+    case Lookup::vacant:  // has no value, which is none of these
     case Lookup::found:
     case Lookup::not_while_compensating:
     case Lookup::assigned_in_block:
@@ -111,8 +96,12 @@ bool MacroExpression::bracket(double& out) {
     return fail("expression_too_deep", "brackets nested more than five deep");
   }
   ++at_;
-  if (!read_sum(out)) {
+  if (!(conditional_ ? comparison(out) : read_sum(out))) {
     return false;
+  }
+  if (std::isnan(out)) {  // whether [#1] is as vacant as #1 is not certain
+    const LookupText why = macro_lookup_text(Lookup::no_such_name);
+    return fail(why.reason, why.text);
   }
   const char c = peek();
   if (c != ']') {
@@ -128,8 +117,60 @@ bool MacroExpression::bracket(double& out) {
   return true;
 }
 
+bool MacroExpression::read_condition(double& out) {
+  if (peek() != '[') {
+    return fail("missing_value", "a condition in brackets belongs here: [#1 EQ 2]");
+  }
+  conditional_ = true;
+  return bracket(out) && (compared_ || fail("flow_control",
+                                            "a condition compares: [#1 EQ 2], with EQ NE GT GE LT "
+                                            "or LE"));
+}
+
+// What may be in a bracket of a condition.
+bool MacroExpression::comparison(double& out) {
+  if (!climb(out, 1)) {
+    return false;
+  }
+  const std::array<char, 2> how = {peek(), at_ == end_ || at_ + 1 == end_ ? '\0' : upper(at_[1])};
+  const std::string_view name{how.data(), how.size()};
+  constexpr std::array<std::string_view, 6> kComparisons = {"EQ", "NE", "GT", "GE", "LT", "LE"};
+  if (std::ranges::find(kComparisons, name) == kComparisons.end()) {
+    return true;
+  }
+  at_ += 2;
+  double right = 0.0;
+  return climb(right, 1) && compare(name, out, right, out);
+}
+
+bool MacroExpression::compare(std::string_view how, double left, double right, double& out) {
+  compared_ = true;
+  const bool vacant = std::isnan(left) || std::isnan(right);
+  if (vacant && (how == "EQ" || how == "NE")) {
+    out = (std::isnan(left) && std::isnan(right)) == (how == "EQ") ? 1.0 : 0.0;
+    return true;
+  }
+  const double a = std::isnan(left) ? 0.0 : left;
+  const double b = std::isnan(right) ? 0.0 : right;
+  if (a != b && std::abs(a - b) <= kWhole * std::max(std::abs(a), std::abs(b))) {
+    return fail("comparison_near",
+                "a comparison of numbers that are equal but for rounding: its result depends on "
+                "the control; compare with a margin");
+  }
+  const bool holds = how == "EQ"   ? a == b
+                     : how == "NE" ? a != b
+                     : how == "GT" ? a > b
+                     : how == "GE" ? a >= b
+                     : how == "LT" ? a < b
+                                   : a <= b;
+  out = holds ? 1.0 : 0.0;
+  return true;
+}
+
 // Logical operators work on bits here, where LinuxCNC's work on truth values.
 bool MacroExpression::apply(Operator op, double& left, double right) {
+  left = std::isnan(left) ? 0.0 : left;  // vacant
+  right = std::isnan(right) ? 0.0 : right;
   switch (op) {
     case Operator::both:
     case Operator::either:
@@ -171,125 +212,6 @@ bool MacroExpression::bits(Operator op, double& left, double right) {
   return true;
 }
 
-// A name and its bracket. BIN, BCD, ADP and POW are known but refused rather than guessed.
-bool MacroExpression::function(double& out) {
-  std::array<char, 8> letters{};
-  std::size_t length = 0;
-  const char* const first = at_;
-  for (char c = peek(); is_letter(c) && length < letters.size(); c = peek()) {
-    letters[length++] = c;
-    ++at_;
-  }
-  const std::string_view name = function_named({letters.data(), length});
-  if (peek() != '[') {
-    at_ = first;
-    return fail("missing_value", "a value is missing: a number, a variable or [ ] belongs here");
-  }
-  if (name.empty()) {
-    return fail("unknown_function",
-                "an unknown function; the known ones are ABS ACOS ASIN ATAN COS EXP FIX FUP LN "
-                "ROUND SIN SQRT TAN");
-  }
-  if (name == "BIN" || name == "BCD" || name == "ADP" || name == "POW") {
-    return fail("function_not_interpreted", "BIN, BCD, ADP and POW are not interpreted");
-  }
-  // Only ATAN takes one value or two, in two spellings, so its bracket is not closed here.
-  double x = 0.0;
-  if (name == "ATAN") {
-    ++at_;
-    if (++depth_ > kDeepest) {
-      return fail("expression_too_deep", "brackets nested more than five deep");
-    }
-    return read_sum(x) && arc_tangent(x, out);
-  }
-  return bracket(x) && evaluate(name, x, out);
-}
-
-// Angles in degrees. The arc functions have FANUC's ranges, not those of C++.
-bool MacroExpression::evaluate(std::string_view name, double x, double& out) {
-  const auto domain = [&](bool inside, std::string_view text) {
-    return inside || fail("out_of_domain", text);
-  };
-  if (name == "SIN") {
-    out = std::sin(x * kDegree);
-  } else if (name == "COS") {
-    out = std::cos(x * kDegree);
-  } else if (name == "TAN") {
-    out = std::tan(x * kDegree);
-  } else if (name == "ASIN" || name == "ACOS") {
-    if (!domain(x >= -1.0 && x <= 1.0, "ASIN or ACOS of a number outside -1 to 1")) {
-      return false;
-    }
-    out = (name == "ACOS" ? std::acos(x) : std::asin(x)) / kDegree;
-    // FANUC, parameter 6004#0 = 0: ASIN gives 270° to 90°. ACOS is never negative.
-    out += out < 0.0 ? 360.0 : 0.0;
-  } else if (name == "SQRT") {
-    if (!domain(x >= 0.0, "SQRT of a negative number")) {
-      return false;
-    }
-    out = std::sqrt(x);
-  } else if (name == "ABS") {
-    out = std::abs(x);
-  } else if (name == "ROUND") {
-    // In F, S, P and the like the least increment depends on the control's setting.
-    if (!(increment_ > 0.0)) {
-      return fail("function_not_interpreted",
-                  "ROUND in this word: its rounding increment is unknown");
-    }
-    // Within a word ROUND rounds to the least increment of its address, not to a whole number.
-    out = std::round(x / increment_) * increment_;
-  } else if (name == "FIX") {
-    // By magnitude, unlike LinuxCNC's: FIX[-1.2] is −1, FUP[-1.2] is −2.
-    out = std::trunc(x);
-  } else if (name == "FUP") {
-    out = x < 0.0 ? std::floor(x) : std::ceil(x);
-  } else if (name == "LN") {
-    if (!domain(x > 0.0, "LN of a number that is not above zero")) {
-      return false;
-    }
-    out = std::log(x);
-  } else {
-    out = std::exp(x);
-  }
-  return finite(out);
-}
-
-// ATAN[y]/[x], ATAN[y,x] or ATAN[a]; the first value has been read.
-bool MacroExpression::arc_tangent(double y, double& out) {
-  double x = 0.0;
-  bool pair = peek() == ',';
-  if (pair) {
-    ++at_;
-    if (!read_sum(x)) {
-      return false;
-    }
-  }
-  if (peek() != ']') {
-    return fail("unclosed_expression", "an operator or ] belongs here");
-  }
-  ++at_;
-  --depth_;
-  // After the bracket a / may be a division: `ATAN[1]/5`. Only `/[` makes a pair.
-  const char* const behind = at_;
-  if (!pair && peek() == '/') {
-    ++at_;
-    pair = peek() == '[';
-    if (!pair) {  // a division: not read here
-      at_ = behind;
-    } else if (!bracket(x)) {
-      return false;
-    }
-  }
-  // Two zeros have no direction.
-  if (pair && x == 0.0 && y == 0.0) {
-    return fail("out_of_domain", "ATAN of two zeros");
-  }
-  out = (pair ? std::atan2(y, x) : std::atan(y)) / kDegree;
-  // Again 0° to 360°; ATAN of one value keeps −90° to 90°.
-  out += pair && out < 0.0 ? 360.0 : 0.0;
-  return true;
-}
-
 // A plain number, or any expression in brackets.
 bool MacroExpression::variable_number(int& index) {
   double number = 0.0;
@@ -327,7 +249,11 @@ bool MacroExpression::variable(double& out) {
   if (!variable_number(index)) {
     return false;
   }
-  const Lookup lookup = values_.number(index, out);
+  const Lookup lookup = index == 0 ? Lookup::vacant : values_.number(index, out);
+  if (lookup == Lookup::vacant) {
+    out = std::numeric_limits<double>::quiet_NaN();
+    return true;
+  }
   const LookupText why = macro_lookup_text(lookup);
   return lookup == Lookup::found || fail(why.reason, why.text);
 }

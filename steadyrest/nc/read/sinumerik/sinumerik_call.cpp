@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -12,7 +13,7 @@
 namespace steadyrest::nc::read {
 namespace {
 
-constexpr std::string_view kOwnBlock = "a call or definition needs a separate block";
+constexpr std::string_view kOwnCallBlock = "a call needs a separate block";
 
 }  // namespace
 
@@ -39,7 +40,8 @@ bool SinumerikLine::calculated(const char* word_begin, double& out) {
   if (next() == '\0') {
     return refuse(since(word_begin), "missing_value", "an address without its value");
   }
-  SinumerikExpression expression(line(), offset(), *reading_.values);
+  calculated_ = true;
+  SinumerikExpression expression(line(), offset(), *reading_.values, reading_.typed_values);
   return behind(word_begin, expression, expression.read(out));
 }
 
@@ -51,30 +53,47 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
     return true;
   }
   done = true;
-  if (equal(name, "DEF")) {
-    return done = definition(word_begin);
+  struct Statement {
+    std::string_view name;
+    bool (SinumerikLine::*read)(const char* word_begin);
+  };
+  static constexpr std::array kStatements = {Statement{"DEF", &SinumerikLine::definition},
+                                             Statement{"PROC", &SinumerikLine::head_of_subprogram},
+                                             Statement{"EXTERN", &SinumerikLine::declaration},
+                                             Statement{"MCALL", &SinumerikLine::modal_call},
+                                             Statement{"CALL", &SinumerikLine::indirect_call},
+                                             Statement{"PCALL", &SinumerikLine::indirect_call},
+                                             Statement{"SETAL", &SinumerikLine::alarm},
+                                             Statement{"SETMS", &SinumerikLine::master_spindle}};
+  const auto* const known = std::ranges::find_if(
+      kStatements, [&](const Statement& one) { return equal(name, one.name); });
+  if (known != kStatements.end()) {
+    return done = (this->*known->read)(word_begin);
   }
-  if (equal(name, "PROC")) {
-    return done = head_of_subprogram(word_begin);
-  }
-  if (equal(name, "EXTERN")) {
-    return done = declaration(word_begin);
-  }
-  if (equal(name, "MCALL")) {
-    return done = modal_call(word_begin);
-  }
-  if (equal(name, "SETMS")) {
-    return done = master_spindle(word_begin);
+  if (is_flow_word(name)) {
+    return done = flow_statement(word_begin, name);
   }
   // A variable hides a subprogram of its name.
   Name variable;
   double ignored = 0.0;
-  if (lower_name(name, variable) &&
-      reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
-    return done = variable_assignment(word_begin, variable.view());
+  if (lower_name(name, variable) && reading_.typed_values->text(variable.view()) != nullptr) {
+    return done = text_assignment(word_begin, variable.view());
   }
   // With = or [ it would be a variable that does not exist; behind other words it would be a word.
   const char after = next();
+  if (after == '[' && lower_name(name, variable)) {
+    const char* const bracket = at_;
+    if (element_name(word_begin, variable) &&
+        reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
+      return done = variable_assignment(word_begin, variable.view());
+    }
+    at_ = bracket;
+    lower_name(name, variable);
+  }
+  if (reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
+    reading_.values->take_unknown();  // it is set, not used
+    return done = variable_assignment(word_begin, variable.view());
+  }
   if (refused_name(name) != nullptr || after == '=' || after == '[' || !block_.words().empty()) {
     done = false;  // refused as a word
     return true;
@@ -82,132 +101,6 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
   // Cycles are executed here; any other name must be a program in the folders.
   const bool cycle = name.size() > 5 && equal(name.substr(0, 5), "CYCLE");
   return done = call(word_begin, name, cycle ? FlowKind::cycle : FlowKind::call);
-}
-
-// The types whose value is a number.
-bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
-  const std::string_view name = letters();
-  if (equal(name, "REAL") || equal(name, "INT") || equal(name, "BOOL")) {
-    type = equal(name, "REAL")  ? ValueType::real
-           : equal(name, "INT") ? ValueType::integer
-                                : ValueType::boolean;
-    return true;
-  }
-  // VAR parameters would write back into the caller; strings and frames are not numbers.
-  return refuse(since(word_begin), "definition",
-                "a variable or parameter of an unsupported type; REAL, INT and BOOL are supported "
-                "(not VAR, CHAR, STRING, AXIS, FRAME, SYN…)");
-}
-
-bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
-  const std::string_view written = letters();
-  // The manual's rule: two leading letters or underscores tell variables from addresses such as X1.
-  const bool starts = written.size() >= 2 && !is_digit(written[0]) && !is_digit(written[1]);
-  if (!starts || written.size() > 31 || known_name(written) || refused_name(written) != nullptr ||
-      !lower_name(written, name)) {
-    return refuse(since(word_begin), "bad_name",
-                  "a variable name: begin with two letters or underscores, at most 31 characters, "
-                  "no word of the language");
-  }
-  if (next() == '[') {
-    return refuse(since(word_begin), "array", "an array of variables is not interpreted");
-  }
-  return true;
-}
-
-// DEF REAL A, B=2.5
-bool SinumerikLine::definition(const char* word_begin) {
-  ValueType type{};
-  if (!block_.words().empty() || assigned_) {
-    return refuse(since(word_begin), "definition", kOwnBlock);
-  }
-  if (!value_type(word_begin, type)) {
-    return false;
-  }
-  // Definitions act at once, one after the other: `DEF REAL A=2, B=A*2` is allowed.
-  for (;;) {
-    Name name;
-    double value = 0.0;
-    if (!variable_name(word_begin, name)) {
-      return false;
-    }
-    if (next() == '=') {
-      ++at_;
-      if (!calculated(word_begin, value)) {
-        return false;
-      }
-    }
-    if (!reading_.typed_values->define(name.view(), type, value)) {
-      return refuse(since(word_begin), "definition", "a variable that is already defined");
-    }
-    if (next() != ',') {
-      return next() == '\0' || refuse(since(word_begin), "definition", kOwnBlock);
-    }
-    ++at_;
-  }
-}
-
-bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t place) {
-  ValueType type{};
-  Name name;
-  double otherwise = 0.0;
-  if (!value_type(word_begin, type)) {
-    return false;
-  }
-  skip_blanks();
-  const std::string_view written = letters();  // one letter is allowed here
-  if (written.empty() || is_digit(written[0]) || !lower_name(written, name) || next() == '[') {
-    return refuse(since(word_begin), "bad_name", "a parameter without a name, or an array");
-  }
-  if (next() == '=') {
-    ++at_;
-    if (!calculated(word_begin, otherwise)) {
-      return false;
-    }
-  }
-  return reading_.typed_values->define_argument(name.view(), type, place, otherwise) ||
-         refuse(since(word_begin), "definition", "a parameter that is already defined");
-}
-
-// PROC NAME(REAL A, INT B=3)
-// A value that the caller leaves out takes the default in PROC, or 0.
-bool SinumerikLine::head_of_subprogram(const char* word_begin) {
-  if (letters().empty()) {
-    return refuse(since(word_begin), "definition", "PROC without the subprogram's name");
-  }
-  if (next() == '(') {
-    ++at_;
-    // Values are matched by place, not by name.
-    for (std::size_t place = 0; next() != ')'; ++place) {
-      if (place > 0) {
-        if (next() != ',') {
-          return refuse(since(word_begin), "definition", "a , or ) is missing");
-        }
-        ++at_;
-      }
-      if (!parameter_of_subprogram(word_begin, place)) {
-        return false;
-      }
-    }
-    ++at_;
-  }
-  while (next() != '\0') {
-    const std::string_view attribute = letters();
-    // Attributes affect how the control shows or protects the subprogram; these two do nothing
-    // else.
-    if (!equal(attribute, "DISPLOF") && !equal(attribute, "DISPLON")) {
-      at_ += attribute.empty() ? 1 : 0;
-      return refuse(since(word_begin), "definition",
-                    "a subprogram attribute that is not interpreted (SAVE, SBLOF …)");
-    }
-  }
-  return true;
-}
-
-// EXTERN only declares a subprogram's parameters; PROC repeats them.
-bool SinumerikLine::declaration(const char* word_begin) {
-  at_ = end_;
-  return block_.words().empty() || refuse(since(word_begin), "definition", kOwnBlock);
 }
 
 bool SinumerikLine::assign(const char* word_begin, Lookup lookup) {
@@ -269,11 +162,22 @@ bool SinumerikLine::variable_assignment(const char* word_begin, std::string_view
          assign(word_begin, reading_.values->set_name(name, value));
 }
 
+// NAME="text" << R1
+bool SinumerikLine::text_assignment(const char* word_begin, std::string_view name) {
+  if (next() != '=') {
+    return refuse(since(word_begin), "bad_assignment", "a variable without an assignment");
+  }
+  ++at_;
+  std::string value;
+  return text_value(word_begin, value) &&
+         assign(word_begin, reading_.typed_values->set_text(name, value));
+}
+
 // NAME, NAME(1,,R2), L100; the repeats (P) follow as a separate word.
 bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind kind) {
   Flow& flow = block_.flow();
   if (!block_.words().empty() || assigned_) {
-    return refuse(since(word_begin), "subprogram_call", kOwnBlock);
+    return refuse(since(word_begin), "subprogram_call", kOwnCallBlock);
   }
   // The label keeps the case, as file systems need it.
   flow.label.clear();
@@ -285,6 +189,7 @@ bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind
   flow.kind = kind;
   flow.count = 0;
   flow.given = 0;
+  flow.unknown = 0;
   flow.repeats = 1.0;
   return next() != '(' || call_values(word_begin);
 }
@@ -312,7 +217,9 @@ bool SinumerikLine::call_values(const char* word_begin) {
       if (!calculated(word_begin, flow.values[flow.count])) {
         return false;
       }
-      flow.given |= std::uint32_t{1} << flow.count;
+      const std::uint32_t bit = std::uint32_t{1} << flow.count;
+      flow.given |= bit;
+      flow.unknown |= reading_.values->take_unknown() ? bit : 0U;
     }
     ++flow.count;
     const char after = next();
@@ -348,7 +255,7 @@ bool SinumerikLine::repeats(const char* word_begin) {
     while (at_ != end_ && !is_blank(*at_)) {
       ++at_;
     }
-    return refuse(since(word_begin), "subprogram_call", kOwnBlock);
+    return refuse(since(word_begin), "subprogram_call", kOwnCallBlock);
   }
   // The control's own bounds.
   if (!(value >= 1.0 && value <= 9999.0) || value != static_cast<double>(static_cast<int>(value))) {
@@ -363,15 +270,67 @@ bool SinumerikLine::repeats(const char* word_begin) {
 // MCALL CYCLE81(…), MCALL.
 bool SinumerikLine::modal_call(const char* word_begin) {
   if (!block_.words().empty() || assigned_) {
-    return refuse(since(word_begin), "modal_call", kOwnBlock);
+    return refuse(since(word_begin), "modal_call", kOwnCallBlock);
   }
   const std::string_view name = letters();
-  // A modal subprogram would run after every move; only drilling cycles are supported.
-  if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
-    return refuse(since(word_begin), "modal_call",
-                  "a modal call (MCALL) of a subprogram; only cycles are interpreted");
+  const bool cycle = name.empty() || (name.size() > 5 && equal(name.substr(0, 5), "CYCLE"));
+  return call(word_begin, name, cycle ? FlowKind::modal_cycle : FlowKind::modal_call);
+}
+
+// CALL "NAME", CALL variable; PCALL /_N_WKS_DIR/_N_PART_WPD/NAME(1): of a path the name counts,
+// since subprograms are looked for in the folders that were given.
+bool SinumerikLine::indirect_call(const char* word_begin) {
+  const bool by_path = equal({word_begin, 5}, "PCALL");
+  std::string name;
+  skip_blanks();
+  if (by_path) {
+    const char* const from = at_;
+    while (at_ != end_ && (in_name(*at_) || *at_ == '/')) {
+      ++at_;
+    }
+    name = since(from);
+  } else if (!text_value(word_begin, name)) {
+    return false;
   }
-  return call(word_begin, name, FlowKind::modal_cycle);
+  const auto slash = name.rfind('/');
+  name.erase(0, slash == std::string::npos ? 0 : slash + 1);
+  name.erase(0, name.starts_with("_N_") ? 3 : 0);
+  if (name.ends_with("_SPF") || name.ends_with("_MPF")) {
+    name.resize(name.size() - 4);
+  }
+  if (name.size() < 2 || !std::ranges::all_of(name, in_name)) {
+    return refuse(since(word_begin), "subprogram_call",
+                  "CALL or PCALL without the name of a subprogram");
+  }
+  return call(word_begin, name, FlowKind::call);
+}
+
+// SETAL(65000, "text"): an alarm, which stops the program only where its number says so: from 65500
+// on the block is waited for, from 66000 on the program ends ("Job planning", SETAL).
+bool SinumerikLine::alarm(const char* word_begin) {
+  double number = 0.0;
+  std::string text;
+  if (!block_.words().empty() || assigned_ || next() != '(') {
+    return refuse(since(word_begin), "alarm", "write SETAL(65000) in a separate block");
+  }
+  ++at_;
+  if (!calculated(word_begin, number)) {
+    return false;
+  }
+  if (next() == ',') {
+    ++at_;
+    if (next() != ')' && !text_value(word_begin, text)) {
+      return false;
+    }
+  }
+  if (next() != ')') {
+    return refuse(since(word_begin), "unclosed_expression", "SETAL( that is not closed by )");
+  }
+  ++at_;
+  return (number >= 65000.0 && number < 65500.0) ||
+         refuse(since(word_begin), "alarm",
+                "the control raises an alarm here that is not a mere message; those are SETAL "
+                "65000 to 65499");
 }
 
 // SETMS, SETMS(1): one spindle is known, and it is the master.

@@ -73,6 +73,7 @@ LookupText sinumerik_lookup_text(Lookup lookup) noexcept {
     case Lookup::read_only:
     case Lookup::not_known_here:
     case Lookup::kept_by_control:
+    case Lookup::vacant:
     case Lookup::found:
     case Lookup::no_such_number:
       break;
@@ -204,9 +205,10 @@ bool SinumerikExpression::operand(double& out) {
     return word(out);
   }
   if (c == '$') {
-    return fail("system_variable", "system variables ($...) are not supported");
+    return system_variable(out);
   }
-  return c == '\'' || c == '"'
+  return c == '"' && typed_ != nullptr ? text_comparison(out)
+         : c == '\'' || c == '"'
              ? fail("bad_value", "a string or a binary number where a plain number belongs")
              : fail("missing_value", "a value is missing");
 }
@@ -276,7 +278,15 @@ bool SinumerikExpression::word(double& out) {
     return parameter(out, name);
   }
   Name variable;
-  if (lower_name(name, variable) && peek() != '(' && peek() != '[') {
+  const bool short_enough = lower_name(name, variable);
+  if (short_enough && typed_ != nullptr && typed_->text(variable.view()) != nullptr) {
+    at_ = first;
+    return text_comparison(out);
+  }
+  if (short_enough && peek() == '[') {
+    return element(out, variable);
+  }
+  if (short_enough && peek() != '(' && peek() != '[') {
     const Lookup lookup = values_.name(variable.view(), out);
     return lookup == Lookup::no_such_name
                ? fail("variable", "a variable not defined (DEF) in this program")

@@ -7,12 +7,14 @@
 
 #include <steadyrest/nc/read/text/climber.hpp>
 #include <steadyrest/nc/read/text/name.hpp>
+#include <steadyrest/nc/read/text/typed_values.hpp>
 #include <steadyrest/nc/read/text/values.hpp>
 
 namespace steadyrest::nc::read {
 
 /// An expression of `sinumerik` at a place in a line: numbers (`1.5`, `1.5EX-3`), `R1`, `R[…]`,
-/// variables, TRUE, FALSE, `( )`, functions.
+/// variables, elements of arrays `A[R1,2]`, system variables, characters `"A"`, TRUE, FALSE, `( )`,
+/// functions; strings where two of them are compared (`NAME=="TOP"`).
 ///
 /// Law of the manual "Job planning", "Priority of the operations", from strong to weak: NOT B_NOT
 /// and signs; `* / DIV MOD`; `+ -`; B_AND; B_XOR; B_OR; AND; XOR; OR; `== <> < > <= >=`; equals
@@ -24,8 +26,10 @@ class SinumerikExpression : public Climber<SinumerikExpression> {
  public:
   static constexpr int kDeepest = 64;
 
-  SinumerikExpression(std::string_view line, std::size_t at, const Values& values) noexcept
-      : Climber(line, at, values) {}
+  /// `typed`: null: no system variables and strings.
+  SinumerikExpression(std::string_view line, std::size_t at, const Values& values,
+                      const TypedValues* typed = nullptr) noexcept
+      : Climber(line, at, values), typed_(typed) {}
 
   bool read(double& out);
 
@@ -41,10 +45,15 @@ class SinumerikExpression : public Climber<SinumerikExpression> {
   bool number(double& out);
   bool word(double& out);
   bool parameter(double& out, std::string_view name);
+  bool element(double& out, Name& name);
+  bool system_variable(double& out);
+  bool text_comparison(double& out);
   bool function(std::string_view name, double& out);
   bool arguments(std::array<double, 3>& values, std::size_t wanted);
   bool looked_up(Lookup lookup);
   bool closing(char bracket);
+
+  const TypedValues* typed_;
 };
 
 /// The name of a variable in lower case; false when it is too long.

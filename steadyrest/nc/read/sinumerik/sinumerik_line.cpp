@@ -58,13 +58,13 @@ bool SinumerikLine::header() {
   const auto length = look - at_;
   if (length >= 2 && !is_digit(*at_) && look != end_ && *look == ':' &&
       !(look + 1 != end_ && look[1] == '=')) {
-    at_ = look + 1;  // a label does nothing: jumps are refused
+    at_ = look + 1;  // a label does nothing by itself: jumps find it in the map of the file
     skip_blanks();
   }
   return true;
 }
 
-// Block numbers have no effect; only jumps would need them, and those are refused.
+// Block numbers have no effect: jumps find them in the map of the file.
 bool SinumerikLine::block_number() {
   if (at_ == end_ || (upper(*at_) != 'N' && *at_ != ':')) {
     return true;
@@ -101,6 +101,7 @@ bool SinumerikLine::push(const char* word_begin, Word& word) {
   if (word.qualifier != Qualifier::text) {
     word.text = since(word_begin);
   }
+  word.unknown = calculated_ && reading_.values->take_unknown();
   if (assigned_) {
     return refuse(since(word_begin), "assignment_and_words",
                   "a word next to a variable assignment; write two blocks");
@@ -310,25 +311,6 @@ bool SinumerikLine::quoted(const char* word_begin, Word& word) {
   word.text = since(open);
   ++at_;
   return push(word_begin, word);
-}
-
-// MSG("text") or MSG(): a message for the operator, as harmless as a comment.
-bool SinumerikLine::message(const char* word_begin, Word& word) {
-  skip_blanks();
-  if (at_ != end_ && *at_ == '(') {
-    ++at_;
-    skip_blanks();
-    if (at_ != end_ && *at_ == '"' && !quoted(word_begin, word)) {
-      return false;
-    }
-    skip_blanks();
-    if (at_ != end_ && *at_ == ')') {
-      ++at_;
-      return true;
-    }
-  }
-  at_ = end_;
-  return refuse(since(word_begin), "expression", "MSG takes one plain string: MSG(\"text\")");
 }
 
 bool SinumerikLine::refuse_value(const char* word_begin) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <steadyrest/nc/read/text/block.hpp>
 #include <steadyrest/nc/read/text/line_cursor.hpp>
@@ -33,12 +35,9 @@ class SinumerikLine : private LineCursor {
   bool message(const char* word_begin, Word& word);
   // sinumerik_call.cpp
   bool statement(const char* word_begin, std::string_view name, bool& done);
-  bool definition(const char* word_begin);
-  bool head_of_subprogram(const char* word_begin);
-  bool parameter_of_subprogram(const char* word_begin, std::size_t place);
-  bool declaration(const char* word_begin);
-  bool value_type(const char* word_begin, ValueType& type);
-  bool variable_name(const char* word_begin, Name& name);
+  bool indirect_call(const char* word_begin);
+  bool alarm(const char* word_begin);
+  bool text_assignment(const char* word_begin, std::string_view name);
   bool parameter_assignment(const char* word_begin);
   bool variable_assignment(const char* word_begin, std::string_view name);
   bool assign(const char* word_begin, Lookup lookup);
@@ -50,6 +49,30 @@ class SinumerikLine : private LineCursor {
   bool calculated(const char* word_begin, double& out);
   [[nodiscard]] char next() noexcept;
   [[nodiscard]] std::string_view letters() noexcept;
+
+  // sinumerik_definition.cpp
+  bool definition(const char* word_begin);
+  bool definition_of_text(const char* word_begin);
+  bool definition_of_array(const char* word_begin, Name& name, ValueType type);
+  bool array_values(const char* word_begin, std::size_t count, std::vector<double>& values);
+  bool element_name(const char* word_begin, Name& name);
+  bool head_of_subprogram(const char* word_begin);
+  bool parameter_of_subprogram(const char* word_begin, std::size_t place);
+  bool declaration(const char* word_begin);
+  bool value_type(const char* word_begin, ValueType& type);
+  bool variable_name(const char* word_begin, Name& name);
+  bool text_value(const char* word_begin, std::string& out);
+
+  // sinumerik_flow.cpp
+  bool flow_statement(const char* word_begin, std::string_view name);
+  bool condition(const char* word_begin);
+  bool jumps_if(const char* word_begin);
+  bool jump(const char* word_begin, std::string_view word);
+  bool branch(const char* word_begin);
+  bool count_loop(const char* word_begin);
+  bool section(const char* word_begin, bool one_block);
+  bool label_of(const char* word_begin, Name& label);
+  bool end_of_statement(const char* word_begin);
 
   // sinumerik_system.cpp
   bool system_variable(const char* word_begin);
@@ -63,6 +86,7 @@ class SinumerikLine : private LineCursor {
   bool push(const char* word_begin, Word& word);
 
   bool assigned_ = false;       ///< a variable was set
+  bool calculated_ = false;     ///< a value was an expression
   bool repeats_given_ = false;  ///< P after a call
 };
 

@@ -100,4 +100,9 @@ const RefusedName* refused_name(std::string_view name) noexcept {
   return other ? &kOther : nullptr;
 }
 
+bool is_flow_word(std::string_view name) noexcept {
+  const RefusedName* const refused = refused_name(name);
+  return refused != nullptr && refused->reason == "flow_control";
+}
+
 }  // namespace steadyrest::nc::read

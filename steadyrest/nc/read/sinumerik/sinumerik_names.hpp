@@ -20,4 +20,7 @@ struct RefusedName {
 /// Why the name is refused, where there is a better reason than "not known"; else null.
 [[nodiscard]] const RefusedName* refused_name(std::string_view name) noexcept;
 
+/// Whether it is a word of jumps, conditions and loops: IF, GOTOF, REPEAT …
+[[nodiscard]] bool is_flow_word(std::string_view name) noexcept;
+
 }  // namespace steadyrest::nc::read

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <string>
 #include <string_view>
 
+#include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_line.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
@@ -78,6 +85,144 @@ bool SinumerikLine::fine_offset(const char* word_begin) {
   // Counts as an assignment: nothing else may share the block.
   assigned_ = true;
   return pushed;
+}
+
+// $P_EP[X], $AA_IW[X], $A_IN[1], $P_TOOLNO: what they mean is the variables' business. An index is
+// the name of an axis, or a number, which becomes part of the name.
+bool SinumerikExpression::system_variable(double& out) {
+  Name name;
+  bool fits = name.push('$');
+  for (++at_; at_ != end_ && in_name(*at_); ++at_) {
+    fits = fits && name.push(upper(*at_));
+  }
+  char axis = 0;
+  if (peek() == '[') {
+    ++at_;
+    if (++depth_ > kDeepest) {
+      return fail("expression_too_deep", "brackets nested more than 64 deep");
+    }
+    constexpr std::string_view kAxes = "XYZABCUVW";
+    const char c = peek();
+    if (kAxes.find(c) != std::string_view::npos && at_ + 1 != end_ && !in_name(at_[1])) {
+      axis = c;
+      ++at_;
+    } else {
+      double index = 0.0;
+      if (!climb(index, 0)) {
+        return false;
+      }
+      if (index != std::floor(index) || index < 0.0 || index > 99999.0) {
+        return fail("system_variable",
+                    "a system variable with an index that is no axis letter "
+                    "and not a whole number");
+      }
+      std::array<char, 8> digits{};
+      const auto* const end =
+          std::to_chars(digits.begin(), digits.end(), static_cast<int>(index)).ptr;
+      fits = fits && name.push('[');
+      for (const char* digit = digits.begin(); digit != end; ++digit) {
+        fits = fits && name.push(*digit);
+      }
+      fits = fits && name.push(']');
+    }
+    if (!closing(']')) {
+      return false;
+    }
+  }
+  const Lookup lookup =
+      fits && typed_ != nullptr ? typed_->system(name.view(), axis, out) : Lookup::not_known_here;
+  return lookup == Lookup::found ||
+         fail("system_variable", "a system variable ($...) whose meaning is not known here");
+}
+
+// A[R1,2]: the variable whose name has the indices.
+bool SinumerikExpression::element(double& out, Name& name) {
+  if (++depth_ > kDeepest) {
+    return fail("expression_too_deep", "brackets nested more than 64 deep");
+  }
+  char before = '[';
+  do {
+    ++at_;
+    double index = 0.0;
+    if (!climb(index, 0)) {
+      return false;
+    }
+    std::array<char, 8> digits{};
+    const bool whole = index == std::floor(index) && index >= 0.0 && index < 1e6;
+    const auto* const end =
+        std::to_chars(digits.begin(), digits.end(), whole ? static_cast<int>(index) : 0).ptr;
+    bool fits = whole && name.push(before);
+    for (const char* digit = digits.begin(); digit != end; ++digit) {
+      fits = fits && name.push(*digit);
+    }
+    if (!fits) {
+      return fail("array", "an index that is not a whole number from 0");
+    }
+    before = ',';
+  } while (peek() == ',');
+  if (!closing(']') || !name.push(']')) {
+    return false;
+  }
+  const Lookup lookup = values_.name(name.view(), out);
+  return lookup == Lookup::no_such_name
+             ? fail("variable", "an array, or an element of it, not defined (DEF) in this program")
+             : looked_up(lookup);
+}
+
+// "TOP"==NAME, NAME<>"TOP": case counts. A single character is also a number, that of its code.
+bool SinumerikExpression::text_comparison(double& out) {
+  const auto text = [this](std::string_view& read) {
+    const char* const from = at_;
+    if (peek() == '"') {
+      const char* const open = ++at_;
+      while (at_ != end_ && *at_ != '"') {
+        ++at_;
+      }
+      if (at_ == end_) {
+        return fail("unclosed_string", "a string without its closing quote");
+      }
+      read = {open, static_cast<std::size_t>(at_++ - open)};
+      return true;
+    }
+    Name name;
+    bool fits = true;
+    while (at_ != end_ && in_name(*at_)) {
+      fits = name.push(lower(*at_++)) && fits;
+    }
+    const std::string* const found = fits ? typed_->text(name.view()) : nullptr;
+    if (found == nullptr) {
+      at_ = from;
+      return false;
+    }
+    read = *found;
+    return true;
+  };
+  std::string_view left;
+  std::string_view right;
+  if (!text(left)) {
+    return reason_.empty() ? fail("bad_value", "a string belongs here") : false;
+  }
+  while (at_ != end_ && is_blank(*at_)) {
+    ++at_;
+  }
+  const std::string_view how{at_,
+                             static_cast<std::size_t>(std::min<std::ptrdiff_t>(2, end_ - at_))};
+  if (how != "==" && how != "<>") {
+    out = left.size() == 1 ? static_cast<double>(static_cast<unsigned char>(left.front())) : 0.0;
+    return left.size() == 1 || fail("bad_value", "a string where a number belongs");
+  }
+  const char* const operation = at_;
+  at_ += 2;
+  if (!text(right)) {
+    if (left.size() == 1 && reason_.empty()) {  // a character beside a number
+      at_ = operation;
+      out = static_cast<double>(static_cast<unsigned char>(left.front()));
+      return true;
+    }
+    return reason_.empty() ? fail("bad_value", "a string is compared with strings only") : false;
+  }
+  out = (left == right) == (how == "==") ? 1.0 : 0.0;
+  return true;
 }
 
 }  // namespace steadyrest::nc::read

@@ -54,10 +54,30 @@ enum class FlowKind : std::uint8_t {
   loop_do,  ///< do
   repeat,
   endrepeat,
-  leave_loop,  ///< break
-  next_turn,   ///< continue
-  cycle,       ///< sinumerik CYCLE…( )
-  modal_cycle  ///< sinumerik MCALL; without a label its end
+  leave_loop,   ///< break
+  next_turn,    ///< continue
+  cycle,        ///< sinumerik CYCLE…( )
+  modal_cycle,  ///< sinumerik MCALL; without a label its end
+  // Of dialects whose files are mapped (Landmark). Their `when`, `otherwise`, `endif` and
+  // `loop_while` have no labels: the place decides what belongs together.
+  jump,        ///< GOTO …; M99 P; with a condition or without
+  loop,        ///< LOOP; DO without WHILE
+  loop_count,  ///< FOR
+  loop_until,  ///< REPEAT … UNTIL
+  until,
+  end_loop,   ///< END, ENDWHILE, ENDFOR, ENDLOOP
+  section,    ///< REPEAT LABEL, REPEATB LABEL
+  modal_call  ///< sinumerik MCALL NAME
+};
+
+/// Where a jump looks for its target, from the jump's own block.
+enum class Towards : std::uint8_t {
+  end,        ///< GOTOF
+  beginning,  ///< GOTOB
+  either,     ///< GOTO: towards the end first
+  if_there,   ///< GOTOC: likewise, and goes on without it
+  start,      ///< GOTOS: the program's first block, without a target
+  anywhere    ///< fanuc: in the whole program, where one block alone may have the number
 };
 
 // The values are not zeroed for each line: `count` says how many there are.
@@ -71,6 +91,9 @@ struct Flow {
   std::uint32_t unknown = 0;  ///< bit n: the control decides value n
   static constexpr std::uint32_t kUnknownLabel = std::uint32_t{1} << 31U;
   double repeats = 1.0;                       ///< sinumerik: P
+  bool holds = true;                          ///< the condition, of mapped dialects
+  Towards towards = Towards::either;          ///< of a jump; of a section, unused
+  Name second;                                ///< of a section: the label that ends it
   std::array<double, kMostArguments> values;  ///< arguments, condition or returned value
 };
 

@@ -17,6 +17,7 @@ struct Reading {
   Values* values = nullptr;             ///< nullptr: expressions are refused
   TypedValues* typed_values = nullptr;  ///< of sinumerik
   bool numbers_alone = false;           ///< no value was asked for or set
+  bool counts_on = false;               ///< sinumerik: FOR adds 1 instead of beginning
   Refused refused = {};
 
   /// Stores why a line is refused; returns false.

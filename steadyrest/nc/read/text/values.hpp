@@ -15,7 +15,8 @@ enum class Lookup : std::uint8_t {
   assigned_in_block,       ///< set in the block being read
   not_while_compensating,  ///< positions, while cutter radius compensation is on
   not_known_here,          ///< exists on the control, but its value is known only there
-  kept_by_control          ///< may exist there with a value from before the program
+  kept_by_control,         ///< may exist there with a value from before the program
+  vacant                   ///< fanuc: certainly without a value
 };
 
 /// The same in the words of a refusal.

@@ -26,6 +26,7 @@ template <class Survey>
   if (!run) {
     return std::unexpected(run.error());
   }
+  run->note_jumps();
   Survey survey(*run, kept, config.dialect);
   while (run->step()) {
     survey.line(source->line());

@@ -34,6 +34,7 @@ kernel::outcome::Result<std::unique_ptr<Running>> Running::open(const std::strin
   if (!run) {
     return std::unexpected(run.error());
   }
+  run->note_jumps();
   out->run.emplace(std::move(*run));
   return out;
 }

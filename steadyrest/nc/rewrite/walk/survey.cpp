@@ -43,6 +43,7 @@ kernel::outcome::Result<std::pair<Survey, bool>> survey_once(const std::string& 
   if (!run) {
     return std::unexpected(run.error());
   }
+  run->note_jumps();
   // Runs the whole program: which lines are repeated depends on values in loops and calls.
   Survey found;
   std::vector<bool> seen;

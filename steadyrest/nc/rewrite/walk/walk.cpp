@@ -71,6 +71,7 @@ Result<std::unique_ptr<Walk>> Walk::open(const std::string& path, const interpre
   if (!run) {
     return std::unexpected(run.error());
   }
+  run->note_jumps();
   made->run_.emplace(std::move(*run));
   return made;
 }

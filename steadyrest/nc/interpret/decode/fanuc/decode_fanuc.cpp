@@ -52,9 +52,13 @@ constexpr std::array kNotes = {
          "G50 sets the spindle limit or the origin on a lathe and ends scaling "
          "on a mill; write G92 for an origin"},
     Note{510, "g_code_not_interpreted", "scaling (G51) is not interpreted"},
-    Note{650, "macro_call", "a macro call (G65) is not interpreted"},
-    Note{660, "macro_call", "a modal macro call (G66) is not interpreted"},
-    Note{670, "macro_call", "the end of a modal macro call (G67) is not interpreted"},
+    Note{650, "macro_call", "a macro call (G65) behind other words; write it first in its block"},
+    Note{660, "macro_call",
+         "a modal macro call (G66) behind other words; write it first in its block"},
+    Note{661, "macro_call",
+         "a macro call after every block (G66.1) is not interpreted; G65 and G66 are"},
+    Note{670, "macro_call",
+         "the end of a modal macro call (G67) with other words; write it in a separate block"},
     Note{680, "g_code_not_interpreted", "coordinate rotation (G68) is not interpreted"},
     Note{690, "g_code_not_interpreted", "coordinate rotation (G69) is not interpreted"},
     Note{g::kThreadCycle, "g_code_not_interpreted",
@@ -81,11 +85,17 @@ class FanucDecoder final : public StepWriter {
   bool word_of_another_kind(const Word& word, int motion, bool& taken);
   bool finish();
   bool program_call();
+  bool macro_call(const Block& block);
 };
 
 bool FanucDecoder::block(const Block& block) {
   if (block.words().empty()) {
     return true;
+  }
+  const Word& first = block.words().front();
+  if (first.letter == 'G' && (first.value == 65.0 || first.value == 66.0 ||
+                              (first.value == 67.0 && block.words().size() == 1))) {
+    return macro_call(block);
   }
   // Codes first: G4 decides what X and P mean, G20/G21 what an increment is.
   for (const Word& word : block.words()) {
@@ -99,6 +109,29 @@ bool FanucDecoder::block(const Block& block) {
     }
   }
   return finish();
+}
+
+// The other words are arguments, whatever they mean elsewhere.
+bool FanucDecoder::macro_call(const Block& block) {
+  step_.macro = static_cast<std::int8_t>(block.words().front().value);
+  step_.others = true;
+  if (block.words().size() > 1) {
+    step_.m[static_cast<std::size_t>(MGroup::program)] = m::kCall;
+  }
+  for (const Word& word : block.words().subspan(1)) {
+    if ((word.letter == 'P' || word.letter == 'L') && !put_letter(word, word.letter, word.value)) {
+      return false;
+    }
+  }
+  if (step_.macro == 67) {
+    return true;
+  }
+  if (!step_.has('P') || step_['P'] != std::floor(step_['P']) || !(step_['P'] >= 1.0)) {
+    return refuse(block.words().front(), "word_missing",
+                  "a macro call without the number of its program (P)");
+  }
+  return !step_.has('L') || (step_['L'] >= 1.0 && step_['L'] == std::floor(step_['L'])) ||
+         in_.refusals.letter(step_, 'L', "bad_value", "repeats (L) are a whole number from 1");
 }
 
 // FANUC's G61 is an exact stop and G64 cutting mode. Decimal codes of LinuxCNC are refused:
@@ -164,8 +197,11 @@ bool FanucDecoder::m_word(const Word& word) {
 // Letters that are no values of a common word: M99 P, G92 S, G30 P. False when refused.
 bool FanucDecoder::word_of_another_kind(const Word& word, int motion, bool& taken) {
   if (word.letter == 'P' && step_.code(MGroup::program) == m::kReturn) {
-    return refuse(word, "flow_control",
-                  "M99 with a block number (P) is a jump, which is not interpreted");
+    if (!(word.value >= 1.0) || word.value != std::floor(word.value)) {
+      return refuse(word, "bad_value", "M99 P goes to a block number: a whole number from 1");
+    }
+    taken = true;
+    return put_letter(word, 'P', word.value);
   }
   if (word.letter == 'Q' && (motion == g::kTapLeft || motion == g::kTapRight)) {
     return refuse(word, "g_code_not_interpreted",
@@ -254,7 +290,7 @@ bool FanucDecoder::letter_word(const Word& word) {
 // M98 P51234 is five times O1234; with P1234 L5 it is the same.
 bool FanucDecoder::program_call() {
   constexpr double kNumbers = 10000.0;
-  if (step_.code(MGroup::program) != m::kCall || !step_.has('P')) {
+  if (step_.code(MGroup::program) != m::kCall || !step_.has('P') || step_.macro != 0) {
     return true;
   }
   const double p = step_['P'];
