@@ -45,10 +45,11 @@ class ProgramRun::Run {
                         .interpreter = *interpreter_,
                         .provenance = provenance_,
                         .counter = counter_,
-                        .lose_values = [this] {
-                          macro_.lose_all();
-                          typed_.lose_all();
-                        }}),
+                        .lose_values =
+                            [this] {
+                              macro_.lose_all();
+                              typed_.lose_all();
+                            }}),
         calls_({.flow = flow_,
                 .interpreter = *interpreter_,
                 .macro = macro_,
@@ -216,6 +217,16 @@ class ProgramRun::Run {
     return refuse(at_block(block_, "no_program_end",
                            "the program or subprogram above has no end; write M30 or M99",
                            label ? "O" : "%"));
+  }
+
+  /// A block of which nothing has acted opens an opaque stretch, or refuses the program.
+  bool not_understood(const Refused& refused) {
+    if (!fence_.opens(block_, refused)) {
+      return refuse(refused);
+    }
+    executed_ = !(block_.deleted() && block_delete_);
+    report_.blocks += executed_ ? 1U : 0U;
+    return true;
   }
 
   bool refuse(const Refused& refused) {

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/testing/cases.hpp>
-#include <steadyrest/nc/interpret/test/moves.hpp>
 #include <steadyrest/nc/interpret/flow/test/random_flow.hpp>
+#include <steadyrest/nc/interpret/test/moves.hpp>
 
 // Random jumps, conditions, loops and repeated sections against an evaluation of its own, and what
 // is in doubt against every answer of the control. STEADYREST_FLOW_PROGRAMS runs more of them.
@@ -74,15 +74,10 @@ struct Certain {
   Begins begins;
 };
 
-class Nowhere final : public Sink {
- public:
-  void on_move(const Move& /*move*/) override {}
-  void on_event(const Event& /*event*/) override {}
-};
 
 Certain certain_of(const std::string& text, Dialect dialect) {
   auto source = read::LineSource::from_text(text);
-  Nowhere nowhere;
+  NoMoves nowhere;
   auto run = ProgramRun::make(source, of(dialect), nowhere);
   Certain out;
   run->note_jumps();
