@@ -87,12 +87,13 @@ def flow_lines(lines, dialect, names=frozenset()):
 
 
 def sinumerik_condition(text, names):
-    """A condition: comparisons bind last, as on LinuxCNC only in brackets."""
-    text = sinumerik_value(text, names)
-    for theirs, ours in (("==", " EQ "), ("<>", " NE "), ("<=", " LE "), (">=", " GE "), ("<", " LT "), (">", " GT ")):
-        text = re.sub(r"(?<![<>])" + re.escape(theirs) + r"(?![<>=\d-]*[<>])" if len(theirs) == 1 else re.escape(theirs), ours, text) \
-            if theirs not in ("<", ">") else re.sub(r"(#)<(\w+)>|<|>", lambda m: m.group(0) if m.group(1) else {"<": " LT ", ">": " GT "}[m.group(0)], text)
-    return f"[{text}]"
+    """A condition: comparisons bind last, from left to right."""
+    parts = re.split(r"(==|<>|<=|>=|<|>)", text)
+    words = {"==": " EQ ", "<>": " NE ", "<=": " LE ", ">=": " GE ", "<": " LT ", ">": " GT "}
+    out = f"[{sinumerik_value(parts[0], names)}]"
+    for operator, value in zip(parts[1::2], parts[2::2]):
+        out = f"[{out}{words[operator]}[{sinumerik_value(value, names)}]]"
+    return f"[{out}]"
 
 
 def closing(text, at):
@@ -219,21 +220,30 @@ def equivalent_of(program, dialect, oracle):
     if dialect == "fanuc":
         text = re.sub(r"(?im)^(.*?)G0*([01])?\s*(G91)?\s*G0*28", lambda m: m.group(0), text)
         lines = []
-        for line in text.splitlines():
-            code = re.sub(r"\(.*?\)", "", line)
+        source = flow_lines(re.sub(r"\(.*?\)", "", text).splitlines(), dialect)
+        if source is None:
+            return None
+        for line in source:
+            code = line
             if re.search(r"G0*28", code):  # there a G0 with G28 only sets the mode
                 line = re.sub(r"G0*[01](?![\d.])", "", line, count=1)
             if re.search(r"G28.*G91|G91.*G28", code):
                 lines.append("G91")
             inch = re.search(r"G20(?!\d)", text) is not None
             macros = "#" in re.sub(r"\(.*?\)", "", text) or re.search(r"M98", text)
-            lines.append(macro_line(re.sub(r"\(.*?\)", "", line), inch) if macros else line)
+            lines.append(macro_line(line, inch) if macros and not re.match(r"O7\d{3} ", line) else line)
         body = "\n".join(lines) + "\n"
         body = body.replace("%\n", "%\nG98\n", 1) if body.startswith("%") else "G98\n" + body
     else:
         lines = []
         text = re.sub(r";.*", "", text)
-        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|A?TRANS|A?ROT|%_N_)", text):
+        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|IF|WHILE|FOR|LOOP|REPEAT|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|A?TRANS|A?ROT|%_N_)", text):
+            defined = re.findall(r"(?im)^\s*(?:N\d+\s*)?DEF\s+\w+\s+(.*)$", text)
+            names = {name.upper() for line in defined for name in re.findall(r"(?:^|,)\s*([A-Za-z_]\w*)", line)}
+            flow = flow_lines(text.splitlines(), dialect, names)
+            if flow is None:
+                return None
+            text = "\n".join(flow)
             text = "\n".join(sinumerik_lines(re.sub(r'MSG\(.*?\)|T="[^"]*"', lambda m: "T1" * (m.group(0)[0] == "T"), text).splitlines()))
             text = text.replace("SUPA", "G53")
         for line in text.splitlines():

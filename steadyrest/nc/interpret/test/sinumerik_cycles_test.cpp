@@ -78,7 +78,7 @@ TEST(SinumerikCycles, AreRefusedByName) {
   EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2)"), "cycle_word_missing");
   EXPECT_EQ(reason_of_block("CYCLE832(0.01,1)"), "cycle_not_interpreted");
   EXPECT_EQ(reason_of_block("CYCLE800(1)"), "transformation");
-  EXPECT_EQ(reason_of_block("MCALL L10"), "modal_call");
+  EXPECT_EQ(reason_of_block("MCALL L10"), "no_such_program");
   EXPECT_EQ(reason_of_block("SETMS(2)"), "spindle_selection");
 }
 

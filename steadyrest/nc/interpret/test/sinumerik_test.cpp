@@ -140,12 +140,5 @@ TEST(SinumerikFrames, AreRefusedWhereASettingOfTheControlDecides) {
   EXPECT_EQ(reason_of_block("SCALE X2"), "frame");
 }
 
-TEST(SinumerikFlow, IsRefusedByName) {
-  for (const char* const text : {"IF R1>5 GOTOF END", "GOTOB MARK1", "FOR I=1 TO 5", "WHILE R1<5",
-                                 "LOOP", "REPEAT", "CASE R1 OF 1 GOTOF A1", "ELSE", "ENDLOOP"}) {
-    EXPECT_EQ(reason_of_block(text), "flow_control") << text;
-  }
-}
-
 }  // namespace
 }  // namespace steadyrest::nc::interpret

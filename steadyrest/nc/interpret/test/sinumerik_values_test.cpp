@@ -82,8 +82,8 @@ TEST(SinumerikValues, AreRefusedWhereTheyAreNotKnown) {
   EXPECT_EQ(reason_of_block("R1=5 R2=R1"), "order_of_assignments");
   EXPECT_EQ(reason_of_block("R1=5 X1"), "assignment_and_words");
   EXPECT_EQ(reason_of_block("G0 X1 R1=5"), "assignment_and_words");
-  EXPECT_EQ(reason_of_block("DEF REAL AREA[3]"), "array");
-  EXPECT_EQ(reason_of_block("DEF STRING[5] NOTE"), "definition");
+  EXPECT_EQ(reason_of_block("DEF REAL AREA[0]"), "array");
+  EXPECT_EQ(reason_of_block("DEF STRING[5] NOTE=5 X1"), "definition");
   EXPECT_EQ(reason_of_block("DEF REAL WIDTH\nDEF INT WIDTH"), "definition");
   EXPECT_EQ(reason_of_block("R1=-3 MOD 2"), "out_of_domain");
 }

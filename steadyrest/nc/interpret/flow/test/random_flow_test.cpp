@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <steadyrest/kernel/testing/cases.hpp>
-#include <steadyrest/nc/interpret/test/moves.hpp>
 #include <steadyrest/nc/interpret/flow/test/random_flow.hpp>
+#include <steadyrest/nc/interpret/test/moves.hpp>
 
 // Random jumps, conditions, loops and repeated sections against an evaluation of its own, and what
 // is in doubt against every answer of the control. STEADYREST_FLOW_PROGRAMS runs more of them.
@@ -20,13 +20,13 @@ namespace {
 using read::Dialect;
 using test::RandomFlow;
 
-unsigned programs() {
+unsigned random_programs() {
   const char* const asked = std::getenv("STEADYREST_FLOW_PROGRAMS");
   return asked != nullptr ? static_cast<unsigned>(std::atoi(asked))
                           : (kernel::testing::kSanitized ? 20U : 150U);
 }
 
-Config of(Dialect dialect) {
+Config config_of(Dialect dialect) {
   Config config;
   config.dialect = dialect;
   return config;
@@ -35,7 +35,7 @@ Config of(Dialect dialect) {
 /// The moves behind the first, which goes to the origin.
 std::vector<RandomFlow::Done> done_by(const std::string& text, Dialect dialect) {
   Kept kept;
-  const auto report = run_text(text, of(dialect), kept);
+  const auto report = run_text(text, config_of(dialect), kept);
   EXPECT_TRUE(report && report->refused.empty())
       << (report && !report->refused.empty()
               ? report->refused.front().reason + " " + std::to_string(report->refused.front().line)
@@ -53,7 +53,7 @@ class RandomFlowOf : public testing::TestWithParam<Dialect> {};
 
 TEST_P(RandomFlowOf, ExecutesTheLinesThatItsOwnEvaluationSays) {
   std::size_t moves = 0;
-  for (unsigned seed = 1; seed <= programs(); ++seed) {
+  for (unsigned seed = 1; seed <= random_programs(); ++seed) {
     const RandomFlow program(GetParam(), seed, false);
     std::vector<RandomFlow::Done> expected;
     if (!program.run(0, expected)) {
@@ -63,28 +63,28 @@ TEST_P(RandomFlowOf, ExecutesTheLinesThatItsOwnEvaluationSays) {
     ASSERT_TRUE(found == expected) << "seed " << seed << '\n' << program.text();
     moves += found.size();
   }
-  EXPECT_GT(moves, programs() * 5U);
+  EXPECT_GT(moves, random_programs() * 5U);
 }
 
 /// Where the moves of each line begin.
 using Begins = std::map<int, std::vector<double>>;
 
-struct Certain {
+struct CertainLines {
   std::set<int> doubtful;  ///< lines
   Begins begins;
 };
 
-class Nowhere final : public Sink {
+class Unheard final : public Sink {
  public:
   void on_move(const Move& /*move*/) override {}
   void on_event(const Event& /*event*/) override {}
 };
 
-Certain certain_of(const std::string& text, Dialect dialect) {
+CertainLines certain_of(const std::string& text, Dialect dialect) {
   auto source = read::LineSource::from_text(text);
-  Nowhere nowhere;
-  auto run = ProgramRun::make(source, of(dialect), nowhere);
-  Certain out;
+  Unheard unheard;
+  auto run = ProgramRun::make(source, config_of(dialect), unheard);
+  CertainLines out;
   run->note_jumps();
   double x = 0.0;
   while (run->step()) {
@@ -106,13 +106,13 @@ Certain certain_of(const std::string& text, Dialect dialect) {
 // whatever the control answers.
 TEST_P(RandomFlowOf, IsCertainOnlyWhereEveryAnswerOfTheControlMeansTheSame) {
   std::size_t compared = 0;
-  for (unsigned seed = 1; seed <= programs(); ++seed) {
+  for (unsigned seed = 1; seed <= random_programs(); ++seed) {
     const RandomFlow program(GetParam(), seed, true);
     std::vector<RandomFlow::Done> assumed;
     if (!program.run(0, assumed)) {
       continue;
     }
-    const Certain certain = certain_of(program.text(), GetParam());
+    const CertainLines certain = certain_of(program.text(), GetParam());
     for (unsigned answers = 1; answers < 8; ++answers) {
       std::vector<RandomFlow::Done> moves;
       if (!program.run(answers, moves, 20'000)) {
@@ -134,7 +134,7 @@ TEST_P(RandomFlowOf, IsCertainOnlyWhereEveryAnswerOfTheControlMeansTheSame) {
       }
     }
   }
-  EXPECT_GT(compared, programs() * 2U);
+  EXPECT_GT(compared, random_programs() * 2U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dialects, RandomFlowOf,

@@ -17,13 +17,14 @@ using testing::ElementsAre;
 using testing::Pair;
 
 // #0 is always vacant; #1–#33 are local, #100–#199 and #500–#999 common.
-TEST_F(MacroVariablesOf, ThreeRangesCanBeSetAndStartVacant) {
+TEST_F(MacroVariablesOf, ThreeRangesCanBeSetAndAreNotKnownAtTheStart) {
   double value = 0.0;
   for (int index = 0; index < 1000; ++index) {
     const bool exists =
         (index >= 1 && index <= 33) || (index >= 100 && index <= 199) || index >= 500;
-    EXPECT_EQ(variables_.number(index, value),
-              exists || index == 0 ? Lookup::no_such_name : Lookup::no_such_number)
+    EXPECT_EQ(variables_.number(index, value), exists       ? Lookup::no_such_name
+                                               : index == 0 ? Lookup::vacant
+                                                            : Lookup::no_such_number)
         << index;
     EXPECT_EQ(variables_.set_number(index, 1.0), exists       ? Lookup::found
                                                  : index == 0 ? Lookup::read_only

@@ -51,7 +51,7 @@ TEST(SinumerikCall, OfACycleMayBeModal) {
   EXPECT_EQ(modal.given, 0b1101U);
   EXPECT_EQ(program.block("MCALL").flow().kind, FlowKind::modal_cycle);
   EXPECT_EQ(program.block("MCALL").flow().label.view(), "");  // its end
-  EXPECT_EQ(program.fault("MCALL POCKET"), "modal_call");
+  EXPECT_EQ(program.block("MCALL POCKET(1)").flow().kind, FlowKind::modal_call);
 }
 
 TEST(SinumerikCall, HasItsBlockToItself) {

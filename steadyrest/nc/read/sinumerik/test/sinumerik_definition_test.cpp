@@ -39,10 +39,10 @@ TEST(SinumerikDefinition, NeedsANameThatIsNoOtherWord) {
 
 TEST(SinumerikDefinition, IsRefusedForWhatItDoesNotHold) {
   SinumerikProgram program;
-  const std::pair<const char*, const char*> cases[] = {{"DEF STRING[8] NOTE", "definition"},
+  const std::pair<const char*, const char*> cases[] = {{"DEF STRING[0] NOTE", "definition"},
                                                        {"DEF AXIS DRIVE", "definition"},
                                                        {"DEF WIDTH", "definition"},
-                                                       {"DEF REAL AREA[3]", "array"},
+                                                       {"DEF REAL AREA[3.5]", "array"},
                                                        {"X1 DEF REAL WIDTH", "definition"},
                                                        {"DEF REAL WIDTH X1", "definition"},
                                                        {"DEF REAL WIDTH=", "missing_value"},
