@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 
@@ -161,18 +162,53 @@ bool SinumerikVariables::define_argument(std::string_view name, ValueType type, 
   return define(name, type, given ? frame.call.values[place] : otherwise);
 }
 
+void SinumerikVariables::pass(std::size_t place, std::string_view variable) {
+  passed_.insert_or_assign(place, variable);
+}
+
+// Set at the end: the subprogram cannot see the caller's variable under its own name.
+bool SinumerikVariables::define_reference(std::string_view name, ValueType type,
+                                          std::size_t place) {
+  Frame& frame = frames_.back();
+  const auto passed = frame.passed.find(place);
+  if (frames_.size() < 2 || passed == frame.passed.end()) {
+    return false;
+  }
+  const auto& callers = frames_[frames_.size() - 2].variables;
+  const auto variable = callers.find(passed->second);
+  if (variable == callers.end() || variable->second.type != type) {
+    return false;
+  }
+  frame.taken = std::max(frame.taken, place + 1);
+  frame.references.emplace_back(name, passed->second);
+  hear(variable->second.unknown);
+  return define(name, type, variable->second.value);
+}
+
+void SinumerikVariables::give_back() {
+  Frame& frame = frames_.back();
+  for (const auto& [own, callers] : frame.references) {
+    frames_[frames_.size() - 2].variables.find(callers)->second = frame.variables.find(own)->second;
+  }
+  frame.references.clear();
+}
+
 void SinumerikVariables::enter(const read::Flow& call) {
-  frames_.emplace_back().call = call;
+  Frame& frame = frames_.emplace_back();
+  frame.call = call;
+  frame.passed = std::exchange(passed_, {});
 }
 
 // The next repeat of NAME P3: variables start over, the call's values stay.
 void SinumerikVariables::restart() {
+  give_back();
   frames_.back().variables.clear();
   frames_.back().texts.clear();
   frames_.back().taken = 0;
 }
 
 void SinumerikVariables::leave() {
+  give_back();
   frames_.pop_back();
 }
 

@@ -42,6 +42,9 @@ class SinumerikVariables final : public read::TypedValues {
   bool define(std::string_view name, read::ValueType type, double value) override;
   bool define_argument(std::string_view name, read::ValueType type, std::size_t place,
                        double otherwise) override;
+  void begin_call() override { passed_.clear(); }
+  void pass(std::size_t place, std::string_view variable) override;
+  bool define_reference(std::string_view name, read::ValueType type, std::size_t place) override;
   bool define_text(std::string_view name, std::string_view value) override;
   [[nodiscard]] const std::string* text(std::string_view name) const override;
   read::Lookup set_text(std::string_view name, std::string_view value) override;
@@ -77,6 +80,8 @@ class SinumerikVariables final : public read::TypedValues {
     std::map<std::string, std::string, std::less<>> texts;
     read::Flow call;
     std::size_t taken = 0;
+    std::map<std::size_t, std::string> passed;  ///< the caller's variables in the call, by place
+    std::vector<std::pair<std::string, std::string>> references;  ///< VAR: own and caller's names
   };
   template <class Key>
   struct Pending {
@@ -85,6 +90,7 @@ class SinumerikVariables final : public read::TypedValues {
     bool unknown = false;
   };
   void hear(bool unknown) const noexcept;
+  void give_back();
   [[nodiscard]] bool in_doubt() const noexcept { return known_ != nullptr && known_->doubt; }
   [[nodiscard]] bool of_state(std::string_view name, char axis, double& value,
                               ModeMask& mode) const;
@@ -95,6 +101,7 @@ class SinumerikVariables final : public read::TypedValues {
   std::vector<double> numbers_;
   std::vector<bool> unknown_;
   std::vector<Frame> frames_;
+  std::map<std::size_t, std::string> passed_;
   std::vector<Pending<int>> pending_numbers_;
   std::vector<Pending<std::string>> pending_names_;
   std::vector<std::pair<std::string, std::string>> pending_texts_;

@@ -197,6 +197,7 @@ bool SinumerikLine::call(const char* word_begin, std::string_view name, FlowKind
 // Values between commas, each an expression; strings occur only in cycles that are not interpreted.
 bool SinumerikLine::call_values(const char* word_begin) {
   Flow& flow = block_.flow();
+  reading_.typed_values->begin_call();
   ++at_;
   if (next() == ')') {
     ++at_;
@@ -214,11 +215,18 @@ bool SinumerikLine::call_values(const char* word_begin) {
     }
     // Nothing between two commas is an omitted value; `given` has a bit for each value present.
     if (c != ',' && c != ')') {
+      const char* const from = at_;
       if (!calculated(word_begin, flow.values[flow.count])) {
         return false;
       }
       const std::uint32_t bit = std::uint32_t{1} << flow.count;
       flow.given |= bit;
+      // A plain name may be a variable that the subprogram sets (VAR).
+      Name name;
+      if (const std::string_view text = since(from);
+          std::ranges::all_of(text, in_name) && lower_name(text, name)) {
+        reading_.typed_values->pass(flow.count, name.view());
+      }
       flow.unknown |= reading_.values->take_unknown() ? bit : 0U;
     }
     ++flow.count;
@@ -275,6 +283,43 @@ bool SinumerikLine::modal_call(const char* word_begin) {
   const std::string_view name = letters();
   const bool cycle = name.empty() || (name.size() > 5 && equal(name.substr(0, 5), "CYCLE"));
   return call(word_begin, name, cycle ? FlowKind::modal_cycle : FlowKind::modal_call);
+}
+
+// MSG("text"<<R1) or MSG(): a message for the operator, as harmless as a comment.
+bool SinumerikLine::message(const char* word_begin, Word& word) {
+  skip_blanks();
+  if (at_ != end_ && *at_ == '(') {
+    ++at_;
+    skip_blanks();
+    const char* const text = at_;
+    if (at_ != end_ && *at_ == '"' && !quoted(word_begin, word)) {
+      return false;
+    }
+    skip_blanks();
+    if (at_ != end_ && *at_ != ')' && reading_.typed_values != nullptr) {
+      std::string shown;
+      const bool quoted = *text == '"';
+      at_ = text;
+      if (!text_value(word_begin, shown) || !(quoted || push(word_begin, word))) {
+        return false;
+      }
+      // MSG("text",1) also waits for the moves before it.
+      if (next() == ',') {
+        double ignored = 0.0;
+        ++at_;
+        if (!calculated(word_begin, ignored)) {
+          return false;
+        }
+      }
+    }
+    skip_blanks();
+    if (at_ != end_ && *at_ == ')') {
+      ++at_;
+      return true;
+    }
+  }
+  at_ = end_;
+  return refuse(since(word_begin), "expression", "MSG takes a string: MSG(\"text\"<<R1)");
 }
 
 // CALL "NAME", CALL variable; PCALL /_N_WKS_DIR/_N_PART_WPD/NAME(1): of a path the name counts,

@@ -46,10 +46,10 @@ bool SinumerikLine::value_type(const char* word_begin, ValueType& type) {
     type = found->type;
     return true;
   }
-  // VAR parameters would write back into the caller; axes and frames are not numbers.
+  // Axes and frames are not numbers.
   return refuse(since(word_begin), "definition",
                 "a variable or parameter of an unsupported type; REAL, INT, BOOL, CHAR and, for "
-                "variables, STRING are supported (not VAR, AXIS, FRAME, SYN…)");
+                "variables, STRING are supported (not AXIS, FRAME, SYN…)");
 }
 
 bool SinumerikLine::variable_name(const char* word_begin, Name& name) {
@@ -293,47 +293,14 @@ bool SinumerikLine::text_value(const char* word_begin, std::string& out) {
   }
 }
 
-// MSG("text"<<R1) or MSG(): a message for the operator, as harmless as a comment.
-bool SinumerikLine::message(const char* word_begin, Word& word) {
-  skip_blanks();
-  if (at_ != end_ && *at_ == '(') {
-    ++at_;
-    skip_blanks();
-    const char* const text = at_;
-    if (at_ != end_ && *at_ == '"' && !quoted(word_begin, word)) {
-      return false;
-    }
-    skip_blanks();
-    if (at_ != end_ && *at_ != ')' && reading_.typed_values != nullptr) {
-      std::string shown;
-      const bool quoted = *text == '"';
-      at_ = text;
-      if (!text_value(word_begin, shown) || !(quoted || push(word_begin, word))) {
-        return false;
-      }
-      // MSG("text",1) also waits for the moves before it.
-      if (next() == ',') {
-        double ignored = 0.0;
-        ++at_;
-        if (!calculated(word_begin, ignored)) {
-          return false;
-        }
-      }
-    }
-    skip_blanks();
-    if (at_ != end_ && *at_ == ')') {
-      ++at_;
-      return true;
-    }
-  }
-  at_ = end_;
-  return refuse(since(word_begin), "expression", "MSG takes a string: MSG(\"text\"<<R1)");
-}
-
 bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t place) {
   ValueType type{};
   Name name;
   double otherwise = 0.0;
+  skip_blanks();
+  const char* const from = at_;
+  const bool returns = equal(letters(), "VAR");
+  at_ = returns ? at_ : from;
   if (!value_type(word_begin, type)) {
     return false;
   }
@@ -341,6 +308,12 @@ bool SinumerikLine::parameter_of_subprogram(const char* word_begin, std::size_t 
   const std::string_view written = letters();  // one letter is allowed here
   if (written.empty() || is_digit(written[0]) || !lower_name(written, name) || next() == '[') {
     return refuse(since(word_begin), "bad_name", "a parameter without a name, or an array");
+  }
+  if (returns) {
+    return reading_.typed_values->define_reference(name.view(), type, place) ||
+           refuse(since(word_begin), "definition",
+                  "a VAR parameter for which the call gives no variable (DEF) of the same type; "
+                  "R-parameters and elements of arrays are not interpreted here");
   }
   if (next() == '=') {
     ++at_;

@@ -23,6 +23,15 @@ class TypedValues : public Values {
   /// PROC: the parameter at this place of the call, or `otherwise` where the call leaves it out.
   virtual bool define_argument(std::string_view name, ValueType type, std::size_t place,
                                double otherwise) = 0;
+  /// The values of a call are read; the one at a place is a variable of the caller.
+  virtual void begin_call() {}
+  virtual void pass(std::size_t /*place*/, std::string_view /*variable*/) {}
+  /// PROC with VAR: the parameter is the caller's variable. False where the call has none of the
+  /// type.
+  virtual bool define_reference(std::string_view /*name*/, ValueType /*type*/,
+                                std::size_t /*place*/) {
+    return false;
+  }
 
   /// DEF STRING; its content, null for another name; an assignment, which acts with the line's.
   virtual bool define_text(std::string_view /*name*/, std::string_view /*value*/) { return false; }

@@ -171,6 +171,23 @@ TEST(FanucFlow, ReturnsToABlockOfTheCaller) {
   EXPECT_EQ(reason_of_flow("N10G0X1.\nM99P10\n"), "endless_program");
 }
 
+// For the verbs that rewrite: whether the jump is made or not.
+TEST(FanucFlow, LinesThatAJumpMayRepeatAreNotAtTheTop) {
+  auto source = read::LineSource::from_text(
+      "G0X1.\nN5G0X2.\nG0X3.\nIF[#5021 GT 9.]GOTO5\nG0X4.\nGOTO9\nG0X5.\nN9M30\n");
+  Kept kept;
+  auto run = ProgramRun::make(source, fanuc_flow(), kept);
+  ASSERT_TRUE(run.has_value());
+  run->note_jumps();
+  std::vector<std::uint32_t> top;
+  while (run->step()) {
+    if (run->at_top()) {
+      top.push_back(run->line());
+    }
+  }
+  EXPECT_THAT(top, ElementsAre(1U, 5U, 6U, 8U));
+}
+
 TEST(FanucFlow, ConvertsPackedDecimals) {
   EXPECT_THAT(x_of_flow("#1=BCD[29]\nG0X#1\n#2=BIN[#1]\nG0X#2\nM30\n"), ElementsAre(41.0, 29.0));
   EXPECT_EQ(reason_of_flow("#1=BIN[10]\nM30\n"), "out_of_domain");

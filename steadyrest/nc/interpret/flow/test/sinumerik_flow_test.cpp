@@ -141,6 +141,17 @@ TEST(SinumerikFlow, CallsProgramsOfTheSameFileAndByName) {
             "no_jump_target");
 }
 
+// "Subprograms with parameter transfer": call by reference.
+TEST(SinumerikFlow, GivesAParameterBackToItsVariable) {
+  const std::string sub = "%_N_ADD_SPF\nPROC ADD(VAR REAL SUM, REAL BY)\nSUM=SUM+BY\nM17\n";
+  EXPECT_THAT(sinumerik_x_of("%_N_MAIN_MPF\nDEF REAL TOTAL=1\nADD(TOTAL,2)\nG0 X=TOTAL\n"
+                             "ADD(TOTAL,10) P3\nG0 X=TOTAL\nM30\n" +
+                             sub),
+              ElementsAre(3.0, 33.0));
+  EXPECT_EQ(reason_of_program("%_N_MAIN_MPF\nADD(1,2)\nM30\n" + sub), "definition");
+  EXPECT_EQ(reason_of_program("%_N_MAIN_MPF\nDEF INT NN\nADD(NN,2)\nM30\n" + sub), "definition");
+}
+
 // MCALL: after each block with a movement, until MCALL alone.
 TEST(SinumerikFlow, CallsAModalSubprogramAfterEachMove) {
   EXPECT_THAT(sinumerik_x_of("%_N_MAIN_MPF\nMCALL DOT(5)\nG0 X10\nG4 F1\nX20\nMCALL\nX30\nM30\n"
