@@ -208,11 +208,10 @@ void ProgramMap::note_repeats() {
     const Lines program = extent(exit.line);
     const bool section = exit.kind == FlowKind::section;
     const Target target = find(exit.target, exit.line, section ? Towards::beginning : exit.towards);
-    if (exit.kind == FlowKind::back) {
-      all.push_back(program);  // M99 P
-    } else if (exit.towards == Towards::start) {
+    if (exit.kind != FlowKind::back && exit.towards == Towards::start) {
       all.emplace_back(program.first, exit.line);
-    } else if (target.found != Target::Found::yes || exit.target.empty()) {
+    } else if (exit.kind == FlowKind::back ||  // perhaps M99 P
+               target.found != Target::Found::yes) {
       all.push_back(program);
     } else if (target.place.line < exit.line) {
       all.emplace_back(target.place.line + 1, exit.line);

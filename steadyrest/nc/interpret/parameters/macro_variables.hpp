@@ -53,7 +53,7 @@ class MacroVariables final : public read::Values {
     own,     ///< G65
     modal    ///< G66, whose arguments set_modal has
   };
-  void enter(Locals locals, const MacroArguments& arguments);
+  void enter(Locals kind, const MacroArguments& arguments);
   void leave();
   void set_modal(const MacroArguments& arguments) { modal_ = begun_with(arguments); }
   /// Whether a macro that is called again (L) begins as it did before: else what it begins with is

@@ -10,7 +10,7 @@ namespace steadyrest::nc::interpret {
 
 using read::Lookup;
 
-// What the program itself may have set; `mode`: what must be known for it.
+// What the program itself may have set; `shown`: what must be known for it.
 bool SinumerikVariables::of_state(std::string_view name, char axis, double& value,
                                   ModeMask& shown) const {
   const State& state = *state_;

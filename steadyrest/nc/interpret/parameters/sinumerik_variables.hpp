@@ -70,8 +70,8 @@ class SinumerikVariables final : public read::TypedValues {
 
  private:
   struct Variable {
-    read::ValueType type;
-    double value;
+    read::ValueType type = read::ValueType::real;
+    double value = 0.0;
     bool unknown = false;  ///< follows from a value that the control decides
   };
   static constexpr std::size_t kMostVariables = 50'000;  ///< of one program, elements included
@@ -93,7 +93,7 @@ class SinumerikVariables final : public read::TypedValues {
   void give_back();
   [[nodiscard]] bool in_doubt() const noexcept { return known_ != nullptr && known_->doubt; }
   [[nodiscard]] bool of_state(std::string_view name, char axis, double& value,
-                              ModeMask& mode) const;
+                              ModeMask& shown) const;
 
   const State* state_ = nullptr;
   KnownState* known_ = nullptr;

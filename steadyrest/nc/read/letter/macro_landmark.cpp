@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstddef>
 
 #include <steadyrest/nc/read/letter/macro_landmark.hpp>
@@ -36,14 +37,13 @@ class MacroScan {
   /// Takes the word if it is next; blanks may be anywhere in it.
   bool take(std::string_view word) noexcept {
     const char* const from = at_;
-    for (const char wanted : word) {
-      if (peek() != wanted) {
-        at_ = from;
-        return false;
-      }
-      ++at_;
-    }
-    return true;
+    const bool taken = std::ranges::all_of(word, [this](char wanted) {
+      const bool same = peek() == wanted;
+      at_ += same ? 1 : 0;
+      return same;
+    });
+    at_ = taken ? at_ : from;
+    return taken;
   }
 
   std::string_view digits() noexcept {

@@ -91,7 +91,7 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
     lower_name(name, variable);
   }
   if (reading_.values->name(variable.view(), ignored) != Lookup::no_such_name) {
-    reading_.values->take_unknown();  // it is set, not used
+    static_cast<void>(reading_.values->take_unknown());  // it is set, not used
     return done = variable_assignment(word_begin, variable.view());
   }
   if (refused_name(name) != nullptr || after == '=' || after == '[' || !block_.words().empty()) {

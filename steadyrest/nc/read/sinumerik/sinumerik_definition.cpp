@@ -278,7 +278,7 @@ bool SinumerikLine::text_value(const char* word_begin, std::string& out) {
         if (!read) {
           return false;
         }
-        reading_.values->take_unknown();
+        static_cast<void>(reading_.values->take_unknown());
         // How the control writes fractions does not matter: only messages can contain them.
         std::array<char, 32> digits{};
         const auto end = std::to_chars(digits.begin(), digits.end(), value).ptr;

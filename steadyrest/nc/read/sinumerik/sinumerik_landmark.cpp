@@ -54,6 +54,8 @@ class WordScan {
 struct KeyWord {
   std::string_view name;
   FlowKind kind;
+  // Most have none.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
   std::string_view loop = {};  ///< what it begins or ends
 };
 constexpr std::array kKeyWords = {KeyWord{"IF", FlowKind::when},
