@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +9,8 @@
 #include <steadyrest/nc/interpret/blocks/frames.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
-#include <steadyrest/nc/read/text/character.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_words.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -17,11 +19,16 @@ std::string_view frame_name(char frame) noexcept {
   return frame == 'T' ? "TRANS" : frame == 't' ? "ATRANS" : frame == 'R' ? "ROT" : "AROT";
 }
 
-/// A word that is no axis word of a frame: the decoder has found its name.
+/// A word that is neither part of a frame nor without effect.
 bool is_foreign(const read::Word& word) noexcept {
-  const bool axis = (Step::bit(word.letter) & kAxisMask) != 0;
-  const bool supa = std::ranges::equal(word.name, std::string_view{"SUPA"}, {}, read::upper);
-  return word.letter == 0 ? supa : !axis || word.qualifier != read::Qualifier::none;
+  if (word.letter != 0) {
+    return (Step::bit(word.letter) & kAxisMask) == 0 || word.qualifier != read::Qualifier::none;
+  }
+  constexpr std::array<std::string_view, 5> kOwn = {"TRANS", "ATRANS", "ROT", "AROT", "RPL"};
+  const read::NamedWord* const known = read::named_word(word.name);
+  const bool own = std::ranges::any_of(
+      kOwn, [&](std::string_view name) { return read::equal(word.name, name); });
+  return !own && (known == nullptr || known->role != read::WordRole::without_effect);
 }
 
 /// The first axis word among these.
@@ -60,11 +67,10 @@ bool Frames::set(const Step& step) {
   // The order in which a frame and other words of its block act is not certain.
   const bool codes = std::ranges::any_of(step.g, [](int code) { return code != kNoCode; }) ||
                      std::ranges::any_of(step.m, [](int code) { return code != kNoCode; });
-  if (codes || (step.mask & ~kAxisMask) != 0 || step.absolute != 0 || step.incremental != 0 ||
-      step.zero_offset || step.machine_frame || !step.tool_name.empty()) {
+  const auto other = std::ranges::find_if(step.block->words(), is_foreign);
+  if (codes || other != step.block->words().end()) {
     constexpr std::string_view kText =
         "a frame together with words other than its axes; write it in a separate block";
-    const auto other = std::ranges::find_if(step.block->words(), is_foreign);
     return other == step.block->words().end() ? refuse_frame("frame", kText)
                                               : refusals_.word(step.line, *other, "frame", kText);
   }
@@ -157,7 +163,7 @@ bool Frames::settle(const Step& step) {
         "an incremental move right after a new frame: whether it includes the frame's shift is a "
         "setting of the control; program the axis absolutely first");
   }
-  const bool arc = step.moves_by == g::kArcClockwise || step.moves_by == g::kArcCounterClockwise;
+  const bool arc = is_any_arc(step.moves_by);
   // After a rotation an unnamed axis keeps its work coordinate, which is now another machine
   // position: both must be named, so that nothing depends on where the tool was.
   if (state_.frame_turned && ((moved & plane) != 0 || arc) && (moved & plane) != plane) {

@@ -78,6 +78,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (block.words().front().qualifier == read::Qualifier::fine) {
     return frames_.set_fine(block.words().front());
   }
+  if (block.words().front().qualifier == read::Qualifier::stored) {
+    return frames_.set_stored(block);
+  }
   if (!decode(block)) {
     return false;
   }
@@ -112,7 +115,8 @@ bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
 }
 
 bool Interpreter::survey(const Block& block) {
-  if (!block.words().empty() && block.words().front().qualifier == read::Qualifier::fine) {
+  if (!block.words().empty() && (block.words().front().qualifier == read::Qualifier::fine ||
+                                 block.words().front().qualifier == read::Qualifier::stored)) {
     return true;
   }
   return decode(block);
@@ -147,6 +151,9 @@ bool Interpreter::act(const Step& step) {
   assumptions_.look(step);
   if (step.modulation >= 0) {
     control_.state.speed_modulation = step.modulation == 1;
+  }
+  if (step.named && step.named->pole) {
+    control_.state.pole = *step.named->pole;
   }
   if (control_.rules.words_wait && waits_for_rest(step, control_.state)) {
     out_.wait_for_rest();
@@ -252,6 +259,9 @@ bool Interpreter::move(const Step& step) {
   if (motion >= g::kCubicSpline && motion <= g::kSplineEnd) {
     return splines_.spline(step);
   }
+  if (motion == g::kTapFloating) {  // sinumerik: not modal
+    return motion_.tap_floating(step);
+  }
   motion_in_force(motion);
   splines_.interrupt();
   switch (motion) {
@@ -260,6 +270,9 @@ bool Interpreter::move(const Step& step) {
       return threading_.thread(step);
     case g::kThreadCycle:
       return threading_.cycle(step);
+    case g::kTapIn:
+    case g::kTapOut:
+      return threading_.tap(step);
     case g::kProbeOrFail:
     case g::kProbe:
     case g::kProbeAwayOrFail:
@@ -267,6 +280,8 @@ bool Interpreter::move(const Step& step) {
       return motion_.probe(step);
     case g::kArcClockwise:
     case g::kArcCounterClockwise:
+    case g::kArcThrough:
+    case g::kArcTangent:
       return motion_.arc(step);
     default:
       return motion_.straight(step);

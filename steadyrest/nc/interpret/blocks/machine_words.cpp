@@ -66,7 +66,7 @@ bool MachineWords::spindle_speed(const Step& step) {
   }
   // G97 without S continues at the last S in rev/min.
   if (!step.has('S')) {
-    return true;
+    return within_limit(step);
   }
   if (state_.surface_speed) {  // m/min, after G20 ft/min
     constexpr double kMmPerFoot = 304.8;
@@ -76,11 +76,23 @@ bool MachineWords::spindle_speed(const Step& step) {
   } else {
     state_.spindle_speed_rev_s = step['S'] / 60.0;
   }
+  if (!within_limit(step)) {
+    return false;
+  }
   // A new S takes effect at once if the spindle is turning.
   if (state_.spindle_direction != 0) {
     out_.spindle();
   }
   return true;
+}
+
+// sinumerik: LIMS and G26 S. The spindle would turn at the limit, not at S.
+bool MachineWords::within_limit(const Step& step) {
+  const bool above = control_.rules.speed_limit_always && state_.kept_limit_rev_s > 0.0 &&
+                     state_.spindle_speed_rev_s > state_.kept_limit_rev_s;
+  return !above || refusals_.letter(step, 'S', "speed_above_limit",
+                                    "a spindle speed (S) above the limit that the program has set "
+                                    "(LIMS, G26 S)");
 }
 
 // T prepares, M6 changes. On sinumerik a tool may have a name instead of a number.

@@ -26,6 +26,8 @@ class MachineWords : private Stage {
   bool outputs(const Step& step);
 
  private:
+  bool within_limit(const Step& step);
+
   std::string selected_name_;  ///< sinumerik T="NAME", until M6
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <steadyrest/nc/interpret/blocks/modes.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/smoothing.hpp>
 
 namespace steadyrest::nc::interpret {
 
@@ -32,9 +35,8 @@ void Modes::plane_and_units(const Step& step) noexcept {
 }
 
 void Modes::path(const Step& step) noexcept {
-  // ADIS stays in force from block to block, ready for a later G641.
-  if (step.rounding_mm >= 0.0) {
-    rounding_mm_ = step.rounding_mm;
+  if (control_.rules.rounding_distance) {
+    smoothing(step);
   }
   switch (step.code(GGroup::path_mode)) {
     case g::kExactPath:
@@ -56,9 +58,30 @@ void Modes::path(const Step& step) noexcept {
     default:
       break;
   }
-  // On SINUMERIK the distance comes from ADIS, not from a word of the G64 block.
-  if (control_.rules.rounding_distance && state_.path_mode == PathMode::continuous) {
-    state_.path_tolerance_mm = rounding_mm_;
+  if (control_.rules.rounding_distance) {
+    apply_smoothing(state_);
+  }
+}
+
+// sinumerik: distances and tolerances stay in force from block to block, ready for a later G641 or
+// G642; they come from words of their own.
+void Modes::smoothing(const Step& step) noexcept {
+  Smoothing& smoothing = state_.smoothing;
+  if (step.rounding_mm >= 0.0) {
+    smoothing.distance_mm = step.rounding_mm;
+  }
+  if (!step.named) {
+    return;
+  }
+  const NamedWords& named = *step.named;
+  if (!std::isnan(named.tolerance_mm)) {
+    smoothing.tolerance_mm = named.tolerance_mm;
+  }
+  if (named.rounds_by >= 0) {
+    smoothing.by_tolerance = named.rounds_by == 1;
+  }
+  if (named.compressor >= 0) {
+    smoothing.compressor = named.compressor == 1;
   }
 }
 

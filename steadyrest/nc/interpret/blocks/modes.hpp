@@ -29,9 +29,9 @@ class Modes : private Stage {
     bool restores_itself = false;  ///< M73
   };
   void restore(const State& kept);
+  void smoothing(const Step& step) noexcept;
 
   std::vector<Kept> kept_{1};
-  double rounding_mm_ = 0.0;  ///< sinumerik ADIS in force
 };
 
 }  // namespace steadyrest::nc::interpret

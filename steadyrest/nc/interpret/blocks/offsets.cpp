@@ -64,7 +64,8 @@ bool Offsets::work_offset(const Step& step) {
     const std::size_t active = place_of_offset(code);
     // LinuxCNC keeps its values when the system is already in force, even if the program has since
     // set its numbers (#5221 …).
-    if (active != state_.active_offset || !state_.work_offset_on) {
+    if (active != state_.active_offset || !state_.work_offset_on ||
+        control_.rules.settable_frames) {
       state_.work_in_force = state_.work_offset[active];
     }
     state_.active_offset = active;

@@ -4,6 +4,8 @@
 #include <string>
 
 #include <steadyrest/nc/interpret/check/assumptions.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/text/refused.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -38,6 +40,9 @@ bool Assumptions::uses_length(const Step& step) const noexcept {
       return true;
     }
   }
+  if (step.named && (step.named->tolerance_mm > 0.0 || step.named->way_given != 0)) {
+    return true;
+  }
   return step.rounding_mm > 0.0 || (step.polar && step.polar_radius != 0.0);
 }
 
@@ -65,8 +70,16 @@ void Assumptions::note(const Step& step) noexcept {
   }
 }
 
-void Assumptions::look_at_cycle(const read::Block& block) noexcept {
+void Assumptions::note_dynamics(std::uint32_t line, std::string_view word) {
+  dynamics_line_ = line;
+  dynamics_word_ = read::printable(word);
+}
+
+void Assumptions::look_at_cycle(const read::Block& block) {
   const read::Flow& call = block.flow();
+  if (dynamics_line_ == 0 && read::equal(call.label.view(), "CYCLE832")) {
+    note_dynamics(block.line(), call.label.view());
+  }
   if (!control_.state.unit_known && length_line_ == 0 && call.given != 0) {
     length_line_ = block.line();
   }
@@ -108,6 +121,14 @@ std::vector<Assumption> Assumptions::found() const {
                    .text = "the third or fourth reference point (G30 P3, P4) is assumed at the "
                            "machine's zero",
                    .to_do = "check what follows: parameters 1242 and 1243 of the control set it"});
+  }
+  if (dynamics_line_ != 0) {
+    out.push_back({.line = dynamics_line_,
+                   .what = "dynamics",
+                   .text = dynamics_word_ +
+                           " changes the control's dynamics; acceleration, jerk and speed limits "
+                           "are assumed to stay those of the machine file",
+                   .to_do = "take times as an estimate, or describe the dynamics in force"});
   }
   return out;
 }

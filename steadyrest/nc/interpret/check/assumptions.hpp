@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <steadyrest/nc/interpret/control/control.hpp>
@@ -16,25 +18,32 @@ namespace steadyrest::nc::interpret {
 /// Lengths: axis words, centres, radii, levels and depths of cycles, tolerances, cutting speeds
 /// (m/min, ft/min). Feeds: F per minute and per revolution; on sinumerik G70 leaves them to the
 /// control, on linuxcnc G20 in the block of F comes too late for it.
+///
+/// Also the first word that changes the dynamics of the control alone (sinumerik BRISK, ACC[X],
+/// DYNFINISH, CYCLE832 …): the plan has those of the machine file.
 class Assumptions {
  public:
   explicit Assumptions(const Control& control) noexcept : control_(control) {}
 
   /// Call before the block acts.
-  void look(const Step& step) noexcept {
+  void look(const Step& step) {
     if (!control_.state.unit_known || !control_.state.feed_unit_known) {
       note(step);
     }
     if (step.reference_point > 2 && reference_line_ == 0) {
       reference_line_ = step.line;
     }
+    if (step.named && step.named->dynamics != nullptr && dynamics_line_ == 0) {
+      note_dynamics(step.line, step.named->dynamics->name);
+    }
   }
   /// A call of a cycle: its values are lengths.
-  void look_at_cycle(const read::Block& block) noexcept;
+  void look_at_cycle(const read::Block& block);
 
   [[nodiscard]] std::vector<Assumption> found() const;
 
  private:
+  void note_dynamics(std::uint32_t line, std::string_view word);
   void note(const Step& step) noexcept;
   [[nodiscard]] bool uses_length(const Step& step) const noexcept;
   [[nodiscard]] bool uses_feed(const Step& step) const noexcept;
@@ -44,6 +53,8 @@ class Assumptions {
   std::uint32_t feed_line_ = 0;
   bool lengths_said_ = false;  ///< at that F word
   std::uint32_t reference_line_ = 0;
+  std::uint32_t dynamics_line_ = 0;
+  std::string dynamics_word_;
 };
 
 }  // namespace steadyrest::nc::interpret

@@ -17,6 +17,13 @@ constexpr bool is_arc(int code) noexcept {
   return code == g::kArcClockwise || code == g::kArcCounterClockwise;
 }
 
+/// Without an axis word these do nothing: most likely a word is missing.
+constexpr bool needs_axes(int motion) noexcept {
+  return is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
+         motion == g::kThreadCycle || motion == g::kCubicSpline || motion == g::kQuadraticSpline ||
+         motion >= g::kTapIn;
+}
+
 /// "an E", "a Q": as the letter is spoken.
 std::string with_article(char letter) {
   return std::string{std::string_view("AEFHILMNORSX").contains(letter) ? "an " : "a "} + letter;
@@ -66,10 +73,7 @@ bool BlockCheck::choose_motion(Step& step) const {
     } else if (axes_taken) {
       return refusals_.g_word(step, motion, "two_users_of_axis_words",
                               "two G words in one block that both use the axis words");
-    } else if (!axis_words && (is_cycle(motion) || motion == g::kThread || motion == g::kRigidTap ||
-                               motion == g::kThreadCycle || motion == g::kCubicSpline ||
-                               motion == g::kQuadraticSpline)) {
-      // Without an axis word these do nothing: most likely a word is missing.
+    } else if (!axis_words && needs_axes(motion)) {
       return refusals_.g_word(step, motion, "axis_words_missing", "a motion without any axis word");
     }
     step.moves_by = motion;
@@ -100,7 +104,19 @@ bool BlockCheck::choose_motion(Step& step) const {
 // The checks are independent; their order only decides which fault is reported.
 bool BlockCheck::check(const Step& step) const {
   return check_values(step) && check_non_modal(step) && check_spindle_choice(step) &&
-         check_unused(step) && check_cutter(step);
+         check_unused(step) && check_named(step) && check_cutter(step);
+}
+
+// sinumerik: words of arcs that the block does not move by.
+bool BlockCheck::check_named(const Step& step) const {
+  if (!step.named) {
+    return true;
+  }
+  if (!std::isnan(step.named->arc_angle_deg) && !is_arc(step.moves_by)) {
+    return refusals_.named(step, "AR", "unused_word", "the angle of an arc (AR) without G2 or G3");
+  }
+  return step.named->way_given == 0 || step.moves_by == g::kArcThrough ||
+         refusals_.block(step, "unused_word", "a point on the way (I1 J1 K1) without CIP");
 }
 
 // Every value is bounded, so no arithmetic after this check overflows or meets infinity; the
@@ -207,12 +223,13 @@ bool BlockCheck::check_unused(const Step& step) const {
   const bool tool_data = non_modal == g::kSetData;
   const bool spline = motion == g::kCubicSpline || motion == g::kQuadraticSpline;
   const bool threads = motion == g::kThreadCycle;
+  const bool taps = motion == g::kTapIn || motion == g::kTapOut;
   if (unused(step, 'I',
-             arc || spline || threads || motion == g::kBackBore || motion == g::kRigidTap ||
+             arc || spline || threads || taps || motion == g::kBackBore || motion == g::kRigidTap ||
                  tool_data) ||
-      unused(step, 'J', arc || spline || threads || motion == g::kBackBore || tool_data) ||
+      unused(step, 'J', arc || spline || threads || taps || motion == g::kBackBore || tool_data) ||
       unused(step, 'K',
-             arc || threads || motion == g::kBackBore || motion == g::kThread ||
+             arc || threads || taps || motion == g::kBackBore || motion == g::kThread ||
                  motion == g::kRigidTap)) {
     return false;
   }

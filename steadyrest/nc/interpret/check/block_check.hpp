@@ -33,6 +33,7 @@ class BlockCheck {
   bool unused(const Step& step, char letter, bool used) const;
   bool check_unused(const Step& step) const;
   bool check_unused_values(const Step& step) const;
+  bool check_named(const Step& step) const;
   bool check_cutter(const Step& step) const;
   bool cutter_permits_what_comes_before(const Step& step) const;
   bool cutter_permits_what_comes_behind(const Step& step) const;

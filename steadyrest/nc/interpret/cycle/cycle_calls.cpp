@@ -3,40 +3,37 @@
 #include <array>
 #include <cmath>
 
-#include <steadyrest/nc/interpret/cycle/cycle_calls.hpp>
+#include <steadyrest/nc/interpret/cycle/call_values.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 
 namespace steadyrest::nc::interpret {
-namespace {
 
 using read::Flow;
 
-struct Known {
-  std::string_view name;
-  int number;
-  std::size_t values;  ///< how many it takes; further ones of newer versions must be omitted or 0
-};
-constexpr std::array kKnownCycles = {
-    Known{"CYCLE81", 81, 5}, Known{"CYCLE82", 82, 6},  Known{"CYCLE84", 84, 12},
-    Known{"CYCLE85", 85, 8}, Known{"CYCLE86", 86, 11},
-};
-
-constexpr bool given(const Flow& call, std::size_t place) noexcept {
-  return place < call.count && (call.given >> place & 1U) != 0;
+const CycleCalls::Known* CycleCalls::find(const Flow& call) noexcept {
+  static constexpr std::array kKnown = {
+      Known{.name = "CYCLE81", .kind = Kind::drill, .values = 6, .modes = 6, .dwell = kDtb},
+      Known{.name = "CYCLE82", .kind = Kind::drill, .values = 6, .modes = 6, .dwell = kDtb},
+      Known{.name = "CYCLE83", .kind = Kind::drill_deep, .values = 17, .modes = 17, .dwell = 8},
+      Known{.name = "CYCLE84", .kind = Kind::tap, .values = 12, .modes = 0, .dwell = kDtb},
+      Known{.name = "CYCLE85", .kind = Kind::ream, .values = 8, .modes = 8, .dwell = kDtb},
+      Known{.name = "CYCLE86", .kind = Kind::bore, .values = 11, .modes = 11, .dwell = kDtb},
+      Known{.name = "CYCLE87", .kind = Kind::bore_by_hand, .values = 6, .modes = 0, .dwell = 0},
+      Known{.name = "CYCLE88", .kind = Kind::bore_by_hand, .values = 7, .modes = 0, .dwell = kDtb},
+      Known{.name = "CYCLE89", .kind = Kind::bore_back, .values = 6, .modes = 6, .dwell = kDtb},
+      Known{
+          .name = "CYCLE840", .kind = Kind::tap_floating, .values = 11, .modes = 0, .dwell = kDtb},
+      Known{.name = "HOLES1", .kind = Kind::row, .values = 6, .modes = 0, .dwell = 0},
+      Known{.name = "HOLES2", .kind = Kind::circle, .values = 6, .modes = 0, .dwell = 0},
+      Known{.name = "CYCLE832", .kind = Kind::tolerance, .values = 3, .modes = 0, .dwell = 0},
+      Known{.name = "CYCLE800", .kind = Kind::swivel, .values = 0, .modes = 0, .dwell = 0},
+  };
+  const auto* const found = std::ranges::find_if(
+      kKnown, [&](const Known& one) { return read::equal(call.label.view(), one.name); });
+  return found == kKnown.end() ? nullptr : found;
 }
-constexpr double value(const Flow& call, std::size_t place) noexcept {
-  return given(call, place) ? call.values[place] : 0.0;
-}
 
-// Places of the values.
-constexpr std::size_t kRtp = 0;
-constexpr std::size_t kRfp = 1;
-constexpr std::size_t kSdis = 2;
-constexpr std::size_t kDp = 3;
-constexpr std::size_t kDpr = 4;
-constexpr std::size_t kDtb = 5;
-
-// Metric coarse threads, ISO 261: MPIT is the nominal size.
+// MPIT is the nominal size.
 double coarse_pitch(double size) noexcept {
   constexpr std::array<std::array<double, 2>, 21> kPitches = {{
       {3, 0.5},  {4, 0.7},  {5, 0.8},  {6, 1},    {8, 1.25}, {10, 1.5}, {12, 1.75},
@@ -48,32 +45,33 @@ double coarse_pitch(double size) noexcept {
   return found == kPitches.end() ? 0.0 : (*found)[1];
 }
 
-}  // namespace
-
-/// One hole, in mm along the normal axis of the plane.
-struct CycleCalls::Hole {
-  std::size_t normal = 2;
-  double start_mm = 0.0;  ///< reference plane and safety clearance
-  double bottom_mm = 0.0;
-  double retract_mm = 0.0;
-};
-
 bool CycleCalls::refuse(const Flow& call, std::string_view reason, std::string_view text) {
   return refusals_.call(out_.line(), call, reason, text);
 }
 
 bool CycleCalls::call(const Flow& call) {
-  if (call.kind != read::FlowKind::modal_cycle) {
-    return drill(call);
+  const bool modal = call.kind == read::FlowKind::modal_cycle;
+  if (modal) {
+    modal_.reset();
+    if (call.label.view().empty()) {
+      return true;  // MCALL without a name ends the modal call
+    }
   }
-  // MCALL without a name ends the modal call; with one, the planes are checked at once, so a fault
-  // is reported in its own line, not at the first hole.
-  modal_.reset();
+  const Known* const known = find(call);
+  if (known == nullptr) {
+    return refuse(
+        call, "cycle_not_interpreted",
+        "a cycle that is not interpreted; CYCLE81 to 89, 832, 840, HOLES1 and HOLES2 are");
+  }
+  if (!modal) {
+    return run(call, *known);
+  }
+  if (known->kind >= Kind::row) {
+    return refuse(call, "modal_call", "a modal call (MCALL) of a cycle that drills no hole");
+  }
+  // The planes are checked at once, so a fault is reported in its own line, not at the first hole.
   Hole hole;
-  if (call.label.view().empty()) {
-    return true;
-  }
-  if (!planes(call, hole)) {
+  if (!newer_values(call, *known) || !planes(call, *known, hole)) {
     return false;
   }
   modal_ = call;
@@ -82,24 +80,89 @@ bool CycleCalls::call(const Flow& call) {
 
 // The interpreter calls this after every block that moves an axis.
 bool CycleCalls::after_move() {
-  return !modal_ || drill(*modal_);
+  return !modal_ || drill(*modal_, *find(*modal_));
 }
 
-// The planes common to all cycles: retraction, reference and safety clearance, depth.
-bool CycleCalls::planes(const Flow& call, Hole& hole) {
-  const std::string_view name = call.label.view();
-  const auto* const known = std::ranges::find_if(
-      kKnownCycles, [&](const Known& one) { return read::equal(name, one.name); });
-  if (known == kKnownCycles.end()) {
-    return refuse(call, "cycle_not_interpreted",
-                  "a cycle that is not interpreted; CYCLE81, 82, 84, 85 and 86 are");
+bool CycleCalls::run(const Flow& call, const Known& known) {
+  switch (known.kind) {
+    case Kind::row:
+      return newer_values(call, known) && row(call);
+    case Kind::circle:
+      return newer_values(call, known) && circle(call);
+    case Kind::tolerance:
+      return newer_values(call, known) && tolerance(call);
+    case Kind::swivel:  // without values it switches swivelling off, and none can be on
+      return call.count == 0 ||
+             refuse(call, "transformation", "swivelling (CYCLE800) is not interpreted");
+    case Kind::drill:
+    case Kind::drill_deep:
+    case Kind::tap:
+    case Kind::ream:
+    case Kind::bore:
+    case Kind::bore_by_hand:
+    case Kind::bore_back:
+    case Kind::tap_floating:
+      break;
   }
-  // The control treats an omitted value as zero.
-  for (std::size_t i = known->values; i < call.count; ++i) {
-    if (value(call, i) != 0.0) {
+  return drill(call, known);
+}
+
+// Values of newer versions change the meaning of the others; 0 is the meaning of the older ones.
+bool CycleCalls::newer_values(const Flow& call, const Known& known) {
+  for (std::size_t i = known.values; i < call.count; ++i) {
+    const bool mode = known.modes != 0 && i >= known.modes && i < known.modes + 3;
+    if (!mode && value(call, i) != 0.0) {
       return refuse(call, "cycle_value",
                     "a value that only newer versions of the cycle have; leave it out");
     }
+  }
+  for (std::size_t i = 0; i < call.count; ++i) {
+    if (!(std::abs(value(call, i)) <= 1e7)) {
+      return refuse(call, "out_of_range",
+                    "a value too large for any machine; allowed: up to 10000000 in magnitude");
+    }
+  }
+  return known.modes == 0 || modes(call, known);
+}
+
+// _GMODE must be 0. _DMODE: 1 to 3 for G17 to G19, which must be in force. _AMODE, from the last
+// digit: the depth is incremental (1) or absolute (2); dwells are in seconds (1), three of them in
+// CYCLE83, whose fifth digit is for the first depth as the first one is for the last.
+bool CycleCalls::modes(const Flow& call, const Known& known) {
+  const double plane = static_cast<double>(value(call, known.modes + 1));
+  const double now = state_.plane == Plane::xy ? 1.0 : state_.plane == Plane::zx ? 2.0 : 3.0;
+  const double written = value(call, known.modes + 2);
+  bool fits = value(call, known.modes) == 0.0 && (plane == 0.0 || plane == now) && written >= 0.0 &&
+              written == std::floor(written);
+  auto digits = fits ? static_cast<unsigned>(written) : 0U;
+  const bool deep = known.kind == Kind::drill_deep;
+  const auto depth = [&](unsigned digit, std::size_t absolute) {
+    return digit == 0 || (digit == 1 && !given(call, absolute)) ||
+           (digit == 2 && given(call, absolute) && value(call, absolute + 1) == 0.0);
+  };
+  fits = fits && depth(digits % 10, kDp);
+  digits /= 10;
+  for (std::size_t i = 0; i < (deep ? 3U : 1U); ++i) {
+    fits = fits && digits % 10 <= 1;
+    digits /= 10;
+  }
+  if (deep) {
+    constexpr std::size_t kFirstDepth = 5;
+    fits = fits && depth(digits % 10, kFirstDepth);
+    digits /= 10;
+  }
+  return (fits && digits == 0) ||
+         refuse(call, "cycle_value",
+                "a value that only newer versions of the cycle have (_GMODE, _DMODE, _AMODE) and "
+                "that is not interpreted");
+}
+
+// The planes common to all cycles: retraction, reference and safety clearance, depth.
+bool CycleCalls::planes(const Flow& call, const Known& known, Hole& hole) {
+  const double dwell = known.dwell == 0 ? 0.0 : value(call, known.dwell);
+  if (!(dwell >= 0.0 && dwell <= 1e6)) {
+    return refuse(call, "out_of_range",
+                  "a dwell in revolutions (negative) or of more than 1000000 s");
   }
   if (!given(call, kRtp) || !given(call, kRfp) || (!given(call, kDp) && !given(call, kDpr))) {
     return refuse(call, "cycle_word_missing",
@@ -116,6 +179,7 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
   }
   // Planes are in the units in force at the call, moves always in mm.
   hole.normal = axes_of(state_.plane).normal;
+  hole.reference_mm = reference * unit;
   hole.start_mm = (reference + std::abs(value(call, kSdis))) * unit;
   hole.bottom_mm = (absolute ? value(call, kDp) : relative) * unit;
   hole.retract_mm = value(call, kRtp) * unit;
@@ -133,50 +197,60 @@ bool CycleCalls::planes(const Flow& call, Hole& hole) {
                 "and safety clearance, depth");
 }
 
-// CYCLE800() without values switches swivelling off, and none can be on.
-bool CycleCalls::drill(const Flow& call) {
-  if (read::equal(call.label.view(), "CYCLE800")) {
-    return call.count == 0 ||
-           refuse(call, "transformation", "swivelling (CYCLE800) is not interpreted");
-  }
-  Hole hole;
-  if (!planes(call, hole)) {
-    return false;
-  }
-  const double dwell = value(call, kDtb);
-  if (!(dwell >= 0.0 && dwell <= 1e6)) {
-    return refuse(call, "out_of_range",
-                  "a dwell in revolutions (negative) or of more than 1000000 s");
-  }
-  // CYCLE81 … CYCLE86 differ in their last digit.
-  const char number = call.label.view().back();
-  if (number != '4' && number != '5' && !(state_.feed_mm_s > 0.0)) {
+// The tapping cycles and CYCLE85 have feeds of their own.
+bool CycleCalls::may_drill(const Flow& call, const Known& known) {
+  const bool own_feed =
+      known.kind == Kind::tap || known.kind == Kind::ream || known.kind == Kind::tap_floating;
+  if (!own_feed && !(state_.feed_mm_s > 0.0)) {
     return refuse(call, "feed_missing", "a drilling cycle, but no feed (F) is in force");
   }
   if (state_.feed_mode == FeedMode::inverse_time) {
     return refuse(call, "cycle_in_inverse_time",
                   "a drilling cycle while inverse-time feed (G93) is in force");
   }
-  if (number == '5' && !(value(call, 6) > 0.0 && value(call, 7) > 0.0)) {
-    return refuse(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
+  return known.kind != Kind::ream || (value(call, 6) > 0.0 && value(call, 7) > 0.0) ||
+         refuse(call, "feed_missing", "CYCLE85 without its feeds (FFR, RFF)");
+}
+
+// Every cycle begins with a rapid to the reference plane plus clearance.
+bool CycleCalls::drill(const Flow& call, const Known& known) {
+  Hole hole;
+  if (!newer_values(call, known) || !planes(call, known, hole) || !may_drill(call, known)) {
+    return false;
   }
-  // Every cycle begins with a rapid to the reference plane plus clearance.
-  out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
-  switch (number) {
-    case '4':
+  switch (known.kind) {
+    case Kind::drill_deep:
+      return drill_deep(call, hole);
+    case Kind::tap_floating:
+      return tap_floating(call, hole);
+    case Kind::tap:
+      out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
       return tap(call, hole);
-    case '5':
+    case Kind::ream:
+      out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
       ream(call, hole);
       return true;
-    case '6':
+    case Kind::bore:
+      out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
       bore(call, hole);
       return true;
-    default:
+    case Kind::bore_by_hand:
+      bore_by_hand(call, known, hole);
+      return true;
+    case Kind::bore_back:
+      bore_back(call, hole);
+      return true;
+    case Kind::drill:
+    case Kind::row:
+    case Kind::circle:
+    case Kind::tolerance:
+    case Kind::swivel:
       break;
   }
+  out_.along(MoveKind::rapid, hole.normal, hole.start_mm);
   out_.along(MoveKind::linear, hole.normal, hole.bottom_mm);
-  if (number == '2' && dwell > 0.0) {
-    out_.dwell(dwell);
+  if (value(call, kDtb) > 0.0) {
+    out_.dwell(value(call, kDtb));
   }
   out_.along(MoveKind::rapid, hole.normal, hole.retract_mm);
   return true;

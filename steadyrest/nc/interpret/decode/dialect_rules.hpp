@@ -57,6 +57,8 @@ struct DialectRules {
   bool short_way = false;    ///< plain lines may bypass the checks: see plain_block.hpp
   bool plain_words = false;  ///< letters with literal numbers mean the same in any state
   bool has_g92 = true;
+  bool speed_limit_always =
+      false;                     ///< the spindle's limit holds outside constant cutting speed too
   bool settable_frames = false;  ///< G54 … G57, G500 … G599 select them; G70, G71, G700, G710 units
   bool edge_chooses_length = false;  ///< D and T, not G43
 };

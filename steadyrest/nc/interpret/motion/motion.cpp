@@ -93,6 +93,19 @@ bool Motion::probe(const Step& step) {
   return true;
 }
 
+// "Fundamentals", "Tapping with compensating chuck": the programmed F matches S and the pitch, and
+// both overrides are at 100 %. G63 acts in its block alone.
+bool Motion::tap_floating(const Step& step) {
+  if (!has_feed(step, state_, refusals_)) {
+    return false;
+  }
+  const bool override_off = state_.override_off;
+  state_.override_off = true;
+  out_.move(MoveKind::linear, end_point(step, control_));
+  state_.override_off = override_off;
+  return true;
+}
+
 bool Motion::refuse_arc(const Step& step, ArcFault fault) {
   // The message shows the word that gives the centre.
   const char letter = step.has('R') ? 'R' : step.has('I') ? 'I' : step.has('J') ? 'J' : 'K';
@@ -193,31 +206,51 @@ bool Motion::arc(const Step& step) {
                             "the move after G40 is an arc; it must be a straight line");
   }
   const PlaneAxes axes = axes_of(state_.plane);
-  const Axes end = end_point(step, control_);
-  PlanePoint centre;
-  if (!arc_words(step, axes) || !arc_centre(step, axes, end, centre)) {
+  Arc arc;
+  if (!shape(step, axes, arc)) {
     return false;
+  }
+  const ExactStop exact_stop(step, state_);
+  if (arc.straight) {
+    out_.move(MoveKind::linear, arc.end);
+    return true;
   }
   Move& move = out_.current();
   // Along the normal the centre is at the start's height.
   move.centre_mm = {state_.position[0], state_.position[1], state_.position[2]};
-  move.centre_mm[axes.first] = centre.first;
-  move.centre_mm[axes.second] = centre.second;
+  move.centre_mm[axes.first] = arc.centre.first;
+  move.centre_mm[axes.second] = arc.centre.second;
   move.normal[axes.normal] = 1.0;
-  const double turns = step.has('P') ? step['P'] : 1.0;
-  move.turns = static_cast<int>(step.moves_by == g::kArcClockwise ? -turns : turns);
-  const ExactStop exact_stop(step, state_);
+  move.turns = static_cast<int>(arc.turns);
   bool accepted = true;
   if (cutter_.active()) {
-    accepted = cutter_.compensate(step, MoveKind::arc, end);
+    accepted = cutter_.compensate(step, MoveKind::arc, arc.end);
   } else {
-    out_.move(MoveKind::arc, end);
+    out_.move(MoveKind::arc, arc.end);
   }
+  keep_direction(axes, arc);
   // The current move is reused for the next block, which may not be an arc.
   move.centre_mm = {};
   move.normal = {};
   move.turns = 0;
   return accepted;
+}
+
+// Where the arc ends, its centre and its turns, from the words of the block.
+bool Motion::shape(const Step& step, const PlaneAxes& axes, Arc& arc) {
+  arc.end = end_point(step, control_);
+  if (step.moves_by == g::kArcThrough) {
+    return by_way(step, axes, arc);
+  }
+  if (step.moves_by == g::kArcTangent) {
+    return by_tangent(step, axes, arc);
+  }
+  const double turns = step.has('P') ? step['P'] : 1.0;
+  arc.turns = step.moves_by == g::kArcClockwise ? -turns : turns;
+  if (step.named && !std::isnan(step.named->arc_angle_deg)) {
+    return by_angle(step, axes, arc);
+  }
+  return arc_words(step, axes) && arc_centre(step, axes, arc.end, arc.centre);
 }
 
 // Via the given point to the reference point; only the named axes go there, all if none is named.

@@ -69,6 +69,41 @@ bool Threading::thread(const Step& step) {
   return true;
 }
 
+// "Fundamentals", "Tapping without compensating chuck": the sign of the pitch is the hand of the
+// thread, G332 reverses by itself, and between them the spindle stands in position.
+bool Threading::tap(const Step& step) {
+  constexpr std::string_view kCentres = "IJK";
+  const char letter = kCentres[axes_of(state_.plane).normal];
+  if (!step.has(letter) || !(std::abs(step[letter]) > 0.0)) {
+    return refusals_.g_word(step, step.moves_by, "pitch_missing",
+                            "tapping without its pitch (K in G17, J in G18, I in G19)");
+  }
+  for (const char other : kCentres) {
+    if (other != letter && step.has(other)) {
+      return refusals_.letter(step, other, "pitch_missing",
+                              "a pitch along an axis other than the tool's");
+    }
+  }
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i]) && i != axes_of(state_.plane).normal) {
+      return refusals_.letter(step, kAxisLetters[i], "axis_in_cycle",
+                              "tapping moves only along the tool");
+    }
+  }
+  if (!(state_.spindle_speed_rev_s > 0.0)) {
+    return refusals_.g_word(step, step.moves_by, "speed_missing",
+                            "tapping, but no spindle speed (S) is in force");
+  }
+  const bool right = step[letter] > 0.0;
+  const bool in = step.moves_by == g::kTapIn;
+  state_.spindle_direction = right == in ? 1 : -1;
+  out_.spindle();
+  emit(end_point(step, control_), step[letter] * state_.unit_mm);
+  state_.spindle_direction = 0;
+  out_.spindle();
+  return true;
+}
+
 struct Threading::Cycle {
   double pitch_mm;
   double peak_mm;     ///< I: from the drive line to the thread's peak

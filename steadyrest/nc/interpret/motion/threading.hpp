@@ -12,6 +12,8 @@ class Threading : private Stage {
 
   /// G33; G33.1 reverses the spindle at the end and retracts.
   bool thread(const Step& step);
+  /// sinumerik G331 and G332: in, or out again, with the spindle as an axis.
+  bool tap(const Step& step);
   /// G76.
   bool cycle(const Step& step);
 

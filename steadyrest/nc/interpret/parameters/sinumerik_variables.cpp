@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_words.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -52,7 +53,7 @@ Lookup SinumerikVariables::name(std::string_view name, double& value) const {
   // Variables belong to the program that defines them; a caller's are not visible.
   const auto found = frames_.back().variables.find(name);
   if (found == frames_.back().variables.end()) {
-    return Lookup::no_such_name;
+    return read::predefined(name, value) ? Lookup::found : Lookup::no_such_name;
   }
   if (std::ranges::any_of(pending_names_, [&](const auto& one) { return one.first == name; })) {
     return Lookup::assigned_in_block;

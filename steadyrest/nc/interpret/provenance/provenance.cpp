@@ -158,6 +158,11 @@ void Provenance::offsets(const Words& words) {
 
 // Where the words take the axes that they name.
 void Provenance::axes(const Words& words, const State& state) {
+  // sinumerik G25, G26, G110 to G112: their axis words lead nowhere.
+  if (settable_frames_ &&
+      (words.code == 250 || words.code == 260 || (words.code >= 1100 && words.code <= 1120))) {
+    return;
+  }
   if (words.code == g::kHome || words.code == g::kSecondHome) {
     known_.axes &= words.named == 0 ? 0U : ~words.named;
     return;
@@ -199,6 +204,7 @@ Provenance::Words Provenance::words_of(const read::Block& block) {
   for (const read::Word& word : block.words()) {
     if (word.letter == 0) {  // sinumerik's names: CR= and the like, or a frame
       words.frame = words.frame || word.qualifier == read::Qualifier::fine ||
+                    word.qualifier == read::Qualifier::stored ||
                     word.name.find("ROT") != std::string_view::npos ||
                     word.name.find("TRANS") != std::string_view::npos;
     } else if (const auto axis = kOfAxes.find(word.letter); axis != std::string_view::npos) {

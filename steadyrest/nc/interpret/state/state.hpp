@@ -38,6 +38,27 @@ struct CycleMemory {
   friend bool operator==(const CycleMemory&, const CycleMemory&) = default;
 };
 
+/// sinumerik: how far the control may leave the path at the transitions of blocks.
+struct Smoothing {
+  double distance_mm = 0.0;    ///< ADIS
+  double tolerance_mm = -1.0;  ///< CTOL, CYCLE832; < 0 = none given
+  bool by_tolerance = false;   ///< G642, G643, G645, CYCLE832; else G64, G641, G644
+  bool compressor = false;     ///< COMPON, COMPCURV, COMPCAD, COMPSURF, CYCLE832
+
+  friend bool operator==(const Smoothing&, const Smoothing&) = default;
+};
+
+/// sinumerik: the pole of polar coordinates in work coordinates, and the last radius and angle.
+struct Pole {
+  std::array<double, 3> place_mm{};
+  double radius_mm = 0.0;
+  double angle_deg = 0.0;
+  bool has_radius = false;
+  bool has_angle = false;
+
+  friend bool operator==(const Pole&, const Pole&) = default;
+};
+
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
 struct State {
   Axes position{};     ///< active work coordinates
@@ -81,6 +102,8 @@ struct State {
   PathMode path_mode = PathMode::continuous;
   double path_tolerance_mm = 0.0;
   double merge_tolerance_mm = -1.0;
+  Smoothing smoothing;
+  Pole pole;
   bool override_off = false;  ///< M49, M50 P0
 
   double spindle_speed_rev_s = 0.0;  ///< S, without sign

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 
+#include <steadyrest/nc/interpret/state/state.hpp>
 #include <steadyrest/nc/interpret/state/words.hpp>
 #include <steadyrest/nc/read/text/block.hpp>
 
@@ -46,6 +48,21 @@ inline constexpr std::size_t kMGroups = 8;
 
 inline constexpr std::int16_t kNoCode = -1;
 
+/// What words with a name say in sinumerik; apart, since few blocks have them.
+struct NamedWords {
+  double tolerance_mm = std::numeric_limits<double>::quiet_NaN();  ///< CTOL; < 0 = the control's
+  std::int8_t compressor = -1;           ///< COMPCAD … 1, COMPOF 0; < 0 = not given
+  std::int8_t rounds_by = -1;            ///< G642 … 1: by tolerance; G64, G641 0; < 0 = not given
+  const read::Word* dynamics = nullptr;  ///< a word that changes the dynamics alone
+  std::optional<Pole> pole;              ///< in force from this block on: G110 … G112, RP, AP
+  double arc_angle_deg = std::numeric_limits<double>::quiet_NaN();  ///< AR
+  /// I1 J1 K1 of CIP: the point on the way as written, and from where it counts (bits 0 to 2).
+  std::array<double, 3> way{};
+  unsigned way_given = 0;
+  unsigned way_absolute = 0;
+  unsigned way_incremental = 0;
+};
+
 /// A block in the one vocabulary that the interpreter executes, whatever its dialect.
 ///
 /// Codes are LinuxCNC's (words.hpp); words are addressed by letter. The dialects' decoders
@@ -64,13 +81,14 @@ struct Step {
   bool polar = false;                  ///< X and Y are given by @ and ^
   double polar_radius = std::numeric_limits<double>::quiet_NaN();  ///< as written; NaN: not given
   double polar_angle_deg = std::numeric_limits<double>::quiet_NaN();
-  bool machine_frame = false;   ///< G53 in this block (also sinumerik SUPA)
-  bool exact_stop = false;      ///< G9: exact stop at the end of this block
-  bool zero_offset = false;     ///< sinumerik G500
-  bool work_feed = true;        ///< F follows G20/G21 (not with sinumerik G70/G71)
-  std::int8_t modulation = -1;  ///< Config::modulation_on 1, off 0; < 0 = not given
-  double rounding_mm = -1.0;    ///< sinumerik ADIS; < 0 = not given
-  char frame = 0;               ///< sinumerik T TRANS, t ATRANS, R ROT, r AROT
+  bool machine_frame = false;       ///< G53 in this block (also sinumerik SUPA)
+  bool exact_stop = false;          ///< G9: exact stop at the end of this block
+  bool zero_offset = false;         ///< sinumerik G500
+  bool work_feed = true;            ///< F follows G20/G21 (not with sinumerik G70/G71)
+  std::int8_t modulation = -1;      ///< Config::modulation_on 1, off 0; < 0 = not given
+  double rounding_mm = -1.0;        ///< sinumerik ADIS; < 0 = not given
+  std::optional<NamedWords> named;  ///< what only sinumerik has
+  char frame = 0;                   ///< sinumerik T TRANS, t ATRANS, R ROT, r AROT
   double frame_angle_deg = std::numeric_limits<double>::quiet_NaN();  ///< RPL
   std::string_view tool_name;                                         ///< sinumerik T="NAME"
   std::int8_t reference_point = 0;  ///< fanuc G30 P: 2 to 4; 0 = not given
@@ -102,6 +120,7 @@ struct Step {
     work_feed = true;
     modulation = -1;
     rounding_mm = -1.0;
+    named.reset();
     frame = 0;
     frame_angle_deg = std::numeric_limits<double>::quiet_NaN();
     tool_name = {};
@@ -159,6 +178,12 @@ inline constexpr auto kAxisOfLetter = [] {
   }
   return table;
 }();
+
+/// An arc, by whatever words.
+[[nodiscard]] constexpr bool is_any_arc(int code) noexcept {
+  return code == g::kArcClockwise || code == g::kArcCounterClockwise || code == g::kArcThrough ||
+         code == g::kArcTangent;
+}
 
 /// A canned cycle: G81–G89, and the drilling and tapping cycles outside that range.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {

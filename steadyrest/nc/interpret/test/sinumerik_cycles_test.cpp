@@ -76,8 +76,10 @@ TEST(SinumerikCycles, AreRefusedByName) {
   EXPECT_EQ(reason_of_block("CYCLE81(10,0,2,-5)"), "feed_missing");
   EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2,-5,,0,10,1,11)"), "cycle_value");
   EXPECT_EQ(reason_of_block("F100\nCYCLE81(10,0,2)"), "cycle_word_missing");
-  EXPECT_EQ(reason_of_block("CYCLE832(0.01,1)"), "cycle_not_interpreted");
+  EXPECT_EQ(reason_of_block("CYCLE71(1)"), "cycle_not_interpreted");
+  EXPECT_EQ(reason_of_block("POCKET4(50,0,5,\"X\")"), "cycle_not_interpreted");
   EXPECT_EQ(reason_of_block("CYCLE800(1)"), "transformation");
+  EXPECT_EQ(reason_of_block("CYCLE800(1,\"TC1\",0,57)"), "transformation");
   EXPECT_EQ(reason_of_block("MCALL L10"), "modal_call");
   EXPECT_EQ(reason_of_block("SETMS(2)"), "spindle_selection");
 }

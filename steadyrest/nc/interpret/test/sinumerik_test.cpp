@@ -88,8 +88,12 @@ TEST(SinumerikSpindle, OfNumberOneIsTheMaster) {
   const auto moves = moves_of("S1=600 M1=4\nG1 X1 F100\nM30\n", sinumerik());
   // M1=4 turns the spindle backwards: 600 rev/min are −10 rev/s.
   EXPECT_DOUBLE_EQ(moves.at(0).spindle_rev_s, -10.0);
-  EXPECT_EQ(reason_of_block("S2=600"), "extended_address");
-  EXPECT_EQ(reason_of_block("M2=3"), "extended_address");
+  // Another spindle: the moves follow the master.
+  const auto beside = moves_of("S1=600 M1=4\nS2=90 M2=3\nG1 X1 F100\nM30\n", sinumerik());
+  EXPECT_DOUBLE_EQ(beside.at(0).spindle_rev_s, -10.0);
+  EXPECT_EQ(reason_of_block("M2=7"), "unknown_m_code");
+  EXPECT_EQ(reason_of_block("X1=600"), "extended_address");
+  EXPECT_EQ(reason_of_block("H2=3"), "extended_address");
 }
 
 /// Machine position at the end of a move.

@@ -31,10 +31,14 @@ std::string word_at_fault(const std::string& block, Dialect dialect) {
 
 // Other words follow and precede: neither the first nor the last of the block is to blame.
 TEST(WordAtFault, IsNamedWhereSinumerikHasANameOfItsOwn) {
-  const std::pair<const char*, const char*> cases[] = {{"FLIN G1 X10 F500", "FLIN"},
-                                                       {"X10 FLIN F500", "FLIN"},
-                                                       {"BRISK", "BRISK"},
-                                                       {"SPOS=90 X1", "SPOS"},
+  const std::pair<const char*, const char*> cases[] = {{"OVR G1 X10 F500", "OVR"},
+                                                       {"X10 OVR F500", "OVR"},
+                                                       {"POLY", "POLY"},
+                                                       {"POS=90 X1", "POS"},
+                                                       {"G1 X5 AR=30 F500", "AR=30"},
+                                                       {"X5 AP=30 F500", "AP=30"},
+                                                       {"G1 X5 I1=3 F500", "G1"},
+                                                       {"X1 A3=0.5", "A3"},
                                                        {"G2 X10 Y0 I5 J0 CR=5 F500", "CR=5"},
                                                        {"G2 X10 CR=5 I5 F500", "CR=5"},
                                                        {"G2 X10 CR=3 F500", "CR=3"},

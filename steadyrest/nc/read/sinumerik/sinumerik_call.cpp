@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <steadyrest/nc/read/sinumerik/sinumerik_expression.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_line.hpp>
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_words.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 #include <steadyrest/nc/read/text/number.hpp>
 
@@ -80,8 +82,7 @@ bool SinumerikLine::statement(const char* word_begin, std::string_view name, boo
     return true;
   }
   // Cycles are executed here; any other name must be a program in the folders.
-  const bool cycle = name.size() > 5 && equal(name.substr(0, 5), "CYCLE");
-  return done = call(word_begin, name, cycle ? FlowKind::cycle : FlowKind::call);
+  return done = call(word_begin, name, names_cycle(name) ? FlowKind::cycle : FlowKind::call);
 }
 
 // The types whose value is a number.
@@ -303,12 +304,12 @@ bool SinumerikLine::call_values(const char* word_begin) {
       return refuse(since(word_begin), "subprogram_call", "more than 30 values");
     }
     const char c = next();
-    if (c == '"') {
-      at_ = end_;
-      return refuse(since(word_begin), "subprogram_call", "a string as a call argument");
-    }
     // Nothing between two commas is an omitted value; `given` has a bit for each value present.
-    if (c != ',' && c != ')') {
+    if (c == '"') {
+      if (!string_argument(word_begin)) {
+        return false;
+      }
+    } else if (c != ',' && c != ')') {
       if (!calculated(word_begin, flow.values[flow.count])) {
         return false;
       }
@@ -367,7 +368,7 @@ bool SinumerikLine::modal_call(const char* word_begin) {
   }
   const std::string_view name = letters();
   // A modal subprogram would run after every move; only drilling cycles are supported.
-  if (!name.empty() && !(name.size() > 5 && equal(name.substr(0, 5), "CYCLE"))) {
+  if (!name.empty() && !names_cycle(name)) {
     return refuse(since(word_begin), "modal_call",
                   "a modal call (MCALL) of a subprogram; only cycles are interpreted");
   }

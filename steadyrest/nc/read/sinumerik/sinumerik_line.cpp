@@ -157,17 +157,8 @@ bool SinumerikLine::item() {
   if (!plain_number(word_begin, word)) {
     return false;
   }
-  if (at_ != end_ && *at_ == '=' && word.value == 1.0 && !word.decimal_point &&
-      (word.letter == 'S' || word.letter == 'M')) {
-    ++at_;  // S1=500, M1=3: the first spindle, which is the master
-    return assigned(word_begin, word);
-  }
   if (at_ != end_ && *at_ == '=') {
-    while (at_ != end_ && !is_blank(*at_)) {
-      ++at_;
-    }
-    return refuse(since(word_begin), "extended_address",
-                  "numbered addresses (spindle or axis number) are not supported");
+    return numbered_address(word_begin, word);
   }
   return push(word_begin, word);
 }
@@ -228,14 +219,7 @@ bool SinumerikLine::named(const char* word_begin) {
     }
     return refuse(word.name, "unknown_word", "a word that is not known");
   }
-  const char* const after_name = at_;
-  skip_blanks();
-  if (at_ != end_ && *at_ == '=') {
-    ++at_;
-    return assigned(word_begin, word);
-  }
-  at_ = after_name;
-  return push(word_begin, word);
+  return named_value(word_begin, word);
 }
 
 bool SinumerikLine::assigned(const char* word_begin, Word& word) {

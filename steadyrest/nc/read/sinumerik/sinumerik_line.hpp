@@ -31,6 +31,12 @@ class SinumerikLine : private LineCursor {
   bool qualified(const char* word_begin, Word& word);
   bool quoted(const char* word_begin, Word& word);
   bool message(const char* word_begin, Word& word);
+  // sinumerik_address.cpp
+  bool named_value(const char* word_begin, Word& word);
+  bool numbered_address(const char* word_begin, Word& word);
+  bool spindle_position(const char* word_begin, Word& word);
+  bool pass_brackets(const char* word_begin, char open, char close);
+  bool string_argument(const char* word_begin);
   // sinumerik_call.cpp
   bool statement(const char* word_begin, std::string_view name, bool& done);
   bool definition(const char* word_begin);
@@ -56,6 +62,12 @@ class SinumerikLine : private LineCursor {
   bool fine_offset(const char* word_begin);
   bool axis_letter(char& letter);
   bool take(std::string_view upper_text);
+
+  // sinumerik_frame.cpp
+  bool tool_data(const char* word_begin);
+  bool stored_offset(const char* word_begin);
+  bool offset_chain(const char* word_begin);
+  bool offset_shift(const char* word_begin);
 
   bool plain_number(const char* word_begin, Word& word);
   bool refuse_value(const char* word_begin);

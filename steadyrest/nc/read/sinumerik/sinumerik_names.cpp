@@ -3,15 +3,11 @@
 #include <array>
 
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
+#include <steadyrest/nc/read/sinumerik/sinumerik_words.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
 namespace steadyrest::nc::read {
 namespace {
-
-// Words that the decoder knows; any other name is a variable, a call or refused.
-constexpr std::array<std::string_view, 19> kKnownNames = {
-    "CR",   "TURN", "SUPA",    "ADIS",  "ADISPOS", "FNORM", "CFC",  "CFTCP", "CFIN",  "FFWOF",
-    "SOFT", "RET",  "TRAFOOF", "TRANS", "ATRANS",  "ROT",   "AROT", "RPL",   "STOPRE"};
 
 // Words of the language that are not interpreted are refused for what they are, not as unknown
 // names, so that nobody looks for a subprogram of that name.
@@ -45,34 +41,36 @@ constexpr std::array kRefusedNames = {
     RefusedName{"TRAORI", "transformation", "a transformation (TRAORI) is not interpreted"},
     RefusedName{"TRANSMIT", "transformation", "a transformation (TRANSMIT) is not interpreted"},
     RefusedName{"TRACYL", "transformation", "a transformation (TRACYL) is not interpreted"},
-    RefusedName{"CIP", "unknown_word", "a circle through a point (CIP) is not interpreted"},
-    RefusedName{"CT", "unknown_word", "a tangential circle (CT) is not interpreted"},
+    RefusedName{"A2", "orientation", "a tool orientation (A2=) is not interpreted"},
+    RefusedName{"B2", "orientation", "a tool orientation (B2=) is not interpreted"},
+    RefusedName{"C2", "orientation", "a tool orientation (C2=) is not interpreted"},
+    RefusedName{"A3", "orientation", "a tool orientation (A3=) is not interpreted"},
+    RefusedName{"B3", "orientation", "a tool orientation (B3=) is not interpreted"},
+    RefusedName{"C3", "orientation", "a tool orientation (C3=) is not interpreted"},
+    RefusedName{"LEAD", "orientation", "a tool orientation (LEAD) is not interpreted"},
+    RefusedName{"TILT", "orientation", "a tool orientation (TILT) is not interpreted"},
+    RefusedName{"RND", "corner", "a rounded corner (RND) is not interpreted"},
+    RefusedName{"RNDM", "corner", "rounded corners (RNDM) are not interpreted"},
+    RefusedName{"CHF", "corner", "a chamfer (CHF) is not interpreted"},
+    RefusedName{"CHR", "corner", "a chamfer (CHR) is not interpreted"},
+    RefusedName{"WAITM", "channels", "waiting for another channel (WAITM) is not interpreted"},
+    RefusedName{"WAITMC", "channels", "waiting for another channel (WAITMC) is not interpreted"},
 };
 
 // Words of the language without a text of their own.
 constexpr auto kOtherWords = std::to_array<std::string_view>(
-    {"ACC",       "ACN",     "ACP",      "ANG",       "AP",         "ASPLINE", "BAUTO",
-     "BNAT",      "BRISK",   "BRISKA",   "BSPLINE",   "BTAN",       "CANCEL",  "CDOF",
-     "CDON",      "CFINE",   "CHF",      "CHR",       "CLEARM",     "COMPCAD", "COMPCURV",
-     "COMPOF",    "COMPON",  "COMPSURF", "CORROF",    "CPRECOF",    "CPRECON", "CRPL",
-     "CSPLINE",   "CTRANS",  "CUT2D",    "CUT2DF",    "CUT3DC",     "CUT3DF",  "CUT3DFF",
-     "CUT3DFS",   "DC",      "DELDTG",   "DIAM90",    "DIAMOF",     "DIAMON",  "DISC",
-     "DISCL",     "DISR",    "DITE",     "DITS",      "DO",         "DRIVE",   "DRIVEA",
-     "DYNFINISH", "DYNNORM", "DYNPOS",   "DYNROUGH",  "DYNSEMIFIN", "EAUTO",   "ENAT",
-     "ETAN",      "EVERY",   "FA",       "FAD",       "FB",         "FCUB",    "FD",
-     "FENDNORM",  "FFWON",   "FGREF",    "FGROUP",    "FIFOCTRL",   "FLIN",    "FP",
-     "FPO",       "FPR",     "FPRAOF",   "FPRAON",    "FRC",        "FRCM",    "FXS",
-     "FXST",      "FXSW",    "FZ",       "GEOAX",     "ID",         "IDS",     "INVCCW",
-     "INVCW",     "JERKLIM", "KONT",     "KONTC",     "KONTT",      "LEAD",    "LIFTFAST",
-     "LIMS",      "MEAC",    "MEAS",     "MEASA",     "MEAW",       "MEAWA",   "NEWCONF",
-     "NORM",      "OFFN",    "ORIC",     "ORID",      "ORIMKS",     "ORIPATH", "ORIVECT",
-     "ORIWKS",    "OSC",     "OSD",      "OSOF",      "OSS",        "OSSE",    "OST",
-     "OVR",       "OVRA",    "OVRRAP",   "PAROT",     "PAROTOF",    "PL",      "POLY",
-     "POS",       "POSA",    "PRESETON", "PTP",       "PW",         "RND",     "RNDM",
-     "RP",        "SBLOF",   "SBLON",    "SCC",       "SETAL",      "SETINT",  "SPCOF",
-     "SPCON",     "SPOS",    "SPOSA",    "STARTFIFO", "STOPFIFO",   "SYNFCT",  "TCARR",
-     "TILT",      "TOFRAME", "TOROT",    "TRAILOF",   "TRAILON",    "VELOLIM", "WAITM",
-     "WAITP",     "WAITS",   "WALIMOF",  "WALIMON",   "WHEN",       "WHENEVER"});
+    {"ACN",     "ACP",     "ANG",      "ASPLINE", "BAUTO",   "BNAT",     "BSPLINE",  "BTAN",
+     "CANCEL",  "CFINE",   "CLEARM",   "CORROF",  "CPRECOF", "CPRECON",  "CRPL",     "CSPLINE",
+     "CTRANS",  "DC",      "DELDTG",   "DIAM90",  "DIAM90A", "DISC",     "DISCL",    "DISR",
+     "DITE",    "DITS",    "DL",       "DO",      "DRFOF",   "EAUTO",    "ENAT",     "ETAN",
+     "EVERY",   "FA",      "FAD",      "FB",      "FD",      "FENDNORM", "FP",       "FPO",
+     "FPR",     "FPRAOF",  "FPRAON",   "FRC",     "FRCM",    "FXS",      "FXST",     "FXSW",
+     "FZ",      "GEOAX",   "ID",       "IDS",     "INVCCW",  "INVCW",    "LIFTFAST", "MEAC",
+     "MEAS",    "MEASA",   "MEAW",     "MEAWA",   "NEWCONF", "OFFN",     "ORIC",     "ORID",
+     "ORIPATH", "OVR",     "OVRA",     "OVRRAP",  "PAROT",   "PAROTOF",  "PL",       "POLY",
+     "POS",     "POSA",    "PRESETON", "PTP",     "PW",      "SCC",      "SETINT",   "SYNFCT",
+     "TCARR",   "TOFRAME", "TOROT",    "TRAILOF", "TRAILON", "WAITP",    "WAITS",    "WHEN",
+     "WHENEVER"});
 
 }  // namespace
 
@@ -81,10 +79,8 @@ bool equal(std::string_view text, std::string_view upper_name) noexcept {
   return std::ranges::equal(text, upper_name, {}, upper);
 }
 
-// A linear search of twenty names: such words are rare in a program.
 bool known_name(std::string_view name) noexcept {
-  return std::ranges::any_of(kKnownNames,
-                             [&](std::string_view known) { return equal(name, known); });
+  return named_word(name) != nullptr;
 }
 
 const RefusedName* refused_name(std::string_view name) noexcept {

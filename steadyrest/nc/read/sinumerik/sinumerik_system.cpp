@@ -5,8 +5,8 @@
 #include <steadyrest/nc/read/sinumerik/sinumerik_names.hpp>
 #include <steadyrest/nc/read/text/character.hpp>
 
-// The two system variables that a program may write: corrections of an axis. Anything else that
-// begins with $ is refused by name.
+// System variables that a program may write: corrections of an axis here, frames and tool data in
+// sinumerik_frame.cpp. Anything else that begins with $ is refused by name.
 namespace steadyrest::nc::read {
 
 /// Takes `upper_text` and any blanks before it: blanks may separate the parts of these names.
@@ -46,6 +46,12 @@ bool SinumerikLine::system_variable(const char* word_begin) {
     }
     // The value is read and checked, but no position of the program changes.
     return calculated(word_begin, value) && assign(word_begin, Lookup::found);
+  }
+  if (take("$P_UIFR") || take("$P_PFRAME")) {
+    return stored_offset(word_begin);
+  }
+  if (take("$TC_")) {
+    return tool_data(word_begin);
   }
   return take("$P_IFRAME") ? fine_offset(word_begin) : refuse_character();
 }

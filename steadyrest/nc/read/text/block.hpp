@@ -17,6 +17,7 @@ enum class Qualifier : std::uint8_t {
   absolute,     ///< sinumerik AC(…)
   incremental,  ///< sinumerik IC(…)
   text,         ///< a string: T="DRILL", MSG("…")
+  stored,       ///< sinumerik $P_UIFR[1]=…, $P_PFRAME=…: a part of a frame that is written
   fine          ///< sinumerik $P_IFRAME[X,FI]: further than what is stored ($P_UIFR)
 };
 

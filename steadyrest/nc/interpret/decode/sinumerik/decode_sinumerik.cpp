@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string>
-#include <utility>
 
 #include <steadyrest/nc/interpret/decode/codes.hpp>
 #include <steadyrest/nc/interpret/decode/sinumerik/sinumerik.hpp>
-#include <steadyrest/nc/interpret/decode/step_writer.hpp>
+#include <steadyrest/nc/interpret/decode/sinumerik/sinumerik_decoder.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -15,6 +15,10 @@ namespace {
 using read::Block;
 using read::Qualifier;
 using read::Word;
+
+constexpr bool any_of(double value, std::initializer_list<int> codes) noexcept {
+  return std::ranges::any_of(codes, [value](int code) { return value == code; });
+}
 
 struct Translation {
   int theirs;
@@ -24,24 +28,27 @@ struct Translation {
 // Codes with the same meaning under the same or another number.
 // G505 to G509 are further settable offsets; here they are G58 and up in the common list.
 constexpr std::array kTranslations = {
-    Translation{0, g::kRapid},         Translation{1, g::kLinear},
-    Translation{2, g::kArcClockwise},  Translation{3, g::kArcCounterClockwise},
-    Translation{4, g::kDwell},         Translation{17, g::kPlaneXy},
-    Translation{18, g::kPlaneZx},      Translation{19, g::kPlaneYz},
-    Translation{40, g::kCutterOff},    Translation{53, g::kMachineFrame},
-    Translation{54, g::kWorkOffset1},  Translation{55, g::kWorkOffset2},
-    Translation{56, g::kWorkOffset3},  Translation{57, g::kWorkOffset4},
-    Translation{505, g::kWorkOffset5}, Translation{506, g::kWorkOffset6},
-    Translation{507, g::kWorkOffset7}, Translation{508, g::kWorkOffset8},
-    Translation{509, g::kWorkOffset9}, Translation{60, g::kExactStop},
-    Translation{64, g::kContinuous},   Translation{641, g::kContinuous},
-    Translation{642, g::kContinuous},  Translation{643, g::kContinuous},
-    Translation{644, g::kContinuous},  Translation{70, g::kInch},
-    Translation{71, g::kMillimetre},   Translation{700, g::kInch},
-    Translation{710, g::kMillimetre},  Translation{90, g::kAbsolute},
-    Translation{91, g::kIncremental},  Translation{93, g::kInverseTime},
-    Translation{94, g::kPerMinute},    Translation{95, g::kPerRevolution},
-    Translation{96, g::kCuttingSpeed}, Translation{97, g::kSpindleSpeed},
+    Translation{0, g::kRapid},          Translation{1, g::kLinear},
+    Translation{2, g::kArcClockwise},   Translation{3, g::kArcCounterClockwise},
+    Translation{4, g::kDwell},          Translation{17, g::kPlaneXy},
+    Translation{18, g::kPlaneZx},       Translation{19, g::kPlaneYz},
+    Translation{40, g::kCutterOff},     Translation{53, g::kMachineFrame},
+    Translation{153, g::kMachineFrame}, Translation{645, g::kContinuous},
+    Translation{33, g::kThread},        Translation{331, g::kTapIn},
+    Translation{332, g::kTapOut},       Translation{63, g::kTapFloating},
+    Translation{54, g::kWorkOffset1},   Translation{55, g::kWorkOffset2},
+    Translation{56, g::kWorkOffset3},   Translation{57, g::kWorkOffset4},
+    Translation{505, g::kWorkOffset5},  Translation{506, g::kWorkOffset6},
+    Translation{507, g::kWorkOffset7},  Translation{508, g::kWorkOffset8},
+    Translation{509, g::kWorkOffset9},  Translation{60, g::kExactStop},
+    Translation{64, g::kContinuous},    Translation{641, g::kContinuous},
+    Translation{642, g::kContinuous},   Translation{643, g::kContinuous},
+    Translation{644, g::kContinuous},   Translation{70, g::kInch},
+    Translation{71, g::kMillimetre},    Translation{700, g::kInch},
+    Translation{710, g::kMillimetre},   Translation{90, g::kAbsolute},
+    Translation{91, g::kIncremental},   Translation{93, g::kInverseTime},
+    Translation{94, g::kPerMinute},     Translation{95, g::kPerRevolution},
+    Translation{96, g::kCuttingSpeed},  Translation{97, g::kSpindleSpeed},
 };
 
 // Known codes that are not interpreted, named by their function, as a user would look for them.
@@ -53,49 +60,24 @@ struct NotInterpreted {
 constexpr std::array kNotInterpreted = {
     NotInterpreted{5, "G5 (inclined-axis grinding) is not interpreted"},
     NotInterpreted{7, "G7 (inclined-axis grinding) is not interpreted"},
-    NotInterpreted{25, "a working-area or spindle limit (G25) is not interpreted"},
-    NotInterpreted{26, "a working-area or spindle limit (G26) is not interpreted"},
-    NotInterpreted{33, "threading (G33) is not interpreted in this dialect"},
     NotInterpreted{41, "cutter radius compensation (G41) is not interpreted"},
     NotInterpreted{42, "cutter radius compensation (G42) is not interpreted"},
-    NotInterpreted{63, "tapping with compensating chuck (G63) is not interpreted"},
+    NotInterpreted{58, "an additional offset (G58) is not interpreted"},
+    NotInterpreted{59, "an additional offset (G59) is not interpreted"},
     NotInterpreted{74, "the reference-point approach (G74) is not interpreted"},
     NotInterpreted{75, "the fixed-point approach (G75) is not interpreted"},
-    NotInterpreted{110, "polar coordinates (G110-G112) are not interpreted"},
-    NotInterpreted{111, "polar coordinates (G110-G112) are not interpreted"},
-    NotInterpreted{112, "polar coordinates (G110-G112) are not interpreted"},
-    NotInterpreted{331, "rigid tapping (G331) is not interpreted"},
-    NotInterpreted{332, "rigid tapping (G332) is not interpreted"},
+    NotInterpreted{291, "the ISO mode (G291) is not interpreted"},
     NotInterpreted{961, "G961 (constant cutting speed with another feed type) is not interpreted"},
     NotInterpreted{971, "G971 is not interpreted"},
 };
 
-// The control ignores case in names.
-bool equal(std::string_view text, std::string_view upper_name) noexcept {
-  return std::ranges::equal(text, upper_name, {}, [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-}
-
-// Dynamics, exact-stop criteria: no effect on the moves.
-constexpr std::array<std::string_view, 8> kWithoutEffect = {"STOPRE", "FNORM", "CFC",  "CFTCP",
-                                                            "CFIN",   "FFWOF", "SOFT", "MSG"};
-
-class SinumerikDecoder final : public StepWriter {
- public:
-  SinumerikDecoder(const Decoding& in, Step& step) noexcept : StepWriter(in, {}, step) {}
-  bool block(const Block& block);
-
- private:
-  bool g_word(const Word& word);
-  bool m_word(const Word& word);
-  bool letter_word(const Word& word);
-  bool name_word(const Word& word);
-  bool finish();
-};
+}  // namespace
 
 // G words first: G4, wherever it is in the block, makes F and S a dwell.
 bool SinumerikDecoder::block(const Block& block) {
+  if (block.words().front().name == "$TC") {
+    return tool_data(block.words().front());
+  }
   for (const Word& word : block.words()) {
     if (word.letter == 'G' && !g_word(word)) {
       return false;
@@ -131,8 +113,17 @@ bool SinumerikDecoder::g_word(const Word& word) {
     step_.zero_offset = true;
     return true;
   }
-  if (value == 601.0 || value == 602.0 || value == 603.0) {
-    return true;  // when an exact stop counts as reached
+  // When an exact stop counts as reached; how compensation meets corners, which is never on; G290:
+  // Siemens mode, which is.
+  if (any_of(value, {601, 602, 603, 290, 450, 451, 460, 461, 462, 62})) {
+    return true;
+  }
+  if (value == 621.0) {  // slower at all corners
+    named().dynamics = &word;
+    return true;
+  }
+  if (any_of(value, {25, 26, 110, 111, 112})) {
+    return data_word(word);
   }
   for (const NotInterpreted& note : kNotInterpreted) {
     if (value == note.code) {
@@ -148,10 +139,47 @@ bool SinumerikDecoder::g_word(const Word& word) {
       }
       // G70 and G71 apply only to geometry: feeds stay in the control's basic unit, mm.
       step_.work_feed = step_.work_feed && translation.theirs != 70 && translation.theirs != 71;
-      return put_g(word, translation.ours);
+      if (translation.ours == g::kContinuous) {
+        named().rounds_by = any_of(value, {642, 643, 645}) ? 1 : 0;
+      }
+      return translation.ours >= g::kArcThrough ? put_motion(word, translation.ours)
+                                                : put_g(word, translation.ours);
     }
   }
   return refuse(word, "unknown_g_code", "an unknown G word");
+}
+
+// Motions that no dialect's G word has: beside the table of groups.
+bool SinumerikDecoder::put_motion(const Word& word, int code) {
+  std::int16_t& place = step_.g[static_cast<std::size_t>(GGroup::motion)];
+  if (place != kNoCode) {
+    return refuse(word, "same_modal_group", "a second G word of the same modal group in one block");
+  }
+  place = static_cast<std::int16_t>(code);
+  step_.others = true;
+  from(word, GGroup::motion);
+  return true;
+}
+
+// Words whose axis words are no places to go to: limits (G25, G26) and poles (G110 to G112). They
+// need a block of their own.
+bool SinumerikDecoder::data_word(const Word& word) {
+  if (data_ != nullptr) {
+    return refuse(word, "same_modal_group", "a second G word of the same modal group in one block");
+  }
+  data_ = &word;
+  step_.others = true;
+  return true;
+}
+
+bool SinumerikDecoder::spindle_word(const Word& word, int code) {
+  std::int16_t& place = step_.m[static_cast<std::size_t>(MGroup::spindle)];
+  if (place != kNoCode) {
+    return refuse(word, "same_modal_group", "a second M word of the same modal group in one block");
+  }
+  place = static_cast<std::int16_t>(code);
+  step_.others = true;
+  return true;
 }
 
 bool SinumerikDecoder::m_word(const Word& word) {
@@ -164,6 +192,13 @@ bool SinumerikDecoder::m_word(const Word& word) {
   if (word.value == 17.0) {
     step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
     return true;
+  }
+  // "Fundamentals", "Spindle motion": M19 goes to an angle, where the spindle stands.
+  if (word.value == 19.0) {
+    return spindle_word(word, m::kOrient);
+  }
+  if (word.value >= 40.0 && word.value <= 45.0 && word.value == std::floor(word.value)) {
+    return true;  // gear stages
   }
   if (std::ranges::find(kKnown, word.value) == kKnown.end()) {
     return refuse(word, "unknown_m_code", "an M word whose meaning depends on the machine builder");
@@ -211,8 +246,12 @@ bool SinumerikDecoder::letter_word(const Word& word) {
     from(word, GGroup::tool_length);
     return true;
   }
+  if (letter == 'H') {
+    return refuse(word, "auxiliary_function",
+                  "an H word: an auxiliary function whose meaning depends on the machine builder");
+  }
   // In ISO dialects these letters have functions that sinumerik writes as names.
-  if (std::string_view{"EHLOPQR"}.find(letter) != std::string_view::npos) {
+  if (std::string_view{"ELOPQR"}.find(letter) != std::string_view::npos) {
     return refuse(word, "unknown_word",
                   letter == 'L' ? "a subprogram call (L)"
                                 : "an address that is not interpreted in this dialect");
@@ -230,73 +269,12 @@ bool SinumerikDecoder::letter_word(const Word& word) {
   return put_letter(word, letter, word.value);
 }
 
-// Words of two or more letters. Frames and SUPA change the meaning of the block's axis words; the
-// others map to a letter of the common vocabulary or have no effect.
-bool SinumerikDecoder::name_word(const Word& word) {
-  const auto without_effect = [&](std::string_view known) { return equal(word.name, known); };
-  if (equal(word.name, "RET")) {
-    if (step_.block->words().size() > 1 || word.has_value) {
-      return refuse(word, "subprogram_end",
-                    "RET together with other words; write it in a separate block");
-    }
-    step_.m[static_cast<std::size_t>(MGroup::program)] = m::kReturn;
-    return true;
-  }
-  constexpr std::array<std::pair<std::string_view, char>, 4> kFrames = {
-      {{"TRANS", 'T'}, {"ATRANS", 't'}, {"ROT", 'R'}, {"AROT", 'r'}}};
-  for (const auto& [name, frame] : kFrames) {
-    if (equal(word.name, name)) {
-      if (step_.frame != 0 || word.has_value) {
-        return refuse(word, "frame",
-                      "a frame together with other words; write it in a separate block");
-      }
-      step_.frame = frame;
-      return true;
-    }
-  }
-  if (equal(word.name, "TRAFOOF")) {
-    return true;  // transformations are refused: none can be on
-  }
-  if (equal(word.name, "SUPA")) {
-    step_.machine_frame = true;
-    return true;
-  }
-  if (std::ranges::any_of(kWithoutEffect, without_effect)) {
-    return true;
-  }
-  if (!word.has_value) {
-    return refuse(word, "missing_value", "a word without its value");
-  }
-  if (word.qualifier != Qualifier::none) {
-    return refuse(word, "bad_value", "not a plain number; write one here");
-  }
-  if (equal(word.name, "RPL")) {
-    step_.frame_angle_deg = word.value;
-    return true;
-  }
-  // CR= is the R of other dialects; R itself is a parameter here.
-  if (equal(word.name, "CR")) {
-    return put_letter(word, 'R', word.value);
-  }
-  if (equal(word.name, "TURN")) {
-    if (word.value != std::floor(word.value) || word.value < 0.0 || word.value > 999.0) {
-      return refuse(word, "arc_turns",
-                    "the further turns are out of range; allowed: whole numbers from 0 to 999");
-    }
-    // TURN counts the additional turns, P all of them.
-    return put_letter(word, 'P', word.value + 1.0);
-  }
-  // ADIS, ADISPOS: how far before a corner the rounding may begin.
-  if (word.value < 0.0) {
-    return refuse(word, "out_of_range", "a negative distance");
-  }
-  step_.rounding_mm = word.value * in_.state.unit_mm;
-  return true;
-}
-
 bool SinumerikDecoder::finish() {
   if (!std::isnan(step_.frame_angle_deg) && step_.frame != 'R' && step_.frame != 'r') {
     return in_.refusals.named(step_, "RPL", "unused_word", "RPL without ROT or AROT");
+  }
+  if (data_ != nullptr ? !finish_data() : !finish_polar()) {
+    return false;
   }
   // G53 is non-modal and may share a block with G1, so it becomes a flag and leaves its group free.
   if (step_.code(GGroup::non_modal) == g::kMachineFrame) {
@@ -324,6 +302,8 @@ bool SinumerikDecoder::finish() {
   return true;
 }
 
+namespace {
+
 bool decode_sinumerik(const Decoding& in, const Block& block, Step& step) {
   return SinumerikDecoder(in, step).block(block);
 }
@@ -340,6 +320,7 @@ const DialectRules& sinumerik_rules() noexcept {
                                        .variables = Variables::typed,
                                        .named_calls = true,
                                        .has_g92 = false,
+                                       .speed_limit_always = true,
                                        .settable_frames = true,
                                        .edge_chooses_length = true};
   return kRules;

@@ -30,8 +30,9 @@ const std::vector<double> kOfFanuc = {
     0,  1,  2,  3,  4,  9,  10, 17, 18, 19, 20, 21, 28, 30, 40, 43, 49, 52, 53, 54, 55, 56, 57,
     58, 59, 61, 64, 73, 74, 80, 81, 82, 83, 84, 85, 86, 89, 90, 91, 92, 94, 95, 96, 97, 98, 99};
 // 840D sl programming manual, list of G functions, those below G100 that README.md names.
-const std::vector<double> kOfSinumerik = {0,  1,  2,  3,  4,  9,  17, 18, 19, 40, 53, 54, 55,
-                                          56, 57, 60, 64, 70, 71, 90, 91, 93, 94, 95, 96, 97};
+const std::vector<double> kOfSinumerik = {0,  1,  2,  3,  4,  9,  17, 18, 19, 25, 26,
+                                          33, 40, 53, 54, 55, 56, 57, 60, 62, 63, 64,
+                                          70, 71, 90, 91, 93, 94, 95, 96, 97};
 
 /// Whether the decoder knows the word; anything missing in the block is found later.
 bool is_word(const std::string& word, Dialect dialect) {

@@ -24,13 +24,17 @@ std::string why_refused(const std::string& name) {
 // effect.
 TEST(SinumerikNames, AreKnownInAnyCaseAndAsAWhole) {
   for (const char* name :
-       {"CR", "TURN", "SUPA", "ADIS", "ADISPOS", "FNORM", "CFC", "CFTCP", "CFIN", "FFWOF", "SOFT",
-        "RET", "TRAFOOF", "TRANS", "ATRANS", "ROT", "AROT", "RPL", "STOPRE"}) {
+       {"CR",     "TURN",    "SUPA",   "ADIS",  "ADISPOS",   "FNORM", "CFC",       "CFTCP",
+        "CFIN",   "FFWOF",   "SOFT",   "RET",   "TRAFOOF",   "TRANS", "ATRANS",    "ROT",
+        "AROT",   "RPL",     "STOPRE", "CIP",   "CT",        "AR",    "RP",        "AP",
+        "COMPOF", "COMPCAD", "CTOL",   "BRISK", "FLIN",      "FFWON", "DYNFINISH", "FGROUP",
+        "SPOS",   "LIMS",    "DIAMON", "SETAL", "WORKPIECE", "UPATH", "ORIMKS"}) {
     const std::string written{name};
     EXPECT_TRUE(known_name(written)) << written;
     EXPECT_TRUE(known_name(in_small_letters(written))) << written;
     EXPECT_FALSE(known_name(written + 'X')) << written;
-    EXPECT_FALSE(known_name(written.substr(0, written.size() - 1))) << written;
+    const std::string shorter = written.substr(0, written.size() - 1);
+    EXPECT_EQ(known_name(shorter), shorter == "RP") << written;  // RPL: RP is a word, too
     EXPECT_EQ(why_refused(written), "") << written;  // a word is known or refused, never both
   }
 }
@@ -57,8 +61,14 @@ TEST(SinumerikNames, OfFramesTransformationsAndCallsHaveReasonsOfTheirOwn) {
   }
   EXPECT_EQ(why_refused("CALL"), "subprogram_call");
   EXPECT_EQ(why_refused("PCALL"), "subprogram_call");
-  EXPECT_EQ(why_refused("CIP"), "unknown_word");
-  for (const char* name : {"FLIN", "FCUB", "BSPLINE", "BRISK", "COMPON", "SPOS", "G0X"}) {
+  for (const char* name : {"A3", "B3", "C3", "LEAD", "TILT"}) {
+    EXPECT_EQ(why_refused(name), "orientation") << name;
+  }
+  for (const char* name : {"RND", "RNDM", "CHF", "CHR"}) {
+    EXPECT_EQ(why_refused(name), "corner") << name;
+  }
+  EXPECT_EQ(why_refused("WAITM"), "channels");
+  for (const char* name : {"OVR", "POS", "BSPLINE", "POLY", "ANG", "G0X"}) {
     EXPECT_EQ(why_refused(name), name[0] == 'G' ? "" : "unknown_word") << name;
     EXPECT_FALSE(known_name(name)) << name;
   }

@@ -33,7 +33,7 @@ TEST(DecodeSinumerik, HasItsSettableOffsetsUnderTheirOwnNumbers) {
     EXPECT_DOUBLE_EQ(moves[i].end[0] + moves[i].offset[0], machine[i]) << i;
   }
   EXPECT_EQ(reason_of_block("G500 G54"), "same_modal_group");
-  EXPECT_EQ(reason_of_block("G58 X1"), "unknown_g_code");
+  EXPECT_EQ(reason_of_block("G58 X1"), "g_code_not_interpreted");
 }
 
 // G4 F in seconds, G4 S in revolutions of the spindle.
@@ -77,7 +77,9 @@ TEST(DecodeSinumerik, CountsTheTurnsOfAHelixBeyondTheFirst) {
 }
 
 TEST(DecodeSinumerik, RefusesByNameWhatItDoesNotExecute) {
-  const std::pair<const char*, const char*> cases[] = {{"G110 X1", "g_code_not_interpreted"},
+  const std::pair<const char*, const char*> cases[] = {{"G110 X1 F5 G0", "data_and_motion"},
+                                                       {"G291", "g_code_not_interpreted"},
+                                                       {"H5", "auxiliary_function"},
                                                        {"G1.5 X1", "unknown_g_code"},
                                                        {"Q1", "unknown_word"},
                                                        {"G1 X=\"A\" F100", "bad_value"},
