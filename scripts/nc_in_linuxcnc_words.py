@@ -3,6 +3,8 @@
 judge how it is read."""
 import re
 
+from sinumerik_shapes import Shapes, deep_hole
+
 
 def value_at(line, at):
     """Where the value ends that begins at `at`: signs, then #…, [ ] or a function with its brackets."""
@@ -83,12 +85,16 @@ def sinumerik_value(text, names):
 
 
 def sinumerik_drilling(name, values, names):
-    """The moves that the manual gives for CYCLE81 and CYCLE82."""
+    """The moves that the manual gives for CYCLE81, 82, 83 and 89."""
+    if name.upper() == "CYCLE83":
+        return deep_hole(values)
     rtp, rfp, sdis, dp, dpr, dwell = ([sinumerik_value(v, names) if v.strip() else None for v in values.split(",")] + [None] * 6)[:6]
     bottom = f"[{rfp}]-[{dpr}]" if dp is None else dp
     lines = [f"G0 Z[[{rfp}]+[{sdis or 0}]]", f"G1 Z[{bottom}]"]
-    if name.upper() == "CYCLE82" and dwell is not None:
+    if name.upper() != "CYCLE81" and dwell is not None:
         lines.append(f"G4 P[{dwell}]")
+    if name.upper() == "CYCLE89":
+        lines.append(f"G1 Z[[{rfp}]+[{sdis or 0}]]")
     return lines + [f"G0 Z[{rtp}]"]
 
 
@@ -108,7 +114,8 @@ def sinumerik_frame(frame, names):
 
 def sinumerik_lines(lines):
     """Variables, expressions and drilling cycles in LinuxCNC's words, line by line."""
-    names, out, modal = set(), [], []
+    names, out, modal, shapes = set(), [], [], Shapes()
+    lines = [plain for line in lines for plain in shapes.lines(re.sub(r"^\s*N\d+\s*", "", line.rstrip()))]
     for line in lines:
         line = re.sub(r"^\s*(N\d+)?\s*(%_N_.*|SETMS.*|TRAFOOF|CYCLE800\(\))?", "", line.rstrip())
         define = re.match(r"(?i)DEF\s+(REAL|INT|BOOL)\s+(.*)", line)
@@ -123,7 +130,7 @@ def sinumerik_lines(lines):
         if frame:
             out += sinumerik_frame(frame, names)
             continue
-        call = re.match(r"(?i)(MCALL)?\s*(CYCLE8[12])\((.*)\)\s*$", line)
+        call = re.match(r"(?i)(MCALL)?\s*(CYCLE8[1239])\((.*)\)\s*$", line)
         if call or re.match(r"(?i)MCALL\s*$", line):
             moves = sinumerik_drilling(call.group(2), call.group(3), names) if call else []
             if call and not call.group(1):
@@ -181,7 +188,7 @@ def equivalent_of(program, dialect, oracle):
     else:
         lines = []
         text = re.sub(r";.*", "", text)
-        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|A?TRANS|A?ROT|%_N_)", text):
+        if re.search(r"(?m)^\s*(N\d+\s*)?(DEF|R\d+|R\[|M?CALL|CYCLE|SETMS|TRAFOOF|A?TRANS|A?ROT|%_N_|\$|HOLES|CIP)", text):
             text = "\n".join(sinumerik_lines(re.sub(r'MSG\(.*?\)|T="[^"]*"', lambda m: "T1" * (m.group(0)[0] == "T"), text).splitlines()))
             text = text.replace("SUPA", "G53")
         for line in text.splitlines():
