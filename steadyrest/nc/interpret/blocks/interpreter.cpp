@@ -79,6 +79,7 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return frames_.set_fine(block.words().front());
   }
   if (block.words().front().qualifier == read::Qualifier::stored) {
+    assumptions_.look_at_frame(block);
     return frames_.set_stored(block);
   }
   if (!decode(block)) {

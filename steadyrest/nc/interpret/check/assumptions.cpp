@@ -85,6 +85,13 @@ void Assumptions::look_at_cycle(const read::Block& block) {
   }
 }
 
+void Assumptions::look_at_frame(const read::Block& block) noexcept {
+  const read::Word& head = block.words().front();
+  if (frame_line_ == 0 && read::equal(head.name, "$P_UIFR")) {
+    frame_line_ = block.line();
+  }
+}
+
 std::vector<Assumption> Assumptions::found() const {
   std::vector<Assumption> out;
   const std::string unit = unit_of(control_);
@@ -121,6 +128,13 @@ std::vector<Assumption> Assumptions::found() const {
                    .text = "the third or fourth reference point (G30 P3, P4) is assumed at the "
                            "machine's zero",
                    .to_do = "check what follows: parameters 1242 and 1243 of the control set it"});
+  }
+  if (frame_line_ != 0) {
+    out.push_back({.line = frame_line_,
+                   .what = "frame_written",
+                   .text = "the program writes a settable frame ($P_UIFR), which the control keeps",
+                   .to_do = "set the offsets on the control, before the program is rewritten",
+                   .bars_rewriting = true});
   }
   if (dynamics_line_ != 0) {
     out.push_back({.line = dynamics_line_,

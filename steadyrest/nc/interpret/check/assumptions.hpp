@@ -39,6 +39,8 @@ class Assumptions {
   }
   /// A call of a cycle: its values are lengths.
   void look_at_cycle(const read::Block& block);
+  /// A frame written as data: the corrections of rewriting use the frames that the control stores.
+  void look_at_frame(const read::Block& block) noexcept;
 
   [[nodiscard]] std::vector<Assumption> found() const;
 
@@ -53,6 +55,7 @@ class Assumptions {
   std::uint32_t feed_line_ = 0;
   bool lengths_said_ = false;  ///< at that F word
   std::uint32_t reference_line_ = 0;
+  std::uint32_t frame_line_ = 0;
   std::uint32_t dynamics_line_ = 0;
   std::string dynamics_word_;
 };

@@ -237,5 +237,33 @@ TEST(SinumerikPolar, IsRefusedWhereAValueIsNotKnown) {
   EXPECT_EQ(reason_of_block("G111 G110 X1"), "same_modal_group");
 }
 
+// "Fundamentals", contour definitions: a straight line by an end coordinate and its angle.
+TEST(SinumerikAng, GivesTheOtherAxisOfALine) {
+  Draw draw;
+  for (int i = 0; i < kArcs; ++i) {
+    const double angle = draw.angle();
+    const double way = draw.number(1, 100);
+    const double x = draw.number(-50, 50);
+    const double y = draw.number(-50, 50);
+    const double end_x = x + way * std::cos(angle);
+    const double end_y = y + way * std::sin(angle);
+    const bool by_x = std::abs(std::cos(angle)) > 0.5;
+    const bool adds = i % 2 == 0;
+    const std::string text =
+        fmt::format("G0 X={:.9f} Y={:.9f}\n{} G1 {}={:.9f} ANG={:.9f}", x, y, adds ? "G91" : "G90",
+                    by_x ? "X" : "Y", (by_x ? end_x : end_y) - (adds ? (by_x ? x : y) : 0.0),
+                    angle * 180.0 / std::numbers::pi);
+    const auto moves = arcs_of(text);
+    ASSERT_EQ(moves.size(), 2U) << text;
+    EXPECT_NEAR(moves[1].end[0], end_x, kWritten_mm) << text;
+    EXPECT_NEAR(moves[1].end[1], end_y, kWritten_mm) << text;
+  }
+  EXPECT_EQ(reason_of_block("G0 X5 ANG=180"), "contour_angle");
+  EXPECT_EQ(reason_of_block("G0 X5 ANG=90"), "contour_angle");
+  EXPECT_EQ(reason_of_block("G0 X5 Y5 ANG=45"), "contour_angle");
+  EXPECT_EQ(reason_of_block("G0 ANG=45"), "contour_angle");
+  EXPECT_EQ(reason_of_block("F9 G2 X5 CR=9 ANG=45"), "contour_angle");
+}
+
 }  // namespace
 }  // namespace steadyrest::nc::interpret

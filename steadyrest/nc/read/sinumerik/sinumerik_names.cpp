@@ -59,18 +59,17 @@ constexpr std::array kRefusedNames = {
 
 // Words of the language without a text of their own.
 constexpr auto kOtherWords = std::to_array<std::string_view>(
-    {"ACN",     "ACP",     "ANG",      "ASPLINE", "BAUTO",   "BNAT",     "BSPLINE",  "BTAN",
-     "CANCEL",  "CFINE",   "CLEARM",   "CORROF",  "CPRECOF", "CPRECON",  "CRPL",     "CSPLINE",
-     "CTRANS",  "DC",      "DELDTG",   "DIAM90",  "DIAM90A", "DISC",     "DISCL",    "DISR",
-     "DITE",    "DITS",    "DL",       "DO",      "DRFOF",   "EAUTO",    "ENAT",     "ETAN",
-     "EVERY",   "FA",      "FAD",      "FB",      "FD",      "FENDNORM", "FP",       "FPO",
-     "FPR",     "FPRAOF",  "FPRAON",   "FRC",     "FRCM",    "FXS",      "FXST",     "FXSW",
-     "FZ",      "GEOAX",   "ID",       "IDS",     "INVCCW",  "INVCW",    "LIFTFAST", "MEAC",
-     "MEAS",    "MEASA",   "MEAW",     "MEAWA",   "NEWCONF", "OFFN",     "ORIC",     "ORID",
-     "ORIPATH", "OVR",     "OVRA",     "OVRRAP",  "PAROT",   "PAROTOF",  "PL",       "POLY",
-     "POS",     "POSA",    "PRESETON", "PTP",     "PW",      "SCC",      "SETINT",   "SYNFCT",
-     "TCARR",   "TOFRAME", "TOROT",    "TRAILOF", "TRAILON", "WAITP",    "WAITS",    "WHEN",
-     "WHENEVER"});
+    {"ACN",     "ACP",      "ASPLINE", "BAUTO",   "BNAT",     "BSPLINE",  "BTAN",    "CANCEL",
+     "CFINE",   "CLEARM",   "CORROF",  "CPRECOF", "CPRECON",  "CRPL",     "CSPLINE", "CTRANS",
+     "DC",      "DELDTG",   "DIAM90",  "DIAM90A", "DISC",     "DISCL",    "DISR",    "DITE",
+     "DITS",    "DL",       "DO",      "DRFOF",   "EAUTO",    "ENAT",     "ETAN",    "EVERY",
+     "FA",      "FAD",      "FB",      "FD",      "FENDNORM", "FP",       "FPO",     "FPR",
+     "FPRAOF",  "FPRAON",   "FRC",     "FRCM",    "FXS",      "FXST",     "FXSW",    "FZ",
+     "GEOAX",   "ID",       "IDS",     "INVCCW",  "INVCW",    "LIFTFAST", "MEAC",    "MEAS",
+     "MEASA",   "MEAW",     "MEAWA",   "NEWCONF", "OFFN",     "ORIC",     "ORID",    "ORIPATH",
+     "OVR",     "OVRA",     "OVRRAP",  "PAROT",   "PAROTOF",  "PL",       "POLY",    "POS",
+     "POSA",    "PRESETON", "PTP",     "PW",      "SCC",      "SETINT",   "SYNFCT",  "TCARR",
+     "TOFRAME", "TOROT",    "TRAILOF", "TRAILON", "WAITP",    "WAITS",    "WHEN",    "WHENEVER"});
 
 }  // namespace
 

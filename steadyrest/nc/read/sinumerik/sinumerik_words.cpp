@@ -25,8 +25,8 @@ constexpr NamedWord drives(std::string_view name) {
 // The words of arcs and frames first: they are the frequent ones.
 constexpr std::array kNamedWords = {
     // Motion and frames (F)
-    acts("CR"), acts("TURN"), acts("AR"), acts("RP"), acts("AP"), acts("CIP"), acts("CT"),
-    acts("SUPA"), acts("TRANS"), acts("ATRANS"), acts("ROT"), acts("AROT"), acts("RPL"),
+    acts("CR"), acts("TURN"), acts("AR"), acts("RP"), acts("AP"), acts("ANG"), acts("CIP"),
+    acts("CT"), acts("SUPA"), acts("TRANS"), acts("ATRANS"), acts("ROT"), acts("AROT"), acts("RPL"),
     acts("DIAMON"), acts("DIAMOF"), acts("RET"), acts("TRAFOOF"),
     // Rounding at block transitions, compressors, tolerances (F, J)
     acts("ADIS"), acts("ADISPOS"), acts("CTOL"), acts("OTOL"), acts("ATOL", true), acts("COMPOF"),

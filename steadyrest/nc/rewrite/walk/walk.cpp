@@ -21,7 +21,8 @@ namespace {
 // allowed, so that an unforeseen word never makes a place.
 constexpr std::array kPlainG = {0.0, 1.0, 17.0, 18.0, 19.0, 40.0, 61.0, 64.0, 80.0, 90.0, 94.0};
 constexpr std::array kPlainM = {3.0, 4.0, 5.0, 7.0, 8.0, 9.0};
-constexpr std::array<std::string_view, 4> kFrameWords = {"TRANS", "ATRANS", "ROT", "AROT"};
+constexpr std::array<std::string_view, 6> kFrameWords = {"TRANS", "ATRANS",  "ROT",
+                                                         "AROT",  "$P_UIFR", "$P_PFRAME"};
 
 bool straight(MoveKind kind) noexcept {
   return kind == MoveKind::rapid || kind == MoveKind::linear || kind == MoveKind::dwell;
@@ -226,7 +227,8 @@ void Walk::look_at_g(const read::Word& word) {
   }
   says_ ? said_.look(word) : void();
   facts_.plain = facts_.plain && std::ranges::find(kPlainG, code) != kPlainG.end();
-  facts_.machine_frame = facts_.machine_frame || code == 53.0 || code == 28.0 || code == 30.0;
+  facts_.machine_frame =
+      facts_.machine_frame || code == 53.0 || code == 153.0 || code == 28.0 || code == 30.0;
   facts_.data = facts_.data || code == 10.0;
   facts_.reference = facts_.reference || code == 28.1 || code == 30.1;
   // G38 probing, G43, G43.1, G43.2 and G49: after them a position is known only once it is

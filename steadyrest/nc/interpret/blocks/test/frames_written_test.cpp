@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that a SINUMERIK program writes as data.
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
+#include <steadyrest/kernel/testing/cases.hpp>
 #include <steadyrest/nc/interpret/test/moves.hpp>
 #include <steadyrest/nc/interpret/test/sinumerik.hpp>
 
@@ -37,6 +43,18 @@ TEST(WrittenFrames, ActWhenTheyAreSelected) {
   EXPECT_THAT(last_of("G55\n$P_UIFR[2,X,TR]=7\nG55\nG0 X1 Y2", config), near(8, 52));
 }
 
+TEST(WrittenFrames, BarRewriting) {
+  Kept kept;
+  const auto report = run_text(
+      "G71\n$P_PFRAME=CTRANS(X,1)\nG0 X1\n$P_PFRAME=CTRANS()\nG500\n"
+      "$P_UIFR[1]=CTRANS(X,1)\nM30\n",
+      sinumerik(), kept);
+  ASSERT_TRUE(report && report->refused.empty() && report->assumed.size() == 1);
+  EXPECT_EQ(report->assumed[0].what, "frame_written");
+  EXPECT_EQ(report->assumed[0].line, 6U);
+  EXPECT_TRUE(report->assumed[0].bars_rewriting);
+}
+
 TEST(WrittenFrames, TurnAboutZBehindTheirShift) {
   EXPECT_THAT(last_of("$P_UIFR[2]=CTRANS(X,10):CROT(Z,90)\nG55\nG0 X1 Y2"), near(8, 1));
   EXPECT_THAT(last_of("$P_UIFR[2,Z,RT]=90\nG55\nG0 X1 Y2"), near(-2, 1));
@@ -61,6 +79,71 @@ TEST(WrittenFrames, AreRefusedInFormsThatAreNotRead) {
   EXPECT_EQ(reason_of_block("$P_PFRAME[X,TR]=5"), "parameter");
   EXPECT_EQ(reason_of_block("$P_PFRAME=CTRANS(X,5)\nG0 X=IC(1)"), "frame_incremental");
   EXPECT_EQ(reason_of_block("$P_CHBFR[0]=CTRANS(X,5)"), "parameter");
+}
+
+/// A frame of the plane by complex numbers: p → shift + turn·p.
+struct PlaneFrame {
+  std::complex<double> shift;
+  std::complex<double> turn{1.0, 0.0};
+  [[nodiscard]] std::complex<double> of(std::complex<double> p) const { return shift + turn * p; }
+  [[nodiscard]] PlaneFrame then(const PlaneFrame& inner) const {
+    return {.shift = of(inner.shift), .turn = turn * inner.turn};
+  }
+};
+
+// Random chains of frames by words and as data against products of complex numbers.
+TEST(WrittenFrames, AreTheProductsOfTheirParts) {
+  std::mt19937 engine{840};
+  const auto draw = [&](double most) {
+    return std::uniform_real_distribution(-most, most)(engine);
+  };
+  const int programs = kernel::testing::kSanitized ? 100 : 10'000;
+  for (int i = 0; i < programs; ++i) {
+    PlaneFrame settable;
+    PlaneFrame programmed;
+    std::string text;
+    const auto number = [](double value) { return fmt::format("{:.6f}", value); };
+    const auto drawn = [&](bool shifts, bool turns) {
+      const std::complex<double> shift(std::round(draw(50) * 1e3) / 1e3,
+                                       std::round(draw(50) * 1e3) / 1e3);
+      const double degrees = std::round(draw(180) * 1e3) / 1e3;
+      return std::pair{
+          PlaneFrame{.shift = shifts ? shift : 0.0,
+                     .turn = std::polar(1.0, turns ? degrees * std::numbers::pi / 180.0 : 0.0)},
+          degrees};
+    };
+    const auto [stored, stored_deg] = drawn(true, true);
+    text += "$P_UIFR[2]=CTRANS(X," + number(stored.shift.real()) + ",Y," +
+            number(stored.shift.imag()) + "):CROT(Z," + number(stored_deg) + ")\nG55\n";
+    settable = stored;
+    for (int step = 0; step < 4; ++step) {
+      const bool shifts = engine() % 2 == 0;
+      const auto [frame, degrees] = drawn(shifts, !shifts);
+      const std::string value =
+          shifts ? " X=" + number(frame.shift.real()) + " Y=" + number(frame.shift.imag())
+                 : " Z=" + number(degrees);
+      switch (engine() % 3) {
+        case 0:
+          text += (shifts ? "TRANS" : "ROT") + value + "\n";
+          programmed = frame;
+          break;
+        case 1:
+          text += (shifts ? "ATRANS" : "AROT") + value + "\n";
+          programmed = programmed.then(frame);
+          break;
+        default:
+          text += shifts ? "$P_PFRAME=CTRANS(X," + number(frame.shift.real()) + ",Y," +
+                               number(frame.shift.imag()) + ")\n"
+                         : "$P_PFRAME=CROT(Z," + number(degrees) + ")\n";
+          programmed = frame;
+          break;
+      }
+    }
+    const std::complex<double> point(std::round(draw(100)), std::round(draw(100)));
+    text += "G0 X=" + number(point.real()) + " Y=" + number(point.imag());
+    const auto at = settable.then(programmed).of(point);
+    EXPECT_THAT(last_of(text), near(at.real(), at.imag())) << text;
+  }
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ bool SinumerikDecoder::finish() {
   if (!std::isnan(step_.frame_angle_deg) && step_.frame != 'R' && step_.frame != 'r') {
     return in_.refusals.named(step_, "RPL", "unused_word", "RPL without ROT or AROT");
   }
-  if (data_ != nullptr ? !finish_data() : !finish_polar()) {
+  if (data_ != nullptr ? !finish_data() : !finish_polar() || !finish_line()) {
     return false;
   }
   // G53 is non-modal and may share a block with G1, so it becomes a flag and leaves its group free.

@@ -119,6 +119,11 @@ bool SinumerikDecoder::value_word(const Word& word) {
   if (equal(word.name, "CR")) {
     return put_letter(word, 'R', word.value);
   }
+  if (equal(word.name, "ANG")) {
+    const bool first = slope_ == nullptr;
+    slope_ = &word;
+    return first || refuse(word, "word_twice", "a second ANG word in one block");
+  }
   if (equal(word.name, "AR")) {
     if (!(word.value > 0.0 && word.value < 360.0)) {
       return refuse(word, "out_of_range",

@@ -119,6 +119,43 @@ bool SinumerikDecoder::finish_pole() {
   return true;
 }
 
+// "Fundamentals", "Contour definitions: one straight line": the end by one axis of the plane and
+// the angle to the first axis. The line must lead that way; two lines that share an unknown corner
+// are refused.
+bool SinumerikDecoder::finish_line() {
+  if (slope_ == nullptr) {
+    return true;
+  }
+  const State& state = in_.state;
+  const PlaneAxes axes = plane_axes();
+  const bool first = step_.has(kAxes[axes.first]);
+  const std::size_t from = first ? axes.first : axes.second;
+  const std::size_t to = first ? axes.second : axes.first;
+  const int own = step_.code(GGroup::motion);
+  const int motion = own != kNoCode ? own : state.motion;
+  if (first == step_.has(kAxes[axes.second]) || (motion != g::kRapid && motion != g::kLinear) ||
+      state.diameter || step_.frame != 0 || step_.machine_frame) {
+    return refuse(*slope_, "contour_angle",
+                  "a line by its angle (ANG) needs G0 or G1 and one axis of the plane");
+  }
+  const std::uint32_t bit = Step::bit(kAxes[from]);
+  const int distance = step_.code(GGroup::distance);
+  const bool g91 = distance == kNoCode ? state.incremental : distance == g::kIncremental;
+  const bool adds = (step_.incremental & bit) != 0 || (g91 && (step_.absolute & bit) == 0);
+  const double way_mm = step_[kAxes[from]] * unit_mm() - (adds ? 0.0 : state.position[from]);
+  const double angle = slope_->value * kernel::units::kDegree;
+  const double along = first ? std::cos(angle) : std::sin(angle);
+  const double across = first ? std::sin(angle) : std::cos(angle);
+  constexpr double kSteepest = 1e-6;
+  if (!(std::abs(slope_->value) <= 360.0) || std::abs(along) < kSteepest ||
+      !(way_mm * along > 0.0)) {
+    return refuse(*slope_, "contour_angle",
+                  "a line by its angle (ANG) that does not lead to the given axis position");
+  }
+  step_.incremental |= Step::bit(kAxes[to]);
+  return put_letter(*slope_, kAxes[to], way_mm * across / along / unit_mm());
+}
+
 // Polar words become the axis words of the plane, absolute, and of an arc its centre.
 bool SinumerikDecoder::finish_polar() {
   const State& state = in_.state;

@@ -35,6 +35,7 @@ class SinumerikDecoder final : public StepWriter {
   bool finish_limits();
   bool finish_pole();
   bool finish_polar();
+  bool finish_line();
   [[nodiscard]] double unit_mm() const noexcept;
   [[nodiscard]] PlaneAxes plane_axes() const noexcept;
 
@@ -43,6 +44,7 @@ class SinumerikDecoder final : public StepWriter {
   const read::Word* data_ = nullptr;    ///< G25, G26, G110 to G112
   const read::Word* radius_ = nullptr;  ///< RP
   const read::Word* angle_ = nullptr;   ///< AP
+  const read::Word* slope_ = nullptr;   ///< ANG
 };
 
 }  // namespace steadyrest::nc::interpret

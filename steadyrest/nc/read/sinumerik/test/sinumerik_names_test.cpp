@@ -68,7 +68,7 @@ TEST(SinumerikNames, OfFramesTransformationsAndCallsHaveReasonsOfTheirOwn) {
     EXPECT_EQ(why_refused(name), "corner") << name;
   }
   EXPECT_EQ(why_refused("WAITM"), "channels");
-  for (const char* name : {"OVR", "POS", "BSPLINE", "POLY", "ANG", "G0X"}) {
+  for (const char* name : {"OVR", "POS", "BSPLINE", "POLY", "G0X"}) {
     EXPECT_EQ(why_refused(name), name[0] == 'G' ? "" : "unknown_word") << name;
     EXPECT_FALSE(known_name(name)) << name;
   }
