@@ -129,7 +129,7 @@ bool CycleCalls::newer_values(const Flow& call, const Known& known) {
 // digit: the depth is incremental (1) or absolute (2); dwells are in seconds (1), three of them in
 // CYCLE83, whose fifth digit is for the first depth as the first one is for the last.
 bool CycleCalls::modes(const Flow& call, const Known& known) {
-  const double plane = static_cast<double>(value(call, known.modes + 1));
+  const double plane = value(call, known.modes + 1);
   const double now = state_.plane == Plane::xy ? 1.0 : state_.plane == Plane::zx ? 2.0 : 3.0;
   const double written = value(call, known.modes + 2);
   bool fits = value(call, known.modes) == 0.0 && (plane == 0.0 || plane == now) && written >= 0.0 &&
