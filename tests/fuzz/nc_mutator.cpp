@@ -163,6 +163,36 @@ constexpr auto kSinumerik = std::to_array<std::string_view>({
     "T=\"DRILL\" M6",
 });
 
+constexpr auto kHeidenhain = std::to_array<std::string_view>({
+    "BEGIN PGM A MM",
+    "END PGM A MM",
+    "TOOL CALL 1 Z S~ F~",
+    "L X$ IY$ R0 FMAX",
+    "L Z$ F~ M99",
+    "CC X$ Y$",
+    "C X$ Y$ DR+",
+    "CP IPA$ IZ$ DR-",
+    "CR X$ Y$ R$ DR+",
+    "CT X$ Y$",
+    "LP PR~ PA$",
+    "RND R~",
+    "CHF ~",
+    "Q1 = Q1 + $ * SIN Q1",
+    "FN 0: Q1 = $",
+    "LBL 1",
+    "LBL 0",
+    "CALL LBL 1",
+    "CALL LBL 1 REP 2",
+    "FN 12: IF +Q1 LT +$ GOTO LBL 1",
+    "CYCL DEF 200 DRILL\nQ200=~\nQ201=-~\nQ206=~\nQ202=~\nQ203=0\nQ204=~",
+    "Q201=-~ ;DEPTH",
+    "CYCL DEF 7.1 X$",
+    "CYCL DEF 10.1 ROT$",
+    "CYCL DEF 8.1 X",
+    "CYCL CALL M3",
+    "STOP",
+});
+
 /// The low bits of minstd_rand are poor; division drops them.
 std::size_t below(Random& random, std::size_t limit) {
   return random() / 7 % limit;
@@ -178,8 +208,8 @@ std::string number(Random& random, bool positive) {
 }
 
 std::string one_line(Random& random, std::uint8_t dialect) {
-  static constexpr std::array<std::span<const std::string_view>, 3> kOwn = {kLinuxcnc, kFanuc,
-                                                                            kSinumerik};
+  static constexpr std::array<std::span<const std::string_view>, 4> kOwn = {
+      kLinuxcnc, kFanuc, kSinumerik, kHeidenhain};
   const std::span<const std::string_view> own = kOwn[dialect % kOwn.size()];
   // Two thirds of the choice from what all dialects know.
   const std::size_t at = below(random, 2 * kLines.size() + own.size());

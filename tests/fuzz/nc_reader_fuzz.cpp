@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   interpret::Config config;
-  config.dialect = static_cast<steadyrest::nc::read::Dialect>(data[0] % 3U);
+  config.dialect = static_cast<steadyrest::nc::read::Dialect>(data[0] % 4U);
   config.most_repeated_lines = 2000;
   Watch watch;
   const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t most, unsigned seed) {
-  static constexpr std::uint8_t kDialects[] = {0, 1, 2};
+  static constexpr std::uint8_t kDialects[] = {0, 1, 2, 3};
   return steadyrest::fuzz::mutate_program(
-      data, size, most, seed, {.head = 1, .dialects = 3, .dialect_of = kDialects, .edits = false});
+      data, size, most, seed, {.head = 1, .dialects = 4, .dialect_of = kDialects, .edits = false});
 }

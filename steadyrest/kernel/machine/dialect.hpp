@@ -9,7 +9,7 @@
 namespace steadyrest::kernel::machine {
 
 /// The families of controls whose programs are read; consecutive from 0.
-enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
+enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik, heidenhain };
 
 /// As machine files and the command line write it; the names are given only here. A switch, so that
 /// the compiler names an enumerator that is forgotten. Empty beyond the last one.
@@ -21,6 +21,8 @@ enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
       return "fanuc";
     case Dialect::sinumerik:
       return "sinumerik";
+    case Dialect::heidenhain:
+      return "heidenhain";
   }
   return {};
 }

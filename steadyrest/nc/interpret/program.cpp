@@ -6,11 +6,10 @@
 #include <steadyrest/nc/interpret/decode/dialect_rules.hpp>
 #include <steadyrest/nc/interpret/flow/flow_control.hpp>
 #include <steadyrest/nc/interpret/flow/program_files.hpp>
-#include <steadyrest/nc/interpret/parameters/macro_variables.hpp>
-#include <steadyrest/nc/interpret/parameters/sinumerik_variables.hpp>
 #include <steadyrest/nc/interpret/program.hpp>
 #include <steadyrest/nc/interpret/program_counter.hpp>
 #include <steadyrest/nc/interpret/program_refusals.hpp>
+#include <steadyrest/nc/interpret/program_variables.hpp>
 #include <steadyrest/nc/interpret/provenance/provenance.hpp>
 #include <steadyrest/nc/read/reader.hpp>
 
@@ -34,24 +33,15 @@ class ProgramRun::Run {
         reader_(config.dialect),
         interpreter_(std::move(interpreter)),
         flow_(files_, interpreter_->parameters(), reader_, config),
-        macro_(interpreter_->state()),
+        variables_(interpreter_->state()),
         rules_(rules_of(config.dialect)),
         provenance_(config, rules_.settable_frames, interpreter_->parameters()),
         block_delete_(config.block_delete),
         counter_(sink, report_) {
-    switch (rules_.variables) {
-      case Variables::parameters:
-        reader_.set_values(&interpreter_->parameters());
-        break;
-      case Variables::macros:
-        reader_.set_values(&macro_);
-        break;
-      case Variables::typed:
-        reader_.set_typed_values(&typed_);
-        break;
-    }
+    variables_.bind(rules_.variables, interpreter_->parameters(), reader_);
+    interpreter_->set_cycle_values(variables_.q);
     reader_.set_block_delete(config.block_delete);
-    macro_.note_unknown(provenance_.known());
+    variables_.macro.note_unknown(provenance_.known());
   }
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -102,7 +92,7 @@ class ProgramRun::Run {
     if (rules_.programs_in_a_row && !ends_in_order()) {
       return false;
     }
-    if (rules_.named_calls && flow_.in_call() && typed_.values_left() &&
+    if (rules_.named_calls && flow_.in_call() && variables_.typed.values_left() &&
         !(block_.words().empty() && block_.flow().kind == read::FlowKind::none)) {
       return refuse(at_block(block_, "subprogram_call",
                              "a call with more values than the subprogram takes (PROC)"));
@@ -114,6 +104,9 @@ class ProgramRun::Run {
       const bool accepted = follow(flow_.act(block_));
       provenance_.lose(flow_.take_lost());
       return accepted;
+    }
+    if (rules_.klartext && block_.end_mark() && flow_.in_call()) {
+      return follow(flow_.end_file(block_));
     }
     executed_ = !(block_.deleted() && block_delete_);
     if (executed_ && block_.acting() > read::Acting::message) {
@@ -127,9 +120,10 @@ class ProgramRun::Run {
       provenance_.executed(block_, interpreter_->state());
     }
     report_.blocks += block_.words().empty() ? 0U : 1U;
-    if (rules_.named_calls && interpreter_->finished() && flow_.in_call()) {
+    if (interpreter_->finished() && (rules_.named_calls ? flow_.in_call() : flow_.in_file())) {
       return refuse(at_block(block_, "subprogram_end",
-                             "the end of a program in a subprogram; write M17 or RET"));
+                             "the end of a program in a subprogram; write M17 or RET, in Klartext "
+                             "END PGM"));
     }
     return program_call();
   }
@@ -160,7 +154,7 @@ class ProgramRun::Run {
   }
 
   Asked& asked() noexcept {
-    return rules_.variables == Variables::macros ? macro_.asked()
+    return rules_.variables == Variables::macros ? variables_.macro.asked()
                                                  : interpreter_->parameters().asked();
   }
 
@@ -193,7 +187,7 @@ class ProgramRun::Run {
     }
     const bool accepted = follow(flow_.end_program(block_.line()));
     if (again_) {
-      typed_.restart();
+      variables_.typed.restart();
     }
     return accepted;
   }
@@ -221,11 +215,12 @@ class ProgramRun::Run {
     again_ = calls_ == calls;
     for (; calls_ < calls; ++calls_) {
       interpreter_->enter_call();
-      typed_.enter(block_.flow());
+      variables_.typed.enter(block_.flow());
     }
+    variables_.q.at_depth(flow_.files());
     for (; calls_ > calls; --calls_) {
       interpreter_->leave_call(counter_);
-      typed_.leave();
+      variables_.typed.leave();
     }
     return accepted || refuse(flow_.refused());
   }
@@ -291,9 +286,13 @@ class ProgramRun::Run {
       if (source.line().find_first_of("#[") != std::string_view::npos) {
         continue;
       }
+      // Read all the same: the line may continue the one before it, or be continued.
+      const bool known = !rules_.klartext || source.line().find('Q') == std::string_view::npos;
       if (!reader_.read(source.line(), source.number(), source.ending_length(), block_)) {
-        add_kind(report_, reader_.refused());
-      } else if (!block_.words().empty() && !interpreter_->survey(block_)) {
+        if (known) {
+          add_kind(report_, reader_.refused());
+        }
+      } else if (known && !block_.words().empty() && !interpreter_->survey(block_)) {
         add_kind(report_, interpreter_->refused());
       }
     }
@@ -303,8 +302,7 @@ class ProgramRun::Run {
   Reader reader_;
   std::unique_ptr<Interpreter> interpreter_;
   FlowControl flow_;
-  MacroVariables macro_;
-  SinumerikVariables typed_;
+  ProgramVariables variables_;
   bool again_ = false;  ///< a subprogram restarts: neither entered nor left
   const DialectRules& rules_;
   Provenance provenance_;
@@ -378,17 +376,7 @@ const Asked& ProgramRun::asked() const noexcept {
 // What the control would keep after the program; rewrite compares it.
 ProgramRun::Kept ProgramRun::kept() const {
   Kept kept{.tools = run_->interpreter_->tools().value_or(std::vector<Tool>{}), .variables = {}};
-  switch (run_->rules_.variables) {
-    case Variables::parameters:
-      run_->interpreter_->parameters().list(kept.variables);
-      break;
-    case Variables::macros:
-      run_->macro_.list(kept.variables);
-      break;
-    case Variables::typed:
-      run_->typed_.list(kept.variables);
-      break;
-  }
+  run_->variables_.list(run_->rules_.variables, run_->interpreter_->parameters(), kept.variables);
   return kept;
 }
 const State& ProgramRun::state() const noexcept {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <string>
 
+#include <steadyrest/nc/read/heidenhain/klartext_line.hpp>
 #include <steadyrest/nc/read/letter/letter_line.hpp>
 #include <steadyrest/nc/read/letter/o_word.hpp>
 #include <steadyrest/nc/read/reader.hpp>
@@ -29,11 +30,16 @@ bool read_sinumerik(Reading& reading, std::string_view line, std::uint32_t numbe
   return SinumerikLine(reading, line, number, block).read();
 }
 
+bool read_klartext(Reading& reading, std::string_view line, std::uint32_t number, Block& block) {
+  return KlartextLine(reading, line, number, block).read();
+}
+
 // The longest lines: LinuxCNC 2.9 takes 253 characters (measured: 252 and LF are read, one more is
 // "Command too long"); the others are ours, far above what the controls store.
 constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, false, false};
 constexpr Rules kFanucRules = {read_letters<kFanucLetters>, 1024, false, true, false};
 constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true};
+constexpr Rules kHeidenhainRules = {read_klartext, 1024, false, false, false};
 
 // A switch, not an array: the compiler names a dialect that is missing here.
 constexpr const Rules& rules_of(Dialect dialect) noexcept {
@@ -42,6 +48,8 @@ constexpr const Rules& rules_of(Dialect dialect) noexcept {
       return kFanucRules;
     case Dialect::sinumerik:
       return kSinumerikRules;
+    case Dialect::heidenhain:
+      return kHeidenhainRules;
     case Dialect::linuxcnc:
       break;
   }

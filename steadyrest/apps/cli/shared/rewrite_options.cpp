@@ -53,6 +53,7 @@ Method written(Method method, kernel::machine::Dialect dialect) {
     case kernel::machine::Dialect::fanuc:
       return Method::fanuc;
     case kernel::machine::Dialect::sinumerik:
+    case kernel::machine::Dialect::heidenhain:
       break;
   }
   return method;
@@ -95,8 +96,10 @@ std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
   if (written(method, program) == Method::by_dialect) {
     return refused(
         bad_input(fmt::format("no method for corrections in dialect {}", nc::read::name(program)),
-                  "add [compensation] to the machine file (method = \"r_parameter\", "
-                  "\"setting_data\" or \"frame_fine\"), or give --r-parameter N"));
+                  program == Dialect::sinumerik
+                      ? "add [compensation] to the machine file (method = \"r_parameter\", "
+                        "\"setting_data\" or \"frame_fine\"), or give --r-parameter N"
+                      : "correct it by other means; check, moves and time read it"));
   }
   const auto r_parameter = options.r_parameter == kNoParameter
                                ? compensation.r_parameter

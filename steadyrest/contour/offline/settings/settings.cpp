@@ -60,6 +60,9 @@ std::string feed_forward_words(Dialect dialect, std::span<Axis* const> axes, dou
     case Dialect::fanuc:
       return fmt::format("parameter 2005#1 = 1 and 2068 = {:.0f} (0.01 %) on {}", 1e4 * weight,
                          names);
+    case Dialect::heidenhain:
+      return fmt::format("feed-forward (velocity pre-control) at {:.0f} % on {}", 100.0 * weight,
+                         names);
     case Dialect::linuxcnc:
       break;
   }
@@ -73,6 +76,8 @@ std::string gain_words(Dialect dialect, std::span<Axis* const> axes, double gain
       return fmt::format("MD32200 POSCTRL_GAIN = {:.3g} on {}", 0.06 * gain_1_s, names);
     case Dialect::fanuc:
       return fmt::format("parameter 1825 = {:.0f} on {}", 100.0 * gain_1_s, names);
+    case Dialect::heidenhain:
+      return fmt::format("kv factor = {:.3g} (m/min)/mm on {}", 0.06 * gain_1_s, names);
     case Dialect::linuxcnc:
       break;
   }

@@ -69,11 +69,12 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   if (block.words().empty() && !block.end_mark()) {
     return true;
   }
-  cutter_.send_to(sink);
+  const bool klartext = control_.rules.klartext;
+  cutter_.send_to(klartext ? klartext_.through(sink) : sink);
   if (block.end_mark()) {
     finished_ = true;
     cutter_.end_mark(block.line());
-    return true;
+    return klartext_.end(block.line());
   }
   if (block.words().front().qualifier == read::Qualifier::fine) {
     return frames_.set_fine(block.words().front());
@@ -89,11 +90,17 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     assumptions_.look(step_);
     return frames_.set(step_);
   }
+  if (KlartextBlocks::takes(step_)) {
+    return klartext_.execute(step_);
+  }
   // The checks come before anything acts. Faults that show only during execution are refused there;
   // either way nothing runs after a refusal.
   if (!(check_.choose_motion(step_) && check_.check(step_) && check_rotary(step_, control_) &&
-        frames_.settle(step_) && act(step_))) {
+        frames_.settle(step_) && klartext_.before(step_) && act(step_))) {
     return false;
+  }
+  if (klartext) {
+    return klartext_.after(step_);
   }
   // A modal cycle (MCALL) drills after each block that moves.
   return step_.moves_by < 0 || (step_.mask & kAxisMask) == 0 || cycle_calls_.after_move();
@@ -115,7 +122,13 @@ bool Interpreter::survey(const Block& block) {
   if (!block.words().empty() && block.words().front().qualifier == read::Qualifier::fine) {
     return true;
   }
-  return decode(block);
+  if (decode(block)) {
+    return true;
+  }
+  // heidenhain: what follows from blocks that were not executed says nothing here.
+  const std::string& reason = control_.refusals.last().reason;
+  return control_.rules.klartext &&
+         (reason == "pole_missing" || reason == "tangent" || reason == "feed_missing");
 }
 
 // M73 restores the caller's modes at the end of its subprogram.

@@ -8,6 +8,7 @@
 
 #include <steadyrest/kernel/outcome/result.hpp>
 #include <steadyrest/nc/interpret/blocks/frames.hpp>
+#include <steadyrest/nc/interpret/blocks/klartext_blocks.hpp>
 #include <steadyrest/nc/interpret/blocks/machine_words.hpp>
 #include <steadyrest/nc/interpret/blocks/modes.hpp>
 #include <steadyrest/nc/interpret/blocks/offset_data.hpp>
@@ -59,6 +60,8 @@ class Interpreter {
   [[nodiscard]] const std::optional<std::vector<Tool>>& tools() const noexcept {
     return control_.config.tools;
   }
+  /// heidenhain: the Q parameters that cycles read. Outlives the interpreter's use.
+  void set_cycle_values(const read::Values& q) noexcept { klartext_.bind(q); }
   /// A subprogram begins or ends: it has its own saved modes (M70, M73).
   void enter_call() { modes_.enter_call(); }
   void leave_call(Sink& sink);
@@ -104,6 +107,7 @@ class Interpreter {
   Threading threading_{control_, out_};
   Drilling drilling_{control_, out_};
   CycleCalls cycle_calls_{control_, out_};
+  KlartextBlocks klartext_{control_, out_};
   PlainBlock plain_{control_, out_, machine_, cutter_, splines_};
   Step step_{};
   ProgramCall program_call_;

@@ -27,7 +27,8 @@ using Decoder = bool (*)(const Decoding& in, const read::Block& block, Step& ste
 enum class Variables : std::uint8_t {
   parameters,  ///< `#5`, `#<name>` of linuxcnc
   macros,      ///< `#5` of fanuc's custom macros
-  typed        ///< R-parameters and declared names of sinumerik
+  typed,       ///< R-parameters and declared names of sinumerik
+  q            ///< Q, QL and QR of heidenhain
 };
 
 /// A dialect: its decoder, and how it executes steps where dialects differ. Each dialect's folder
@@ -59,6 +60,7 @@ struct DialectRules {
   bool has_g92 = true;
   bool settable_frames = false;  ///< G54 … G57, G500 … G599 select them; G70, G71, G700, G710 units
   bool edge_chooses_length = false;  ///< D and T, not G43
+  bool klartext = false;  ///< corners are rounded by blocks of their own; cycles by number; labels
 };
 
 [[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;

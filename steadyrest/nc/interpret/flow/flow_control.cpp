@@ -94,6 +94,16 @@ bool FlowControl::act(const Block& block) {
       return leave_loop(block);
     case FlowKind::next_turn:
       return next_turn(block);
+    case FlowKind::mark:
+      return true;
+    case FlowKind::mark_end:
+      return end_of_mark(block);
+    case FlowKind::call_mark:
+      return call_mark(block);
+    case FlowKind::jump_mark:
+      return jump_mark(block);
+    case FlowKind::call_file:
+      return call_file(block);
   }
   return true;
 }
@@ -253,7 +263,7 @@ bool FlowControl::refuse_end() {
   }
   if (in_call()) {
     return !refuse(files_.now().number() - 1, frames_.back().sub, "o_word_without_end",
-                   "the file ends in a subprogram; close it with endsub or M99");
+                   "the file ends in a subprogram; close it with endsub, M99 or LBL 0");
   }
   return false;
 }

@@ -51,13 +51,18 @@ class FlowControl {
   bool call_numbered(std::uint32_t line, std::int32_t number, double repeats);
   /// A call by name of sinumerik: NAME.SPF or NAME.MPF in the folders.
   bool call_named(const read::Block& block);
+  /// END PGM of a program that CALL PGM has called.
+  bool end_file(const read::Block& block);
+  /// How many programs are being called by CALL PGM, and whether any is.
+  [[nodiscard]] std::size_t files() const noexcept { return files_called_; }
+  [[nodiscard]] bool in_file() const noexcept { return files_called_ != 0; }
   /// To be called for each line, with the moves so far; false when the limit is reached.
   bool count_line(std::uint64_t moves_before);
   /// Why the file must not end here; false when it may.
   bool refuse_end();
   [[nodiscard]] bool in_call() const noexcept { return frames_.size() > 1; }
   [[nodiscard]] bool repeating() const noexcept {
-    return in_call() || !frames_.back().open.empty();
+    return in_call() || !frames_.back().open.empty() || jumped_;
   }
 
   /// Whether the line at hand is executed is the control's decision.
@@ -107,7 +112,21 @@ class FlowControl {
     /// Lines of loops whose further turns are in doubt. Designated initialisers may leave it out.
     // NOLINTNEXTLINE(readability-redundant-member-init)
     std::vector<std::uint32_t> left_heads = {};
+    bool is_file = false;  ///< CALL PGM
+    /// Lines of CALL LBL REP that are being repeated, with the repeats that are left.
+    // NOLINTNEXTLINE(readability-redundant-member-init)
+    std::vector<std::pair<std::uint32_t, double>> sections = {};
   };
+
+  // heidenhain: flow_marks.cpp
+  bool call_mark(const read::Block& block);
+  bool repeat_section(const read::Block& block, const Place& head);
+  bool end_of_mark(const read::Block& block);
+  bool jump_mark(const read::Block& block);
+  bool call_file(const read::Block& block);
+  const Place* mark(const read::Block& block);
+  bool note_marks(std::uint32_t line);
+  bool refuse_mark(const read::Block& block, std::string_view reason, std::string_view text);
 
   bool sub(const read::Block& block);
   bool call(const read::Block& block);
@@ -155,6 +174,11 @@ class FlowControl {
   std::map<std::string, Place> heads_;     ///< labels that head a block
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> turns_left_;  ///< repeats by file, line
   bool programs_noted_ = false;
+  /// Labels of heidenhain by file → after their lines; of the files that have been noted.
+  std::map<std::pair<std::uint32_t, std::string>, Place> marks_;
+  std::vector<std::uint32_t> marked_files_;
+  std::size_t files_called_ = 0;
+  bool jumped_ = false;  ///< backwards, ever: lines may be executed again
   Passing passing_ = Passing::nothing;
   std::string passing_label_;
   std::uint32_t passing_from_ = 0;

@@ -38,6 +38,25 @@ struct CycleMemory {
   friend bool operator==(const CycleMemory&, const CycleMemory&) = default;
 };
 
+/// What only `heidenhain` keeps from block to block.
+struct KlartextState {
+  std::array<double, 3> pole_mm{};  ///< CC, in the coordinates of `State::position`
+  bool pole_known = false;
+  bool begun = false;               ///< BEGIN PGM has given the unit
+  std::uint32_t mirrored = 0;       ///< axes by their letters' bits (CYCL DEF 8)
+  std::array<double, 2> heading{};  ///< unit vector at the end of the last move, in the plane
+  bool heading_known = false;
+  int defining = 0;  ///< number of the last CYCL DEF, of any kind
+  int cycle = 0;     ///< of the last one that CYCL CALL runs; 0 = none
+  bool cycle_ready = false;
+  bool cycle_modal = false;             ///< M89
+  std::array<double, 8> cycle_parts{};  ///< CYCL DEF n.1 … n.7, as written
+  std::uint32_t cycle_given = 0;        ///< bit k: part k has a value
+  double auto_feed = -1.0;              ///< F of TOOL CALL, program units; < 0 = none
+
+  friend bool operator==(const KlartextState&, const KlartextState&) = default;
+};
+
 /// All modal state: a plain value that can be logged and restored. mm, degrees, seconds.
 struct State {
   Axes position{};     ///< active work coordinates
@@ -100,6 +119,7 @@ struct State {
   Axes cutter_shift{};    ///< tool's centre − programmed point while it is on
   bool diameter = false;  ///< G7
   std::uint32_t line = 0;
+  KlartextState klartext;
 
   friend bool operator==(const State&, const State&) = default;
 };

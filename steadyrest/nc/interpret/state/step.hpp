@@ -46,6 +46,35 @@ inline constexpr std::size_t kMGroups = 8;
 
 inline constexpr std::int16_t kNoCode = -1;
 
+/// What only blocks of `heidenhain` say: see decode/heidenhain.
+struct KlartextStep {
+  enum class Kind : std::uint8_t {
+    none,
+    pole,      ///< CC
+    rounding,  ///< RND
+    chamfer,   ///< CHF
+    cycle,     ///< CYCL DEF
+    tool       ///< TOOL DEF
+  };
+  /// When the cycle that is defined runs.
+  enum class Call : std::uint8_t { none, once, modal };
+  Kind kind = Kind::none;
+  Call call = Call::none;
+  std::array<double, 3> pole_mm{};
+  double length_mm = 0.0;  ///< of RND and CHF
+  double feed = -1.0;      ///< F of RND, CHF and TOOL CALL, as F words; < 0 = not given
+  int cycle = 0;           ///< number of CYCL DEF
+  int part = -1;           ///< of CYCL DEF n.k; < 0 = a cycle whose values are Q parameters
+  bool complete = false;   ///< CYCL DEF ends with this line
+  bool has_value = false;
+  double value = 0.0;              ///< of CYCL DEF n.k, as written
+  bool incremental = false;        ///< that value
+  double tool_delta_mm = 0.0;      ///< TOOL CALL DL
+  bool call_at = false;            ///< CYCL CALL POS
+  bool spindle_off_after = false;  ///< M5 in a block that moves: at its end
+  bool coolant_off_after = false;  ///< M9 likewise
+};
+
 /// A block in the one vocabulary that the interpreter executes, whatever its dialect.
 ///
 /// Codes are LinuxCNC's (words.hpp); words are addressed by letter. The dialects' decoders
@@ -82,6 +111,8 @@ struct Step {
   /// another name, as R from CR=: that word's place in the block.
   std::uint32_t renamed_letters = 0;
   std::uint32_t renamed_groups = 0;
+  bool has_klartext = false;  ///< the next says something
+  KlartextStep klartext;      ///< of another block where `has_klartext` is false
   std::array<std::uint8_t, 26> letter_from;
   std::array<std::uint8_t, kGGroups> group_from;
 
@@ -112,6 +143,7 @@ struct Step {
     block = &source;
     renamed_letters = 0;
     renamed_groups = 0;
+    has_klartext = false;
   }
   /// 0 for anything but a letter: words whose address is a name, and @ ^.
   static constexpr std::uint32_t bit(char letter) noexcept {

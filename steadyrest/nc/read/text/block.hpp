@@ -53,10 +53,15 @@ enum class FlowKind : std::uint8_t {
   loop_do,  ///< do
   repeat,
   endrepeat,
-  leave_loop,  ///< break
-  next_turn,   ///< continue
-  cycle,       ///< sinumerik CYCLE…( )
-  modal_cycle  ///< sinumerik MCALL; without a label its end
+  leave_loop,   ///< break
+  next_turn,    ///< continue
+  cycle,        ///< sinumerik CYCLE…( )
+  modal_cycle,  ///< sinumerik MCALL; without a label its end
+  mark,         ///< heidenhain LBL: a place that calls and jumps name
+  mark_end,     ///< heidenhain LBL 0: back from a call
+  call_mark,    ///< heidenhain CALL LBL; `count` 1: REP, with the repeats in values[0]
+  jump_mark,    ///< heidenhain FN 9 to FN 12: to the label if values[0] is not 0
+  call_file     ///< heidenhain CALL PGM
 };
 
 // The values are not zeroed for each line: `count` says how many there are.

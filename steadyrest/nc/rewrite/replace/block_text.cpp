@@ -81,6 +81,7 @@ int decimals_of(read::Dialect dialect, double unit_mm) noexcept {
     case read::Dialect::linuxcnc:
       return 5 + inch;
     case read::Dialect::sinumerik:
+    case read::Dialect::heidenhain:
       return 4 + inch;
     case read::Dialect::fanuc:
       return 3 + inch;

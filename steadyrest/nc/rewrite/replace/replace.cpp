@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <steadyrest/kernel/outcome/bad_input.hpp>
 #include <steadyrest/nc/rewrite/replace/replace.hpp>
 #include <steadyrest/nc/rewrite/text/place_of_head.hpp>
 #include <steadyrest/nc/rewrite/text/replaced_text.hpp>
@@ -22,8 +23,10 @@ Way way_of_comments(read::Dialect dialect) {
       return {.method = Method::fanuc};
     case read::Dialect::sinumerik:
       return {.method = Method::frame_fine};
+    case read::Dialect::heidenhain:  // nothing is written into its programs: see replace()
+      break;
   }
-  return {};
+  return {.method = Method::by_dialect};
 }
 
 /// Copies a program and puts new lines in.
@@ -87,6 +90,11 @@ class Copy {
 Result<Replaced> replace(const std::string& program, read::Dialect dialect, const NewLines& lines,
                          const std::vector<Told>& told) {
   const Way way = way_of_comments(dialect);
+  if (way.method == Method::by_dialect) {
+    return std::unexpected(kernel::outcome::bad_input(
+        program, "a program in a dialect that is read, but not written into",
+        "correct it by other means; check, moves and time read it"));
+  }
   auto source = SourceLines::open(program);
   if (!source) {
     return std::unexpected(source.error());

@@ -19,6 +19,7 @@ bool in_brackets(Dialect dialect) noexcept {
       return true;
     case Dialect::linuxcnc:
     case Dialect::sinumerik:
+    case Dialect::heidenhain:
       break;
   }
   return false;
@@ -29,6 +30,7 @@ std::size_t longest_block(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::linuxcnc:
     case Dialect::fanuc:
+    case Dialect::heidenhain:
       return 250;
     case Dialect::sinumerik:
       return 500;

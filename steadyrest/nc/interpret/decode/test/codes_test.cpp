@@ -55,7 +55,7 @@ TEST(Dialects, AreNamedInTheOrderOfTheEnumerationAndFoundByTheirNames) {
     EXPECT_EQ(read::name(dialect), kernel::machine::kDialectNames[i]);
     EXPECT_EQ(read::dialect_from_name(read::name(dialect)), dialect);
   }
-  EXPECT_EQ(kernel::machine::kDialectNames.back(), "sinumerik");
+  EXPECT_EQ(kernel::machine::kDialectNames.back(), "heidenhain");
   EXPECT_FALSE(read::dialect_from_name(""));
 }
 
