@@ -3,6 +3,8 @@
 judge how it is read."""
 import re
 
+from nc_in_plain_moves import has_frames, pecks_with_dwell, plain_moves
+
 
 def value_at(line, at):
     """Where the value ends that begins at `at`: signs, then #…, [ ] or a function with its brackets."""
@@ -161,10 +163,25 @@ def sinumerik_lines(lines):
     return out
 
 
+def haas_words(text):
+    """Words that move nothing go; a dwell without a point is in milliseconds; a cycle taps rigidly."""
+    text = re.sub(r"G(187|103|5\.1|8)(?![\d.])[^\n(]*", "", text)
+    text = re.sub(r"M(31|33|83|84|88|89|10|11|80|81)(?!\d)", "", text)
+    return re.sub(r"G0*4 ?P(\d+)(?![\d.])", lambda m: f"G4 P{int(m.group(1)) / 1000}", text)
+
+
 def equivalent_of(program, dialect, oracle):
     """The same program in LinuxCNC's words, derived mechanically, where the meaning is common; None where it is not."""
     text = open(program, errors="replace").read()
-    if dialect == "fanuc":
+    if dialect in ("grbl", "mach3"):
+        lines = [re.sub(r";.*|[?~]", "", re.sub(r"\(.*\)", "", line)) for line in text.splitlines() if not re.match(r"\s*[$%?~]", line)]
+        body = "\n".join(lines) + "\nM2\n"
+    elif dialect in ("fanuc", "haas"):
+        if dialect == "haas":
+            text = haas_words(text)
+        text = pecks_with_dwell(re.sub(r"M1[01](?!\d)", "", text))
+        if has_frames(text):
+            text = "\n".join(plain_moves(text))
         text = re.sub(r"(?im)^(.*?)G0*([01])?\s*(G91)?\s*G0*28", lambda m: m.group(0), text)
         lines = []
         for line in text.splitlines():

@@ -28,7 +28,7 @@ def programs(folders):
 
 def dialect_of(program):
     folder = os.path.basename(os.path.dirname(os.path.abspath(program)))
-    if folder in ("linuxcnc", "fanuc", "sinumerik") and os.sep + "accepted" + os.sep in os.path.abspath(program):
+    if folder in ("linuxcnc", "fanuc", "sinumerik", "haas", "grbl", "mach3") and os.sep + "accepted" + os.sep in os.path.abspath(program):
         return folder
     if program.lower().endswith(".mpf"):
         return "sinumerik"

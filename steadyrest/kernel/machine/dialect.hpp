@@ -9,7 +9,7 @@
 namespace steadyrest::kernel::machine {
 
 /// The families of controls whose programs are read; consecutive from 0.
-enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
+enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik, haas, grbl, mach3 };
 
 /// As machine files and the command line write it; the names are given only here. A switch, so that
 /// the compiler names an enumerator that is forgotten. Empty beyond the last one.
@@ -21,6 +21,12 @@ enum class Dialect : std::uint8_t { linuxcnc, fanuc, sinumerik };
       return "fanuc";
     case Dialect::sinumerik:
       return "sinumerik";
+    case Dialect::haas:
+      return "haas";
+    case Dialect::grbl:
+      return "grbl";
+    case Dialect::mach3:
+      return "mach3";
   }
   return {};
 }

@@ -250,7 +250,9 @@ class ProgramRun::Run {
           source_failed_ = true;
           return refuse(flow_.refused());
         }
-        refuse_end();
+        if (flow_.in_call() || !interpreter_->end_of_file(line_, counter_)) {
+          refuse_end();
+        }
         return false;
       case LineSource::Status::too_long:
         refuse_source("line_too_long",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -14,10 +15,13 @@ namespace {
 /// How the lines of a dialect are read.
 struct Rules {
   bool (*read)(Reading& reading, std::string_view line, std::uint32_t number, Block& block);
-  std::size_t longest;           ///< line, its end included
-  bool values_are_numbers;       ///< unless the line says otherwise: see Reader::numbers_alone
-  bool percent_closes_unopened;  ///< a program may end with % without having begun with it
-  bool archive_name;             ///< its first line may be %_N_NAME, as the control writes it
+  std::size_t longest;              ///< line, its end included
+  bool values_are_numbers;          ///< unless the line says otherwise: see Reader::numbers_alone
+  bool percent_closes_unopened;     ///< a program may end with % without having begun with it
+  bool archive_name;                ///< its first line may be %_N_NAME, as the control writes it
+  bool percent_is_nothing = false;  ///< senders leave lines with % out, wherever they are
+  std::size_t most_characters = 0;  ///< of its words; 0 = any number
+  bool has_values = true;           ///< `#` and expressions
 };
 
 template <const LetterRules& kLetters>
@@ -33,19 +37,42 @@ bool read_sinumerik(Reading& reading, std::string_view line, std::uint32_t numbe
 // "Command too long"); the others are ours, far above what the controls store.
 constexpr Rules kLinuxcncRules = {read_letters<kLinuxcncLetters>, 253, true, false, false};
 constexpr Rules kFanucRules = {read_letters<kFanucLetters>, 1024, false, true, false};
+// Senders take out blanks and comments; Grbl 1.1 then has room for 79 characters
+// (LINE_BUFFER_SIZE).
+constexpr Rules kGrblRules = {read_letters<kGrblLetters>, 1024, true, true, false, true, 79, false};
+constexpr Rules kMach3Rules = {read_letters<kMach3Letters>, 1024, true, true, false, true};
 constexpr Rules kSinumerikRules = {read_sinumerik, 514, false, true, true};
 
 // A switch, not an array: the compiler names a dialect that is missing here.
 constexpr const Rules& rules_of(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::fanuc:
+    case Dialect::haas:
       return kFanucRules;
+    case Dialect::grbl:
+      return kGrblRules;
+    case Dialect::mach3:
+      return kMach3Rules;
     case Dialect::sinumerik:
       return kSinumerikRules;
     case Dialect::linuxcnc:
       break;
   }
   return kLinuxcncRules;
+}
+
+// What is left of a line without its blanks and comments.
+bool fits(Reading& reading, const Block& block, std::size_t most) {
+  std::size_t characters = 0;
+  for (const Word& word : block.words()) {
+    characters += static_cast<std::size_t>(
+        std::ranges::count_if(word.text, [](char c) { return !is_blank(c); }));
+  }
+  return characters <= most ||
+         reading.refuse(block.line(), block.words().front().text, "line_too_long",
+                        "a block of " + std::to_string(characters) +
+                            " characters without its blanks and comments; Grbl 1.1 has room for " +
+                            std::to_string(most));
 }
 
 // Blanks and the CR of a line end that was not cut off.
@@ -58,6 +85,10 @@ std::string_view trimmed(std::string_view text) noexcept {
 }
 
 }  // namespace
+
+void Reader::set_values(Values* values) noexcept {
+  reading_.values = rules_of(reading_.dialect).has_values ? values : nullptr;
+}
 
 // `%` alone: opens the program in its first line that is not empty, closes it later on.
 bool Reader::percent(std::string_view line, std::uint32_t number, Block& block) {
@@ -105,6 +136,9 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   if (rules.archive_name && number == 1 && line.substr(first).starts_with("%_N_")) {
     return true;
   }
+  if (line[first] == '%' && rules.percent_is_nothing) {
+    return true;
+  }
   if (line[first] == '%') {
     const bool accepted = percent(line, number, block);
     seen_line_ = true;
@@ -112,7 +146,9 @@ bool Reader::read(std::string_view line, std::uint32_t number, std::size_t endin
   }
   seen_line_ = true;
   reading_.numbers_alone = rules.values_are_numbers;
-  const bool accepted = rules.read(reading_, line, number, block);
+  const bool accepted =
+      rules.read(reading_, line, number, block) &&
+      (rules.most_characters == 0 || fits(reading_, block, rules.most_characters));
   reading_.numbers_alone = reading_.numbers_alone && accepted;
   // Assignments act once the whole line is accepted, and not at all in a line left out by block
   // delete.

@@ -43,7 +43,7 @@ class Reader {
 
   /// What expressions read and assignments set; nullptr: expressions are refused. Must outlive the
   /// reading.
-  void set_values(Values* values) noexcept { reading_.values = values; }
+  void set_values(Values* values) noexcept;
 
   /// The same for sinumerik, whose variables have types.
   void set_typed_values(TypedValues* values) noexcept {

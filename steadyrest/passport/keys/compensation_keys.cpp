@@ -70,8 +70,9 @@ Dialect dialect_of(CompensationMethod method, Dialect own) noexcept {
     case CompensationMethod::linuxcnc:
       return Dialect::linuxcnc;
     case CompensationMethod::fanuc:
-    case CompensationMethod::haas:
       return Dialect::fanuc;
+    case CompensationMethod::haas:
+      return own == Dialect::haas ? Dialect::haas : Dialect::fanuc;
     case CompensationMethod::r_parameter:
     case CompensationMethod::setting_data:
     case CompensationMethod::frame_fine:

@@ -52,7 +52,11 @@ Method written(Method method, kernel::machine::Dialect dialect) {
       return Method::linuxcnc;
     case kernel::machine::Dialect::fanuc:
       return Method::fanuc;
+    case kernel::machine::Dialect::haas:
+      return Method::haas;
     case kernel::machine::Dialect::sinumerik:
+    case kernel::machine::Dialect::grbl:
+    case kernel::machine::Dialect::mach3:
       break;
   }
   return method;
@@ -74,7 +78,8 @@ std::expected<nc::rewrite::Way, Refusals> way_of(const RewriteOptions& options,
         fmt::format("--r-parameter with a program of dialect {}", nc::read::name(program)),
         "leave it out; only SINUMERIK controls have R-parameters"));
   }
-  if (!options.control.empty() && program != nc::read::Dialect::fanuc) {
+  if (!options.control.empty() && program != nc::read::Dialect::fanuc &&
+      program != nc::read::Dialect::haas) {
     // --control tells Haas from Fanuc: both read the same dialect, but G10 L2 P0 is an external
     // offset on the one and G52 on the other.
     return refused(bad_input(fmt::format("--control {} with a program of dialect {}",

@@ -60,6 +60,10 @@ std::string feed_forward_words(Dialect dialect, std::span<Axis* const> axes, dou
     case Dialect::fanuc:
       return fmt::format("parameter 2005#1 = 1 and 2068 = {:.0f} (0.01 %) on {}", 1e4 * weight,
                          names);
+    case Dialect::haas:
+    case Dialect::grbl:
+    case Dialect::mach3:
+      return fmt::format("a velocity feed-forward of {:.1f} % on {}", 100.0 * weight, names);
     case Dialect::linuxcnc:
       break;
   }
@@ -73,6 +77,10 @@ std::string gain_words(Dialect dialect, std::span<Axis* const> axes, double gain
       return fmt::format("MD32200 POSCTRL_GAIN = {:.3g} on {}", 0.06 * gain_1_s, names);
     case Dialect::fanuc:
       return fmt::format("parameter 1825 = {:.0f} on {}", 100.0 * gain_1_s, names);
+    case Dialect::haas:
+    case Dialect::grbl:
+    case Dialect::mach3:
+      return fmt::format("a position loop gain of {:.3g} 1/s on {}", gain_1_s, names);
     case Dialect::linuxcnc:
       break;
   }

@@ -70,6 +70,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
     return true;
   }
   cutter_.send_to(sink);
+  if (block.end_mark() && corners_.waits()) {
+    return corners_.refuse_end(block.line());
+  }
   if (block.end_mark()) {
     finished_ = true;
     cutter_.end_mark(block.line());
@@ -80,6 +83,9 @@ bool Interpreter::execute(const Block& block, Sink& sink) {
   }
   if (!decode(block)) {
     return false;
+  }
+  if (control_.rules.feed_may_be_missing && !(control_.state.feed_mm_s > 0.0)) {
+    assume_feed(step_);
   }
   if (plain_.takes(step_)) {
     assumptions_.look(step_);
@@ -109,6 +115,36 @@ bool Interpreter::execute_cycle(const Block& block, Sink& sink) {
   out_.begin_block(block.line());
   assumptions_.look_at_cycle(block);
   return cycle_calls_.call(block.flow());
+}
+
+bool Interpreter::end_of_file(std::uint32_t line, Sink& sink) {
+  if (!control_.rules.file_ends_program) {
+    return false;
+  }
+  cutter_.send_to(sink);
+  cutter_.end_mark(line);
+  finished_ = true;
+  assumptions_.note_end(line);
+  return true;
+}
+
+// grbl, mach3: a cut before the first F is at a feed left from before the program.
+void Interpreter::assume_feed(const Step& step) noexcept {
+  State& state = control_.state;
+  const int own = step.code(GGroup::motion);
+  const int motion = own == kNoCode ? state.motion : own;
+  const bool cuts = (motion >= g::kLinear && motion <= g::kArcCounterClockwise) || is_cycle(motion);
+  const bool per_minute = step.code(GGroup::feed_mode) == kNoCode
+                              ? state.feed_mode == FeedMode::per_minute
+                              : step.code(GGroup::feed_mode) == g::kPerMinute;
+  const bool moves = (step.mask & kAxisMask) != 0 || (step.mask & kCentreMask) != 0;
+  if (!cuts || !per_minute || !moves || (step.has('F') && step['F'] > 0.0) ||
+      (step.code(GGroup::non_modal) != kNoCode && step.code(GGroup::motion) == kNoCode)) {
+    return;
+  }
+  assumptions_.note_feed(step.line);
+  constexpr double kAssumed_mm_s = 100.0 / 60.0;
+  state.feed_mm_s = state.feed_deg_s = kAssumed_mm_s;
 }
 
 bool Interpreter::survey(const Block& block) {
@@ -143,6 +179,9 @@ bool Interpreter::decode(const Block& block) {
 // The order of execution within a block (README.md), that of RS274/NGC. It matters: a tool change
 // comes before the new tool's offset, a dwell before the move, a stop after it.
 bool Interpreter::act(const Step& step) {
+  if (!corners_.permits(step) || !text_frames_.permits(step)) {
+    return false;
+  }
   out_.begin_block(step.line);
   assumptions_.look(step);
   if (step.modulation >= 0) {
@@ -180,7 +219,8 @@ bool Interpreter::act(const Step& step) {
   }
   modes_.path(step);
   modes_.distance_and_retract(step);
-  return non_modal(step) && move(step) && call_program(step) && stop(step);
+  return text_frames_.set(step) && non_modal(step) && text_frames_.settle(step) && move(step) &&
+         call_program(step) && stop(step);
 }
 
 bool Interpreter::non_modal(const Step& step) {
@@ -239,6 +279,9 @@ bool Interpreter::move(const Step& step) {
   // fanuc: G53 leaves the motion word in force.
   if (step.machine_frame && control_.rules.machine_frame_is_rapid) {
     return motion_.straight(step);
+  }
+  if (step.has_fanuc && step.fanuc.pattern != kNoCode) {
+    return patterns_.drill(step);
   }
   if (is_cycle(motion)) {
     return drilling_.cycle(step);

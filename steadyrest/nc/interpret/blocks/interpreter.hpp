@@ -13,9 +13,12 @@
 #include <steadyrest/nc/interpret/blocks/offset_data.hpp>
 #include <steadyrest/nc/interpret/blocks/offsets.hpp>
 #include <steadyrest/nc/interpret/blocks/plain_block.hpp>
+#include <steadyrest/nc/interpret/blocks/text_frames.hpp>
 #include <steadyrest/nc/interpret/check/assumptions.hpp>
 #include <steadyrest/nc/interpret/cycle/cycle_calls.hpp>
 #include <steadyrest/nc/interpret/cycle/drilling.hpp>
+#include <steadyrest/nc/interpret/cycle/hole_patterns.hpp>
+#include <steadyrest/nc/interpret/motion/corners.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 #include <steadyrest/nc/interpret/motion/threading.hpp>
 
@@ -40,6 +43,8 @@ class Interpreter {
   /// A call of a drilling cycle (sinumerik); with MCALL it runs after each block that moves from
   /// now on.
   bool execute_cycle(const read::Block& block, Sink& sink);
+  /// The file ends without the program's end word: false where the dialect needs one.
+  bool end_of_file(std::uint32_t line, Sink& sink);
   /// Checks a block's words without executing: false when a word is not in the dialect.
   bool survey(const read::Block& block);
 
@@ -78,6 +83,7 @@ class Interpreter {
   bool decode(const read::Block& block);
   bool act(const Step& step);
   bool non_modal(const Step& step);
+  void assume_feed(const Step& step) noexcept;
   void motion_in_force(int motion) noexcept;
   void end_cycle() noexcept;
   bool move(const Step& step);
@@ -98,11 +104,14 @@ class Interpreter {
   Offsets offsets_{control_, out_};
   OffsetData data_{control_, out_};
   Frames frames_{control_, out_};
+  TextFrames text_frames_{control_, out_};
   CutterStage cutter_{control_, out_};
-  Motion motion_{control_, out_, cutter_, parameters_};
+  Corners corners_{control_, out_};
+  Motion motion_{control_, out_, cutter_, corners_, parameters_};
   Splines splines_{control_, out_};
   Threading threading_{control_, out_};
-  Drilling drilling_{control_, out_};
+  Drilling drilling_{control_, out_, assumptions_};
+  HolePatterns patterns_{control_, out_, drilling_};
   CycleCalls cycle_calls_{control_, out_};
   PlainBlock plain_{control_, out_, machine_, cutter_, splines_};
   Step step_{};

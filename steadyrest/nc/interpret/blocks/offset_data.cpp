@@ -89,33 +89,93 @@ void OffsetData::stand_at_machine(const Axes& machine) {
   }
 }
 
-// L2 alone: P1 to P6 are G54 to G59, P0 is the external offset added to all of them; on a Haas P0
+// L10 to L13: lengths and radii of tools. Without a tool table every tool has length 0 in this
+// reading, and moves are those of the tip, so nothing follows from them.
+bool OffsetData::set_tool_register(const Step& step, double form) {
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 1.0 || number >= 1e6 || !step.has('R')) {
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "G10 L10 to L13 need the register's number (P) and value (R)");
+  }
+  constexpr double kLength = 10.0;
+  if (form != kLength && !control_.config.tools) {
+    return true;
+  }
+  if (form != kLength) {
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "wear and radii (G10 L11 to L13) are not interpreted beside a tool "
+                            "table; L10 is");
+  }
+  Tool* const tool = place_of_tool(control_.config, static_cast<std::int32_t>(number));
+  if (tool == nullptr) {
+    return !control_.config.tools ||
+           refusals_.g_word(step, g::kSetData, "no_such_tool",
+                            "G10 names a tool (P) that is not in the tool table");
+  }
+  const double length = step['R'] * state_.unit_mm;
+  tool->offset[2] = length + (state_.incremental ? tool->offset[2] : 0.0);
+  return true;
+}
+
+// L20 P1 …: the offsets of G54.1 P, kept in order and 0 until they are set.
+bool OffsetData::set_more_offsets(const Step& step) {
+  constexpr double kMost = 300.0;
+  const double number = step.has('P') ? step['P'] : -1.0;
+  if (number != std::floor(number) || number < 1.0 || number > kMost) {
+    return refusals_.g_word(step, g::kSetData, "g10_form",
+                            "G10 L20 names no additional work offset; P1 to P300 are allowed");
+  }
+  const auto place = static_cast<std::size_t>(number) - 1;
+  if (state_.more_offsets.size() <= place) {
+    state_.more_offsets.resize(place + 1);
+  }
+  Axes& offset = state_.more_offsets[place];
+  add_words(step, offset);
+  if (state_.active_offset == kWorkOffsets + place) {
+    state_.work_in_force = offset;
+  }
+  update_offset(state_);
+  return true;
+}
+
+// G91 adds instead of replacing, so corrections can be written without knowing the value.
+void OffsetData::add_words(const Step& step, Axes& offset) const {
+  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
+    if (step.has(kAxisLetters[i])) {
+      offset[i] = component(step, i, state_) + (state_.incremental ? offset[i] : 0.0);
+    }
+  }
+}
+
+// L2: P1 to P6 are G54 to G59, P0 is the external offset added to all of them; on a Haas P0
 // is G52. In G91 the words are added to the offset.
 bool OffsetData::added_work(const Step& step, double form) {
+  if (form >= 10.0 && form <= 13.0) {
+    return set_tool_register(step, form);
+  }
+  if (form == 20.0) {
+    return set_more_offsets(step);
+  }
   if (form != 2.0) {
     return refusals_.g_word(step, g::kSetData, "g10_form",
-                            "this form of G10 is not interpreted; L2 (work offsets) is");
+                            "this form of G10 is not interpreted; L2 and L20 (work offsets) and "
+                            "L10 to L13 (tools) are");
   }
   const double number = step.has('P') ? step['P'] : -1.0;
   if (number != std::floor(number) || number < 0.0 || number > 6.0) {
     return refusals_.g_word(step, g::kSetData, "g10_form",
                             "G10 L2 names no work offset; P0 (external) to P6 (G59) are allowed");
   }
-  if (number == 0.0 && !control_.config.external_offset) {
+  if (number == 0.0 && !(control_.config.external_offset && control_.rules.external_offset)) {
     return refusals_.g_word(step, g::kSetData, "g10_form",
                             "G10 L2 P0 is G52 on this control; write G52");
   }
   if (step.has('R')) {
     return refusals_.letter(step, 'R', "unused_word", "an R word with G10 L2");
   }
-  // G91 adds instead of replacing, so corrections can be written without knowing the value.
   Axes& offset =
       number == 0.0 ? state_.external : state_.work_offset[static_cast<std::size_t>(number) - 1];
-  for (std::size_t i = 0; i < kAxisLetters.size(); ++i) {
-    if (step.has(kAxisLetters[i])) {
-      offset[i] = component(step, i, state_) + (state_.incremental ? offset[i] : 0.0);
-    }
-  }
+  add_words(step, offset);
   if (number == static_cast<double>(state_.active_offset) + 1.0) {
     state_.work_in_force = offset;
   }

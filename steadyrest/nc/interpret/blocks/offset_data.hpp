@@ -16,6 +16,9 @@ class OffsetData : private Stage {
   bool work(const Step& step, double form);
   bool added_work(const Step& step, double form);
   bool tool(const Step& step, double form);
+  bool set_tool_register(const Step& step, double form);
+  bool set_more_offsets(const Step& step);
+  void add_words(const Step& step, Axes& offset) const;
   /// Where the control now counts with another point, the next move begins where the machine is.
   void stand_at_machine(const Axes& machine);
   void place_here(const Step& step, double rotation_deg, Axes& offset) const;

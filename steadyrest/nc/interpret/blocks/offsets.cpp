@@ -26,7 +26,8 @@ bool Offsets::tool_length(const Step& step) {
       for (std::size_t i = 0; tool != nullptr && i < tool->offset.size(); ++i) {
         const double base =
             step.code(GGroup::tool_length) == g::kAddToolLength ? state_.tool_offset[i] : 0.0;
-        state_.tool_offset[i] = base + tool->offset[i];
+        const bool negative = step.has_fanuc && step.fanuc.negative_length;  // G44
+        state_.tool_offset[i] = base + (negative ? -tool->offset[i] : tool->offset[i]);
       }
       break;
     }
@@ -60,6 +61,11 @@ bool Offsets::work_offset(const Step& step) {
   }
   if (step.zero_offset) {
     state_.work_offset_on = false;
+  } else if (code == g::kMoreOffsets) {
+    const auto place = static_cast<std::size_t>(step.fanuc.offset) - 1;
+    state_.work_in_force = place < state_.more_offsets.size() ? state_.more_offsets[place] : Axes{};
+    state_.active_offset = kWorkOffsets + place;
+    state_.work_offset_on = true;
   } else if (code != kNoCode) {
     const std::size_t active = place_of_offset(code);
     // LinuxCNC keeps its values when the system is already in force, even if the program has since

@@ -74,6 +74,12 @@ void Assumptions::look_at_cycle(const read::Block& block) noexcept {
 
 std::vector<Assumption> Assumptions::found() const {
   std::vector<Assumption> out;
+  add_units(out);
+  add_others(out);
+  return out;
+}
+
+void Assumptions::add_units(std::vector<Assumption>& out) const {
   const std::string unit = unit_of(control_);
   const bool sinumerik = control_.rules.settable_frames;
   const std::string words = sinumerik ? "G70, G71, G700 or G710" : "G20 or G21";
@@ -102,6 +108,38 @@ std::vector<Assumption> Assumptions::found() const {
              std::string(sinumerik ? "write G700" : "write G20 in an earlier block") + settings,
          .bars_rewriting = true});
   }
+}
+
+void Assumptions::add_others(std::vector<Assumption>& out) const {
+  if (point_line_ != 0) {
+    out.push_back({.line = point_line_,
+                   .what = "decimal_point",
+                   .text = "a length without a decimal point is taken in whole units; by setting "
+                           "162 the control may count increments",
+                   .to_do = "write decimal points, or give --least-increment",
+                   .bars_rewriting = true});
+  }
+  if (missing_feed_line_ != 0) {
+    out.push_back({.line = missing_feed_line_,
+                   .what = "feed",
+                   .text = "a cut before the first F: grbl stops there (error 22) unless a feed is "
+                           "left from before; 100 mm/min are assumed",
+                   .to_do = "write F before the first G1",
+                   .bars_rewriting = true});
+  }
+  if (shift_line_ != 0) {
+    out.push_back({.line = shift_line_,
+                   .what = "shift_direction",
+                   .text = "which way the oriented tool is moved off the wall (Q) is a setting of "
+                           "the control; along the plane's first axis, positive, is assumed",
+                   .to_do = "check that the tool has room on every side"});
+  }
+  if (end_line_ != 0) {
+    out.push_back({.line = end_line_,
+                   .what = "end_of_file",
+                   .text = "the program ends with its file, without M2 or M30",
+                   .to_do = "check that the file is whole"});
+  }
   if (reference_line_ != 0) {
     out.push_back({.line = reference_line_,
                    .what = "reference_point",
@@ -109,7 +147,6 @@ std::vector<Assumption> Assumptions::found() const {
                            "machine's zero",
                    .to_do = "check what follows: parameters 1242 and 1243 of the control set it"});
   }
-  return out;
 }
 
 }  // namespace steadyrest::nc::interpret

@@ -28,14 +28,30 @@ class Assumptions {
     if (step.reference_point > 2 && reference_line_ == 0) {
       reference_line_ = step.line;
     }
+    if (step.has_fanuc && step.fanuc.no_point && point_line_ == 0) {
+      point_line_ = step.line;
+    }
   }
   /// A call of a cycle: its values are lengths.
   void look_at_cycle(const read::Block& block) noexcept;
+
+  /// The program ends where its file does.
+  void note_end(std::uint32_t line) noexcept { end_line_ = line; }
+  /// A cut before the first F.
+  void note_feed(std::uint32_t line) noexcept {
+    missing_feed_line_ = missing_feed_line_ == 0 ? line : missing_feed_line_;
+  }
+  /// The tool is moved off the wall of a bore before it comes out: which way is a setting.
+  void note_shift(std::uint32_t line) noexcept {
+    shift_line_ = shift_line_ == 0 ? line : shift_line_;
+  }
 
   [[nodiscard]] std::vector<Assumption> found() const;
 
  private:
   void note(const Step& step) noexcept;
+  void add_units(std::vector<Assumption>& out) const;
+  void add_others(std::vector<Assumption>& out) const;
   [[nodiscard]] bool uses_length(const Step& step) const noexcept;
   [[nodiscard]] bool uses_feed(const Step& step) const noexcept;
 
@@ -44,6 +60,10 @@ class Assumptions {
   std::uint32_t feed_line_ = 0;
   bool lengths_said_ = false;  ///< at that F word
   std::uint32_t reference_line_ = 0;
+  std::uint32_t point_line_ = 0;
+  std::uint32_t end_line_ = 0;
+  std::uint32_t missing_feed_line_ = 0;
+  std::uint32_t shift_line_ = 0;
 };
 
 }  // namespace steadyrest::nc::interpret

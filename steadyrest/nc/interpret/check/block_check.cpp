@@ -13,6 +13,13 @@ constexpr bool uses_axes(int non_modal) noexcept {
   return non_modal == g::kSetData || non_modal == g::kHome || non_modal == g::kSecondHome ||
          non_modal == g::kShift || non_modal == g::kSetOrigin;
 }
+/// G51, G51.1, G68 take axis words as places, G70 to G72 as the centre of a pattern.
+bool frame_takes_axes(const Step& step) noexcept {
+  return step.has_fanuc && step.fanuc.frame != kNoCode;
+}
+bool pattern_takes_words(const Step& step) noexcept {
+  return step.has_fanuc && step.fanuc.pattern != kNoCode;
+}
 constexpr bool is_arc(int code) noexcept {
   return code == g::kArcClockwise || code == g::kArcCounterClockwise;
 }
@@ -45,8 +52,11 @@ bool BlockCheck::choose_motion(Step& step) const {
   const int motion = step.code(GGroup::motion);
   const int non_modal = step.code(GGroup::non_modal);
   const bool axis_words = (step.mask & kAxisMask) != 0;
-  const bool axes_taken = uses_axes(non_modal);
+  const bool axes_taken = uses_axes(non_modal) || frame_takes_axes(step);
   step.moves_by = -1;
+  if (pattern_takes_words(step)) {
+    return by_pattern(step);
+  }
   if (step.machine_frame && rules_.machine_frame_is_rapid) {
     step.moves_by = axis_words ? g::kRapid : -1;
     return (motion == g::kCycleEnd || !is_cycle(state_.motion)) ||
@@ -75,6 +85,9 @@ bool BlockCheck::choose_motion(Step& step) const {
     step.moves_by = motion;
     return true;
   }
+  if (frame_takes_axes(step)) {
+    return true;
+  }
   if (axes_taken) {
     const bool limit = !std::isnan(step.speed_limit_rpm);  // G92 S
     if (!axis_words && !limit && (non_modal == g::kShift || non_modal == g::kSetOrigin)) {
@@ -95,6 +108,15 @@ bool BlockCheck::choose_motion(Step& step) const {
     step.moves_by = state_.motion;
   }
   return true;
+}
+
+// Haas G70 to G72: holes by the cycle of the block, or by the one in force.
+bool BlockCheck::by_pattern(Step& step) const {
+  const int motion = step.code(GGroup::motion);
+  step.moves_by = motion == kNoCode ? state_.motion : motion;
+  return is_cycle(step.moves_by) ||
+         refusals_.g_word(step, step.fanuc.pattern, "pattern_without_cycle",
+                          "a pattern of holes, but no drilling cycle is in force");
 }
 
 // The checks are independent; their order only decides which fault is reported.
@@ -187,7 +209,8 @@ bool BlockCheck::check_unused(const Step& step) const {
   constexpr std::uint32_t kNeedUse = Step::bit('D') | Step::bit('E') | Step::bit('H') |
                                      Step::bit('L') | Step::bit('P') | Step::bit('Q') |
                                      Step::bit('R') | kCentreMask;
-  if ((step.mask & kNeedUse) == 0) {
+  // A frame names what it takes itself, a pattern has its own I J K L.
+  if ((step.mask & kNeedUse) == 0 || frame_takes_axes(step) || pattern_takes_words(step)) {
     return true;
   }
   const int motion = step.moves_by;
@@ -209,11 +232,13 @@ bool BlockCheck::check_unused(const Step& step) const {
   const bool threads = motion == g::kThreadCycle;
   if (unused(step, 'I',
              arc || spline || threads || motion == g::kBackBore || motion == g::kRigidTap ||
-                 tool_data) ||
-      unused(step, 'J', arc || spline || threads || motion == g::kBackBore || tool_data) ||
+                 tool_data || takes_peck_words(motion)) ||
+      unused(step, 'J',
+             arc || spline || threads || motion == g::kBackBore || tool_data ||
+                 takes_peck_words(motion) || (rules_.taps_rigidly && motion == g::kTapRight)) ||
       unused(step, 'K',
              arc || threads || motion == g::kBackBore || motion == g::kThread ||
-                 motion == g::kRigidTap)) {
+                 motion == g::kRigidTap || takes_peck_words(motion))) {
     return false;
   }
   return !unused(step, 'L',
@@ -221,6 +246,10 @@ bool BlockCheck::check_unused(const Step& step) const {
                      non_modal == g::kSetData || io == m::kWaitForInput ||
                      step.code(MGroup::program) == m::kCall) &&
          check_unused_values(step);
+}
+
+bool BlockCheck::takes_peck_words(int motion) const noexcept {
+  return rules_.pecks_by_words && (motion == g::kPeck || motion == g::kBreakChips);
 }
 
 bool BlockCheck::check_unused_values(const Step& step) const {
@@ -233,14 +262,13 @@ bool BlockCheck::check_unused_values(const Step& step) const {
   const bool threads = motion == g::kThreadCycle;
   const bool drilling = is_cycle(motion);
   const bool pecks = motion == g::kBreakChips || motion == g::kPeck;
-  // For a later cycle of the row, whatever this one uses. P in G73 and G83 is a dwell on some
-  // controls.
+  // For a later cycle of the row, whatever this one uses.
   const bool kept_in_cycle = drilling && rules_.cycle_keeps_all_words;
   const bool p_override = override_switch >= m::kFeedOverride;
   const bool p_elsewhere = (io >= m::kOutputOnWithMove && io <= m::kWaitForInput) || orients ||
                            step.code(MGroup::program) == m::kCall;
   if (unused(step, 'P',
-             p_elsewhere || arc || (kept_in_cycle && !pecks) || motion == g::kCubicSpline ||
+             p_elsewhere || arc || kept_in_cycle || motion == g::kCubicSpline ||
                  motion == g::kSplinePoint || threads || non_modal == g::kDwell ||
                  non_modal == g::kSetData || p_override ||
                  step.code(GGroup::path_mode) == g::kContinuous || motion == g::kDrillDwell ||

@@ -28,6 +28,8 @@ class BlockCheck {
 
  private:
   bool by_modal_motion(Step& step, int motion) const;
+  bool by_pattern(Step& step) const;
+  [[nodiscard]] bool takes_peck_words(int motion) const noexcept;
   bool check_non_modal(const Step& step) const;
   bool check_spindle_choice(const Step& step) const;
   bool unused(const Step& step, char letter, bool used) const;

@@ -4,6 +4,7 @@
 
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/worded_end.hpp>
 #include <steadyrest/nc/interpret/state/frame.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -80,7 +81,9 @@ Axes to_work(const State& state, const Axes& machine) noexcept {
 // the machine inwards: settable offset and external offset, fine offset, the programmed frame
 // turned by the settable rotation, G92 turned by both rotations, the tool.
 void update_offset(State& state) noexcept {
-  const double settable_deg = state.work_offset_on ? state.rotation_deg[state.active_offset] : 0.0;
+  // Those of G54.1 P have no rotation.
+  const bool numbered = state.work_offset_on && state.active_offset < kWorkOffsets;
+  const double settable_deg = numbered ? state.rotation_deg[state.active_offset] : 0.0;
   const double rotation_deg = settable_deg + state.frame_rotation_deg;
   const Axes frame = turned(state.frame_shift, settable_deg);
   const bool turns = rotation_deg != 0.0 || state.rotation_in_force_deg != 0.0;
@@ -127,6 +130,9 @@ Axes end_point(const Step& step, const Control& control) noexcept {
   const State& state = control.state;
   if (step.machine_frame) {
     return machine_end(step, control);
+  }
+  if (has_worded_end(state)) {
+    return worded_end(step, state);
   }
   Axes end = state.position;
   // Loops over the axis words present, not all nine axes: nearly all blocks have one to three.

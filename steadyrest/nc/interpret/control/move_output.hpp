@@ -39,6 +39,8 @@ class MoveOutput {
     state_.position = end;
     send();
   }
+  /// A move that has been filled in before.
+  void put(const Move& move) { sink_->on_move(move); }
   /// The axes come to rest before the next move.
   void wait_for_rest() noexcept { current_.after_rest = true; }
   void dwell(double seconds);

@@ -4,6 +4,7 @@
 
 #include <steadyrest/nc/interpret/check/block_check.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/worded_end.hpp>
 #include <steadyrest/nc/interpret/cycle/drilling.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -47,7 +48,9 @@ bool Drilling::remember(const Step& step) {
   };
   const PlaneAxes axes = axes_of(state_.plane);
   const int code = step.moves_by;
+  const bool first_peck = control_.rules.pecks_by_words && step.has('I');
   const bool pecks = code == g::kBreakChips || code == g::kPeck;
+  const bool shifts = code == g::kFineBore || code == g::kBackBoreByShift;
   const bool dwells = code == g::kDrillDwell || code == g::kBoreStopOut ||
                       code == g::kBoreHandOut || code == g::kBoreDwell;
   const bool taps = code == g::kTapRight || code == g::kTapLeft;
@@ -57,10 +60,14 @@ bool Drilling::remember(const Step& step) {
   if (fresh && (taps || stay)) {
     memory.dwell_s = 0.0;
   }
+  if (fresh && control_.rules.pecks_by_words) {
+    memory.ijk = {};
+  }
   const std::array words = {
       Sticky{'R', &memory.retract, true, "a canned cycle without its retract plane (R)"},
       Sticky{normal, &memory.bottom, true, "a canned cycle without the depth of its hole"},
-      Sticky{'Q', &memory.peck, pecks, "a peck cycle without the depth of a peck (Q)"},
+      Sticky{'Q', &memory.peck, (pecks || shifts) && !first_peck,
+             "a cycle without the depth of its pecks, or its shift (Q)"},
       Sticky{'P', &memory.dwell_s, dwells && control_.rules.cycle_needs_dwell,
              "a cycle with a dwell, without its time (P)"},
       Sticky{"IJK"[axes.first], &memory.ijk[axes.first], back, "G87 without its shift (I J K)"},
@@ -78,11 +85,37 @@ bool Drilling::remember(const Step& step) {
   if (taps && step.has('P') && step['P'] < 0.0) {
     return refusals_.letter(step, 'P', "out_of_range", "a dwell of negative time");
   }
-  if (pecks && !(memory.peck > 0.0)) {
+  if (pecks && !by_words() && !(memory.peck > 0.0)) {
     return refusals_.letter(step, 'Q', "out_of_range",
                             "the depth of a peck (Q) must be above zero");
   }
   return true;
+}
+
+// Haas: the pecks are I, then J less each time, K at least; G17 alone has them so.
+bool Drilling::by_words() const noexcept {
+  return control_.rules.pecks_by_words && state_.cycle.ijk[0] > 0.0;
+}
+
+double Drilling::next_peck_mm(double last_mm) const noexcept {
+  const double unit = state_.unit_mm;
+  if (!by_words()) {
+    return state_.cycle.peck * unit;
+  }
+  const auto& [first, less, least] = state_.cycle.ijk;
+  return last_mm <= 0.0 ? first * unit : std::max(last_mm - less * unit, least * unit);
+}
+
+bool Drilling::check_peck_words(const Step& step) {
+  const auto& [first, less, least] = state_.cycle.ijk;
+  const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
+  if (!pecks || !control_.rules.pecks_by_words || (first == 0.0 && less == 0.0 && least == 0.0)) {
+    return true;
+  }
+  // K with Q in G73 and G83 asks for a full retract every so often: not by these words alone.
+  const bool whole = first > 0.0 && less >= 0.0 && least > 0.0 && state_.plane == Plane::xy;
+  return whole || refusals_.g_word(step, step.moves_by, "peck_words",
+                                   "pecks by I, J and K need all three, above zero, in G17");
 }
 
 bool Drilling::check(const Step& step) {
@@ -91,6 +124,10 @@ bool Drilling::check(const Step& step) {
       return refusals_.letter(step, letter, "axis_in_cycle",
                               "this axis cannot move in a canned cycle");
     }
+  }
+  if (!state_.text_frame.leaves_alone(axes_of(state_.plane).normal)) {
+    return refusals_.g_word(step, step.moves_by, "frame_along_hole",
+                            "a canned cycle while its holes' axis is scaled, mirrored or turned");
   }
   // In G93 each block has one time, but a cycle is many moves.
   if (state_.feed_mode == FeedMode::inverse_time) {
@@ -132,7 +169,8 @@ bool Drilling::measure(const Step& step, Hole& hole) {
   const bool pecks = step.moves_by == g::kBreakChips || step.moves_by == g::kPeck;
   // A peck is at most three moves. Without the bound a misplaced decimal point in Q could expand to
   // any number.
-  const double moves = repeats_of(step) * (pecks ? 3.0 * depth / (memory.peck * unit) + 4.0 : 8.0);
+  const double peck_mm = by_words() ? memory.ijk[2] * unit : memory.peck * unit;
+  const double moves = count_ * (pecks ? 3.0 * depth / peck_mm + 4.0 : 8.0);
   if (!(moves <= kMostMoves)) {
     return refusals_.letter(step, step.has('L') ? 'L' : 'Q', "out_of_range",
                             "a cycle of more than a million moves");
@@ -143,6 +181,14 @@ bool Drilling::measure(const Step& step, Hole& hole) {
 // Goes over the next hole at the given height, then down to the retract plane.
 void Drilling::go_to(const Step& step, const Hole& hole, double height_mm) {
   Axes over = state_.position;
+  if (has_worded_end(state_)) {
+    const Axes end = worded_end(step, state_);
+    over[hole.axes.first] = end[hole.axes.first];
+    over[hole.axes.second] = end[hole.axes.second];
+    over[hole.axes.normal] = height_mm;
+    go_down(over, hole, height_mm);
+    return;
+  }
   for (const std::size_t axis : {hole.axes.first, hole.axes.second}) {
     if (step.has(kAxisLetters[axis])) {
       const double value = component(step, axis, state_);
@@ -155,6 +201,10 @@ void Drilling::go_to(const Step& step, const Hole& hole, double height_mm) {
     polar_point(step, state_, over);
   }
   over[hole.axes.normal] = height_mm;
+  go_down(over, hole, height_mm);
+}
+
+void Drilling::go_down(const Axes& over, const Hole& hole, double height_mm) {
   out_.move(MoveKind::rapid, over);
   if (height_mm != hole.retract_mm) {
     out_.along(MoveKind::rapid, hole.axes.normal, hole.retract_mm);
@@ -162,8 +212,16 @@ void Drilling::go_to(const Step& step, const Hole& hole, double height_mm) {
 }
 
 bool Drilling::cycle(const Step& step) {
-  if (!check(step) || !remember(step)) {
+  return cycle(step, {.count = repeats_of(step), .place = {}});
+}
+
+bool Drilling::cycle(const Step& step, const Pattern& pattern) {
+  count_ = pattern.count;
+  if (!check(step) || !remember(step) || !check_peck_words(step)) {
     return false;
+  }
+  if (step.moves_by == g::kBackBoreByShift) {
+    return back_bore_by_shift(step, pattern);
   }
   Hole hole{.axes = axes_of(state_.plane),
             .initial_mm = 0.0,
@@ -192,11 +250,22 @@ bool Drilling::cycle(const Step& step) {
   if (lifts) {
     height = std::max(height, goes_on ? hole.clear_mm : hole.retract_mm);
   }
-  const double repeats = repeats_of(step);
   bool accepted = true;
   // The second and later holes of a block start from the previous one's clearance.
-  for (double repeat = 0.0; repeat < repeats && accepted; repeat += 1.0) {
-    go_to(step, hole, height);
+  for (double repeat = 0.0; repeat < pattern.count && accepted; repeat += 1.0) {
+    if (pattern.place) {
+      Axes over = state_.position;
+      const PlanePoint place = pattern.place(repeat);
+      over[hole.axes.first] = place.first;
+      over[hole.axes.second] = place.second;
+      over[hole.axes.normal] = height;
+      go_down(over, hole, height);
+    } else if (take_polar(step, state_, refusals_)) {
+      go_to(step, hole, height);
+    } else {
+      accepted = false;
+      break;
+    }
     accepted = drill(step, hole);
     // From here on the tool is at the clearance.
     height = hole.clear_mm;
@@ -221,6 +290,8 @@ bool Drilling::drill(const Step& step, const Hole& hole) {
       return bore(step, hole);
     case g::kBackBore:
       return back_bore(step, hole);
+    case g::kFineBore:
+      return fine_bore(step, hole);
     case g::kBoreFeedOut:
       out_.along(MoveKind::linear, normal, hole.bottom_mm);
       out_.along(MoveKind::linear, normal, hole.retract_mm);
@@ -244,21 +315,27 @@ bool Drilling::drill(const Step& step, const Hole& hole) {
 // G83 clears the chips by retracting to the R plane; G73 only breaks them.
 bool Drilling::peck(const Step& step, const Hole& hole) {
   const std::size_t normal = hole.axes.normal;
-  const double peck_mm = state_.cycle.peck * state_.unit_mm;
+  const double least_mm = by_words() ? state_.cycle.ijk[2] * state_.unit_mm : next_peck_mm(0.0);
   const double furthest_mm = std::max(std::abs(hole.retract_mm), std::abs(hole.bottom_mm));
   // If subtracting a peck no longer changes anything, the loop below would not end.
-  if (furthest_mm - peck_mm == furthest_mm) {  // there would be no end
+  if (furthest_mm - least_mm == furthest_mm) {  // there would be no end
     return refusals_.g_word(step, step.moves_by, "out_of_range",
                             "a peck this small is lost in rounding at this distance from zero");
   }
+  double peck_mm = next_peck_mm(0.0);
   for (double depth = hole.retract_mm - peck_mm; depth > hole.bottom_mm; depth -= peck_mm) {
     out_.along(MoveKind::linear, normal, depth);
     if (step.moves_by == g::kPeck) {
       out_.along(MoveKind::rapid, normal, hole.retract_mm);
     }
     out_.along(MoveKind::rapid, normal, depth + kPeckClearance_mm);
+    peck_mm = next_peck_mm(peck_mm);
   }
   out_.along(MoveKind::linear, normal, hole.bottom_mm);
+  // FANUC and Haas wait at the bottom where P is given; LinuxCNC has no P here.
+  if (control_.rules.cycle_keeps_all_words && state_.cycle.dwell_s > 0.0) {
+    out_.dwell(state_.cycle.dwell_s);
+  }
   out_.along(MoveKind::rapid, normal, hole.clear_mm);
   return true;
 }
@@ -267,10 +344,10 @@ bool Drilling::peck(const Step& step, const Hole& hole) {
 // couples them, as with a floating holder.
 bool Drilling::tap(const Step& step, const Hole& hole) {
   const int into = step.moves_by == g::kTapRight ? 1 : -1;
-  const bool rigid = state_.rigid_tap;
+  const bool rigid = state_.rigid_tap || control_.rules.taps_rigidly;
   if (rigid && !(state_.spindle_speed_rev_s > 0.0)) {
     return refusals_.g_word(step, step.moves_by, "spindle_speed_missing",
-                            "rigid tapping (M29), but no spindle speed (S) is in force");
+                            "rigid tapping, but no spindle speed (S) is in force");
   }
   if (!rigid && state_.spindle_direction != into) {
     return refusals_.g_word(step, step.moves_by, "spindle_direction",
@@ -294,67 +371,15 @@ bool Drilling::tap(const Step& step, const Hole& hole) {
   state_.spindle_direction = -into;
   out_.spindle();
   out_.dwell(state_.cycle.dwell_s);
+  // Haas: J is how many times as fast the tap comes out (setting 130 without it: as fast).
+  const double feed_mm_s = state_.feed_mm_s;
+  const double faster = control_.rules.taps_rigidly ? state_.cycle.ijk[1] : 0.0;
+  state_.feed_mm_s *= faster > 0.0 ? faster : 1.0;
   out_.along(MoveKind::linear, normal, hole.clear_mm);
+  state_.feed_mm_s = feed_mm_s;
   state_.spindle_direction = rigid ? 0 : into;
   out_.spindle();
   state_.override_off = override_off;
-  return true;
-}
-
-// G86: out with the spindle stopped. G88: the operator brings the tool out by hand.
-bool Drilling::bore(const Step& step, const Hole& hole) {
-  const int direction = state_.spindle_direction;
-  if (direction == 0) {
-    return refusals_.g_word(step, step.moves_by, "spindle_stands",
-                            "a boring cycle with the spindle stopped");
-  }
-  out_.along(MoveKind::linear, hole.axes.normal, hole.bottom_mm);
-  out_.dwell(state_.cycle.dwell_s);
-  state_.spindle_direction = 0;
-  out_.spindle();
-  if (step.moves_by == g::kBoreHandOut) {
-    out_.event(EventKind::stop, 0.0);
-    // The interpreter continues from the clearance, where the operator is asked to bring the tool.
-    state_.position[hole.axes.normal] = hole.clear_mm;  // by hand: not a move of the program
-  } else {
-    out_.along(MoveKind::rapid, hole.axes.normal, hole.clear_mm);
-  }
-  state_.spindle_direction = direction;
-  out_.spindle();
-  return true;
-}
-
-// G87: in beside the axis with the spindle stopped, then boring upwards from below.
-bool Drilling::back_bore(const Step& step, const Hole& hole) {
-  const int direction = state_.spindle_direction;
-  if (direction == 0) {
-    return refusals_.g_word(step, g::kBackBore, "spindle_stands",
-                            "a boring cycle with the spindle stopped");
-  }
-  const CycleMemory& memory = state_.cycle;
-  const double unit = state_.unit_mm;
-  const PlaneAxes axes = hole.axes;
-  const double upper = memory.ijk[axes.normal] * unit + (state_.incremental ? hole.bottom_mm : 0.0);
-  // Aside by I and J, down with the spindle stopped so that the bar passes, back onto the axis
-  // below; only then does the spindle start.
-  const Axes above = state_.position;
-  Axes beside = above;
-  beside[axes.first] += memory.ijk[axes.first] * unit;
-  beside[axes.second] += memory.ijk[axes.second] * unit;
-  out_.move(MoveKind::rapid, beside);
-  state_.spindle_direction = 0;
-  out_.spindle();
-  out_.along(MoveKind::rapid, axes.normal, hole.bottom_mm);
-  out_.back_over(above, axes.normal, hole.bottom_mm, direction);
-  // Up to cut, down again to clear the shoulder; then aside and out the way it came.
-  out_.along(MoveKind::linear, axes.normal, upper);
-  out_.along(MoveKind::linear, axes.normal, hole.bottom_mm);
-  state_.spindle_direction = 0;
-  out_.spindle();
-  beside[axes.normal] = hole.bottom_mm;
-  out_.move(MoveKind::rapid, beside);
-  out_.along(MoveKind::rapid, axes.normal, hole.clear_mm);
-  out_.back_over(above, axes.normal, hole.clear_mm, direction);
   return true;
 }
 

@@ -59,6 +59,11 @@ struct DialectRules {
   bool has_g92 = true;
   bool settable_frames = false;  ///< G54 … G57, G500 … G599 select them; G70, G71, G700, G710 units
   bool edge_chooses_length = false;  ///< D and T, not G43
+  bool file_ends_program = false;    ///< M2 or M30 may be missing
+  bool feed_may_be_missing = false;  ///< before the first F an assumed one is in force
+  bool external_offset = true;       ///< of g10_adds: P0 is the external offset (haas: G52)
+  bool pecks_by_words = false;       ///< I J K of G73 and G83: first peck, less each time, least
+  bool taps_rigidly = false;         ///< a tapping cycle turns the spindle itself, without M29
 };
 
 [[nodiscard]] const DialectRules& rules_of(read::Dialect dialect) noexcept;

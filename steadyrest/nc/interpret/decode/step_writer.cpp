@@ -19,10 +19,14 @@ bool StepWriter::put_g(const Word& word, int code) {
     return note.empty() ? refuse(word, "unknown_g_code", "an unknown G word")
                         : refuse(word, "g_code_not_interpreted", note);
   }
+  return put_in(word, code, found.group);
+}
+
+bool StepWriter::put_in(const Word& word, int code, GGroup group) {
   // Anything outside the motion group rules out the fast path for plain lines (plain_block.cpp).
-  step_.others = step_.others || found.group != GGroup::motion;
-  std::int16_t& place = step_.g[static_cast<std::size_t>(found.group)];
-  if (place != kNoCode && found.group == GGroup::motion &&
+  step_.others = step_.others || group != GGroup::motion;
+  std::int16_t& place = step_.g[static_cast<std::size_t>(group)];
+  if (place != kNoCode && group == GGroup::motion &&
       (place == g::kCycleEnd || code == g::kCycleEnd)) {  // G80 yields to another motion
     place = static_cast<std::int16_t>(place == g::kCycleEnd ? code : place);
     return true;
@@ -32,7 +36,7 @@ bool StepWriter::put_g(const Word& word, int code) {
   }
   place = static_cast<std::int16_t>(code);
   if (g::code_of(word.value) != code) {
-    from(word, found.group);
+    from(word, group);
   }
   return true;
 }
@@ -75,11 +79,11 @@ bool StepWriter::take_m(const Word& word) {
 bool StepWriter::put_m(const Word& word, int code) {
   const GroupOfM found = group_of_m(code);
   // Calls by number belong to linuxcnc and fanuc, outputs and saved modes only to linuxcnc.
-  const bool foreign =
-      found.group == MGroup::program
-          ? !vocabulary_.numbered_programs
-          : !vocabulary_.outputs_and_modes &&
-                (found.group == MGroup::io || found.group == MGroup::modes || code == m::kOrient);
+  const bool foreign = found.group == MGroup::program
+                           ? !vocabulary_.numbered_programs
+                           : !vocabulary_.outputs_and_modes &&
+                                 (found.group == MGroup::io || found.group == MGroup::modes ||
+                                  (code == m::kOrient && !vocabulary_.orientation));
   if (!found.known || foreign) {
     const std::string_view note = known_but_refused_m(code);
     return note.empty() ? refuse(word, "unknown_m_code", "an unknown M word")

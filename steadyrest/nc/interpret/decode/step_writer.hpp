@@ -17,6 +17,7 @@ class StepWriter {
     bool cutter_compensation = false;  ///< G41, G42
     bool outputs_and_modes = false;    ///< M19, M62 to M73
     bool numbered_programs = false;    ///< M98, M99
+    bool orientation = false;          ///< M19
   };
 
   StepWriter(const Decoding& in, Vocabulary vocabulary, Step& step) noexcept
@@ -30,6 +31,8 @@ class StepWriter {
   bool put_letter(const read::Word& word, char letter, double value);
 
  protected:
+  /// A G word of the dialect's own, in the group named.
+  bool put_in(const read::Word& word, int code, GGroup group);
   /// Tells refusals that a letter or a group has its value from this word.
   void from(const read::Word& word, char letter) noexcept;
   void from(const read::Word& word, GGroup group) noexcept;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
 #include <steadyrest/kernel/units/constants.hpp>
 #include <steadyrest/nc/interpret/check/block_check.hpp>
 #include <steadyrest/nc/interpret/control/coordinates.hpp>
+#include <steadyrest/nc/interpret/control/worded_end.hpp>
 #include <steadyrest/nc/interpret/motion/motion.hpp>
 
 // The long path. A plain G0 or G1 block, nearly every line of a long program, bypasses it through
@@ -44,6 +46,9 @@ bool Motion::straight(const Step& step) {
   if (cutting && !has_feed(step, state_, refusals_)) {
     return false;
   }
+  if (!take_polar(step, state_, refusals_)) {
+    return false;
+  }
   const Axes end = end_point(step, control_);
   const ExactStop exact_stop(step, state_);
   cutter_.goes_straight();
@@ -55,6 +60,9 @@ bool Motion::straight(const Step& step) {
   // without knowing it.
   if (step.machine_frame) {
     out_.current().machine_axes = named_axes(step);
+  }
+  if (corners_.concerns(step)) {
+    return corners_.move(step, kind, end);
   }
   out_.move(kind, end);
   return true;
@@ -126,9 +134,11 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
   const kernel::machine::Program& settings = control_.config.settings;
   const double own_mm = inch ? settings.inch_arc_tolerance_mm : settings.arc_tolerance_mm;
   tolerance.spiral_mm = own_mm > 0.0 ? own_mm : tolerance.spiral_mm;
+  const TextFrame& frame = state_.text_frame;
   if (step.has('R')) {
-    const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm,
-                                          step.moves_by == g::kArcClockwise, tolerance);
+    const double scale = frame.on ? std::abs(frame.factor[axes.first]) : 1.0;
+    const auto found = centre_from_radius(start, stop, step['R'] * state_.unit_mm * scale,
+                                          clockwise(step, axes), tolerance);
     if (!found) {
       return refuse_arc(step, found.error());
     }
@@ -152,8 +162,19 @@ bool Motion::arc_centre(const Step& step, const PlaneAxes& axes, const Axes& end
     return refusals_.g_word(step, step.moves_by, "arc_centre_missing",
                             "absolute arc centres (G90.1) need both centre words of the plane");
   }
-  centre = {.first = coordinate(axes.first, start.first),
-            .second = coordinate(axes.second, start.second)};
+  if (frame.on) {
+    std::array<double, 3> from_start{};
+    for (const std::size_t axis : {axes.first, axes.second}) {
+      from_start[axis] =
+          step.has(kCentreLetters[axis]) ? step[kCentreLetters[axis]] * state_.unit_mm : 0.0;
+    }
+    from_start = frame.distance(from_start);
+    centre = {.first = start.first + from_start[axes.first],
+              .second = start.second + from_start[axes.second]};
+  } else {
+    centre = {.first = coordinate(axes.first, start.first),
+              .second = coordinate(axes.second, start.second)};
+  }
   const auto checked = check_centre(start, stop, centre, tolerance);
   return checked.has_value() || refuse_arc(step, checked.error());
 }
@@ -183,6 +204,36 @@ bool Motion::arc_words(const Step& step, const PlaneAxes& axes) {
   return true;
 }
 
+// A mirror image of one axis of the plane turns the sense of an arc round.
+bool Motion::clockwise(const Step& step, const PlaneAxes& axes) const noexcept {
+  const TextFrame& frame = state_.text_frame;
+  return (step.moves_by == g::kArcClockwise) ==
+         (!frame.on || frame.keeps_sense(axes.first, axes.second));
+}
+
+// Arcs that would not be arcs any more, or whose centre words have no certain meaning.
+bool Motion::worded_arc(const Step& step, const PlaneAxes& axes) {
+  const TextFrame& frame = state_.text_frame;
+  if (state_.polar.on && (step.mask & kCentreMask) != 0) {
+    return refusals_.g_word(
+        step, step.moves_by, "polar_centre",
+        "an arc by its centre in polar coordinates (G16); write its radius (R)");
+  }
+  if (!frame.on) {
+    return true;
+  }
+  constexpr double kSame = 1e-12;
+  if (std::abs(std::abs(frame.factor[axes.first]) - std::abs(frame.factor[axes.second])) > kSame) {
+    return refusals_.g_word(step, step.moves_by, "scaled_arc",
+                            "an arc while its plane's axes are scaled differently");
+  }
+  if (frame.rotated && (axes.first != frame.first || axes.second != frame.second)) {
+    return refusals_.g_word(step, step.moves_by, "arc_off_rotation",
+                            "an arc outside the plane of the rotation in force");
+  }
+  return true;
+}
+
 bool Motion::arc(const Step& step) {
   if (!has_feed(step, state_, refusals_)) {
     return false;
@@ -193,6 +244,9 @@ bool Motion::arc(const Step& step) {
                             "the move after G40 is an arc; it must be a straight line");
   }
   const PlaneAxes axes = axes_of(state_.plane);
+  if (!take_polar(step, state_, refusals_) || !worded_arc(step, axes)) {
+    return false;
+  }
   const Axes end = end_point(step, control_);
   PlanePoint centre;
   if (!arc_words(step, axes) || !arc_centre(step, axes, end, centre)) {
@@ -205,11 +259,13 @@ bool Motion::arc(const Step& step) {
   move.centre_mm[axes.second] = centre.second;
   move.normal[axes.normal] = 1.0;
   const double turns = step.has('P') ? step['P'] : 1.0;
-  move.turns = static_cast<int>(step.moves_by == g::kArcClockwise ? -turns : turns);
+  move.turns = static_cast<int>(clockwise(step, axes) ? -turns : turns);
   const ExactStop exact_stop(step, state_);
   bool accepted = true;
   if (cutter_.active()) {
     accepted = cutter_.compensate(step, MoveKind::arc, end);
+  } else if (corners_.concerns(step)) {
+    accepted = corners_.move(step, MoveKind::arc, end);
   } else {
     out_.move(MoveKind::arc, end);
   }

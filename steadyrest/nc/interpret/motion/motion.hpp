@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include <steadyrest/nc/interpret/control/stage.hpp>
+#include <steadyrest/nc/interpret/motion/corners.hpp>
 #include <steadyrest/nc/interpret/motion/cutter_stage.hpp>
 #include <steadyrest/nc/interpret/parameters/parameters.hpp>
 #include <steadyrest/nc/interpret/state/arc.hpp>
@@ -13,8 +14,9 @@ namespace steadyrest::nc::interpret {
 /// Moves of a single block: straight lines, arcs, probing, reference points.
 class Motion : private Stage {
  public:
-  Motion(Control& control, MoveOutput& out, CutterStage& cutter, Parameters& parameters) noexcept
-      : Stage(control, out), cutter_(cutter), parameters_(parameters) {}
+  Motion(Control& control, MoveOutput& out, CutterStage& cutter, Corners& corners,
+         Parameters& parameters) noexcept
+      : Stage(control, out), cutter_(cutter), corners_(corners), parameters_(parameters) {}
 
   bool straight(const Step& step);
   bool arc(const Step& step);
@@ -30,8 +32,11 @@ class Motion : private Stage {
   [[nodiscard]] double reference_of(std::size_t which, std::size_t axis,
                                     double reference) const noexcept;
   bool refuse_arc(const Step& step, ArcFault fault);
+  [[nodiscard]] bool clockwise(const Step& step, const PlaneAxes& axes) const noexcept;
+  bool worded_arc(const Step& step, const PlaneAxes& axes);
 
   CutterStage& cutter_;
+  Corners& corners_;
   Parameters& parameters_;
 };
 

@@ -109,7 +109,10 @@ bool MacroVariables::mode(int index, double& value) const {
     case 4006:
       return yes(state_.unit_mm == 1.0 ? 21.0 : 20.0);
     case 4009:
-      return yes(is_cycle(state_.motion) ? state_.motion / 10.0 : g::kCycleEnd / 10.0);
+      return yes(state_.motion == g::kFineBore          ? 76.0
+                 : state_.motion == g::kBackBoreByShift ? 87.0
+                 : is_cycle(state_.motion)              ? state_.motion / 10.0
+                                                        : g::kCycleEnd / 10.0);
     case 4010:
       return yes(state_.retract_to_initial ? 98.0 : 99.0);
     case 4014:

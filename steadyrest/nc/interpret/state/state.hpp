@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <steadyrest/nc/interpret/state/config.hpp>
+#include <steadyrest/nc/interpret/state/frame.hpp>
 #include <steadyrest/nc/interpret/state/move.hpp>
 
 namespace steadyrest::nc::interpret {
@@ -52,6 +54,8 @@ struct State {
   std::array<Axes, kWorkOffsets> work_offset{};
   Axes work_in_force{};  ///< of the active one: later changes of #5221 … act when it is reselected
   std::size_t active_offset = 0;
+  /// fanuc G54.1 P1 …, in this order: `active_offset` counts on from G59.3. Those not in it are 0.
+  std::vector<Axes> more_offsets;
   bool work_offset_on = true;  ///< false after G500
   Axes external{};             ///< fanuc: added to every work offset (G10 L2 P0)
   Axes g92{};                  ///< in force (G92, G52)
@@ -73,6 +77,8 @@ struct State {
   int motion = -1;                  ///< G code times ten; −1 = none yet
   int plain_motion = -1;            ///< the last that was no cycle: in force again after fanuc G80
   bool rigid_tap = false;           ///< fanuc M29: for the tapping cycles up to G80
+  TextFrame text_frame;             ///< fanuc G51.1, G51, G68
+  PolarWords polar;                 ///< fanuc G16
   CycleMemory cycle;
 
   FeedMode feed_mode = FeedMode::per_minute;

@@ -46,6 +46,20 @@ inline constexpr std::size_t kMGroups = 8;
 
 inline constexpr std::int16_t kNoCode = -1;
 
+/// Words that the fanuc family alone has.
+struct FanucWords {
+  std::int16_t offset = 0;         ///< G54.1 P, G154 P: 1 to 300; 0 = not given
+  std::int16_t frame = kNoCode;    ///< G51 G50.1 G51.1 G68
+  bool scaling_off = false;        ///< G50
+  bool rotation_off = false;       ///< G69
+  std::int16_t pattern = kNoCode;  ///< haas G70 G71 G72
+  std::int8_t polar = -1;          ///< G16 1, G15 0; < 0 = not given
+  bool negative_length = false;    ///< G44
+  bool no_point = false;           ///< a length that is not zero has no decimal point
+  char corner = 0;                 ///< C for `,C`, R for `,R`
+  double corner_words = 0.0;       ///< its value, in program units
+};
+
 /// A block in the one vocabulary that the interpreter executes, whatever its dialect.
 ///
 /// Codes are LinuxCNC's (words.hpp); words are addressed by letter. The dialects' decoders
@@ -75,7 +89,9 @@ struct Step {
   std::string_view tool_name;                                         ///< sinumerik T="NAME"
   std::int8_t reference_point = 0;  ///< fanuc G30 P: 2 to 4; 0 = not given
   bool rigid_tap = false;           ///< fanuc M29
-  bool first_spindle = false;       ///< linuxcnc $0, $-1
+  bool has_fanuc = false;           ///< a word of `fanuc` has been set
+  FanucWords fanuc;
+  bool first_spindle = false;                                         ///< linuxcnc $0, $-1
   double speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();  ///< fanuc G92 S
   const read::Block* block = nullptr;                                 ///< the text, for refusals
   /// Where a letter (bit: letter − 'A') or a G group (bit: group) has its value from a word of
@@ -107,6 +123,10 @@ struct Step {
     tool_name = {};
     reference_point = 0;
     rigid_tap = false;
+    if (has_fanuc) {
+      has_fanuc = false;
+      fanuc = {};
+    }
     first_spindle = false;
     speed_limit_rpm = std::numeric_limits<double>::quiet_NaN();
     block = &source;
@@ -163,7 +183,7 @@ inline constexpr auto kAxisOfLetter = [] {
 /// A canned cycle: G81–G89, and the drilling and tapping cycles outside that range.
 [[nodiscard]] constexpr bool is_cycle(int code) noexcept {
   return code == g::kBreakChips || code == g::kTapLeft ||
-         (code > g::kCycleEnd && code <= g::kBoreDwell);
+         (code > g::kCycleEnd && code <= g::kBoreDwell);  // with kFineBore, kBackBoreByShift
 }
 
 }  // namespace steadyrest::nc::interpret

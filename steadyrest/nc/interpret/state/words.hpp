@@ -91,6 +91,8 @@ inline constexpr Code kWorkOffset6 = 590;
 inline constexpr Code kWorkOffset7 = 591;  ///< G59.1
 inline constexpr Code kWorkOffset8 = 592;
 inline constexpr Code kWorkOffset9 = 593;
+/// fanuc G54.1 P, haas G154 P, G110 …: see FanucWords::offset. Not in the table of groups.
+inline constexpr Code kMoreOffsets = 541;
 inline constexpr Code kExactPath = 610;
 inline constexpr Code kExactStop = 611;  ///< G61.1
 inline constexpr Code kContinuous = 640;
@@ -105,6 +107,25 @@ inline constexpr Code kCuttingSpeed = 960;
 inline constexpr Code kSpindleSpeed = 970;
 inline constexpr Code kRetractToInitial = 980;
 inline constexpr Code kRetractToR = 990;
+
+// of the fanuc family: in FanucWords, not in the table of groups
+inline constexpr Code kPocketClockwise = 120;         ///< haas G12
+inline constexpr Code kPocketCounterClockwise = 130;  ///< haas G13
+inline constexpr Code kPolarOff = 150;
+inline constexpr Code kPolarOn = 160;
+inline constexpr Code kToolLengthNegative = 440;
+/// G76 and G87, which shift by Q: numbers of our own among the cycles.
+inline constexpr Code kFineBore = 861;
+inline constexpr Code kBackBoreByShift = 871;
+inline constexpr Code kScalingOff = 500;
+inline constexpr Code kMirrorOff = 501;
+inline constexpr Code kScaling = 510;
+inline constexpr Code kMirror = 511;
+inline constexpr Code kRotation = 680;
+inline constexpr Code kRotationOff = 690;
+inline constexpr Code kHolesOnCircle = 700;  ///< haas G70
+inline constexpr Code kHolesOnArc = 710;
+inline constexpr Code kHolesOnLine = 720;
 
 }  // namespace g
 

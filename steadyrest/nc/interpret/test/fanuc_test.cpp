@@ -99,7 +99,7 @@ TEST(FanucReferencePoint, HasFourOfThem) {
 TEST(FanucCycles, KeepQAndPForTheRowWhetherTheyUseThemOrNot) {
   EXPECT_EQ(kinds_of("G0 Z9.\nG82 X1. Z-5. R2. F60 Q3.\nM30\n"),
             kinds_of("G0 Z9.\nG82 X1. Z-5. R2. F60\nM30\n"));
-  for (const std::string cycle : {"G81", "G82", "G85", "G86", "G89"}) {
+  for (const std::string cycle : {"G73", "G81", "G82", "G83", "G85", "G86", "G89"}) {
     EXPECT_EQ(fault_of("M3 S9\n" + cycle + " X1. Z-5. R2. F60 Q3. P100"), "") << cycle;
   }
   // The pecks of G83 are the Q of the G81 before it; so is the dwell of G82.
@@ -110,7 +110,6 @@ TEST(FanucCycles, KeepQAndPForTheRowWhetherTheyUseThemOrNot) {
 }
 
 TEST(FanucCycles, RefuseWordsWithAnotherMeaningOnSomeControls) {
-  EXPECT_EQ(fault_of("G83 X1. Z-5. R2. Q1. F60 P100"), "unused_word");
   EXPECT_EQ(fault_of("M3 S9\nG84 X1. Z-5. R2. Q1. F60"), "g_code_not_interpreted");
   EXPECT_EQ(fault_of("G81 X1. Z-5. R2. F60 I1."), "unused_word");
   EXPECT_EQ(fault_of("G1 X1. F60 Q1."), "unused_word");

@@ -44,7 +44,7 @@ bool LetterLine::round_comment() {
       ++at_;
       return true;
     }
-    if (*at_ == '(') {
+    if (*at_ == '(' && !rules_.loose_comments) {
       return refuse({open, static_cast<std::size_t>(end_ - open)}, "nested_comment",
                     "a comment opens inside a comment; close the first one");
     }
@@ -53,7 +53,8 @@ bool LetterLine::round_comment() {
       return refuse({at_ - 1, 1}, "control_character", kControlCharacter);
     }
   }
-  return refuse(since(open), "unclosed_comment",
+  return rules_.loose_comments ||
+         refuse(since(open), "unclosed_comment",
                 "a comment that is not closed on its line; write ) at its end");
 }
 

@@ -39,6 +39,10 @@ bool LetterLine::read() {
   for (;;) {
     skip_blanks();
     plain_words();
+    if (at_ != end_ && rules_.system_lines && (*at_ == '~' || *at_ == '?')) {
+      ++at_;  // cycle start and a question for the status: nothing moves otherwise
+      continue;
+    }
     if (at_ == end_) {
       return true;
     }
@@ -68,6 +72,12 @@ bool LetterLine::one_item() {
   }
   if ((c == '@' || c == '^' || c == '$') && rules_.symbols) {
     return word();
+  }
+  if ((c == '$' || c == '!') && rules_.system_lines) {
+    return system_line();
+  }
+  if (c == ',' && rules_.corner_words) {
+    return corner_word();
   }
   return refuse_character();
 }
@@ -245,7 +255,7 @@ bool LetterLine::assignment() {
 
 bool LetterLine::o_word(const char* word_begin) {
   reading_.numbers_alone = false;
-  if (reading_.values == nullptr || rules_.macros) {
+  if (reading_.values == nullptr || rules_.macros || rules_.numbers_programs) {
     return program_number(word_begin);
   }
   if (!block_.words().empty() || block_.flow().kind != FlowKind::none) {

@@ -22,11 +22,24 @@ struct LetterRules {
   bool semicolon_ends = false;    ///< `;` ends the block; else it opens a comment
   bool plain_words_fast = false;  ///< plain_words() may read them
   bool acting_comments = false;   ///< the control executes some comments: (ABORT,…), (PY,…)
+  bool loose_comments = false;    ///< `(` in a comment is text, and a line's end closes it
+  bool numbers_programs = false;  ///< O is a program's number, not an O-word
+  bool system_lines = false;      ///< `$…` is for the control, `! ~ ?` are read as they arrive
+  bool corner_words = false;      ///< `,C` and `,R`
 };
 inline constexpr LetterRules kLinuxcncLetters{
     .symbols = true, .plain_words_fast = true, .acting_comments = true};
-inline constexpr LetterRules kFanucLetters{
-    .macros = true, .colon_is_o = true, .numbered_delete = true, .semicolon_ends = true};
+inline constexpr LetterRules kFanucLetters{.macros = true,
+                                           .colon_is_o = true,
+                                           .numbered_delete = true,
+                                           .semicolon_ends = true,
+                                           .corner_words = true};
+inline constexpr LetterRules kGrblLetters{.plain_words_fast = true,
+                                          .loose_comments = true,
+                                          .numbers_programs = true,
+                                          .system_lines = true};
+inline constexpr LetterRules kMach3Letters{
+    .plain_words_fast = true, .loose_comments = true, .numbers_programs = true};
 
 /// One line of the dialects whose words are a letter and a number (`linuxcnc`, `fanuc`).
 ///
@@ -48,6 +61,8 @@ class LetterLine : private LineCursor {
   bool rest_of_line();
   void note_comment(std::string_view comment);
   bool delete_mark();
+  bool system_line();
+  bool corner_word();
   bool word();
   bool value(const char* word_begin, Word& word);
   [[nodiscard]] bool digits_stand_apart() const noexcept;

@@ -79,10 +79,13 @@ int decimals_of(read::Dialect dialect, double unit_mm) noexcept {
   const int inch = unit_mm > 1.0 ? 1 : 0;
   switch (dialect) {
     case read::Dialect::linuxcnc:
+    case read::Dialect::grbl:
+    case read::Dialect::mach3:
       return 5 + inch;
     case read::Dialect::sinumerik:
       return 4 + inch;
     case read::Dialect::fanuc:
+    case read::Dialect::haas:
       return 3 + inch;
   }
   return 3;
@@ -186,7 +189,7 @@ std::string BlockText::with_feed(const CutBlock& block, std::string_view line,
 std::string dwell_text(read::Dialect dialect, double seconds) {
   const char letter = dialect == read::Dialect::sinumerik ? 'F'
                       : dialect == read::Dialect::fanuc   ? 'X'
-                                                          : 'P';
+                                                          : 'P';  // haas: seconds with a point
   return fmt::format("G4 {}{:.2f}", letter, seconds);
 }
 

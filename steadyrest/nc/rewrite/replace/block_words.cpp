@@ -16,7 +16,8 @@ bool sets_motion(const read::Word& word, read::Dialect dialect) noexcept {
   const int code = word.letter == 'G' ? interpret::g::code_of(word.value) : -1;
   const auto of = interpret::group_of_g(code);
   return of.known && of.group == interpret::GGroup::motion &&
-         (dialect != read::Dialect::fanuc || code <= interpret::g::kRigidTap);
+         ((dialect != read::Dialect::fanuc && dialect != read::Dialect::haas) ||
+          code <= interpret::g::kRigidTap);
 }
 
 /// M70 and M73 keep the motion and the feed in force, for M72 or the end of the subprogram.

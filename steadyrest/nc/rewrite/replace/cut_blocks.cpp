@@ -265,6 +265,9 @@ class CutSurvey {
     if (state.diameter) {
       return Stays::diameter;
     }
+    if (state.text_frame.on || state.polar.on) {
+      return Stays::framed;
+    }
     if (turns_others(move)) {
       return Stays::rotary;
     }

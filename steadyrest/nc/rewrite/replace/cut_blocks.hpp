@@ -28,6 +28,7 @@ enum class Stays : std::uint8_t {
   feed_mode,       ///< its feed is a time (G93)
   compensated,     ///< cutter radius compensation is on
   diameter,        ///< X is a diameter
+  framed,          ///< its words are mirrored, scaled, turned or polar (G51.1, G51, G68, G16)
   rotary,          ///< an axis beyond X, Y, Z moves
   spline,          ///< a spline, a drilling cycle, a thread
   locked,          ///< no override acts: tapping, threading, M49

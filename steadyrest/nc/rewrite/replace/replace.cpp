@@ -17,9 +17,13 @@ using kernel::outcome::Result;
 Way way_of_comments(read::Dialect dialect) {
   switch (dialect) {
     case read::Dialect::linuxcnc:
+    case read::Dialect::grbl:
+    case read::Dialect::mach3:
       return {.method = Method::linuxcnc};
     case read::Dialect::fanuc:
       return {.method = Method::fanuc};
+    case read::Dialect::haas:
+      return {.method = Method::haas};
     case read::Dialect::sinumerik:
       return {.method = Method::frame_fine};
   }

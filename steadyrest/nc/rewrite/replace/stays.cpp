@@ -27,6 +27,8 @@ std::string_view sentence(Stays stays) noexcept {
       return "cutter radius compensation is on";
     case Stays::diameter:
       return "X is a diameter";
+    case Stays::framed:
+      return "its words are mirrored, scaled, turned or polar (G51.1, G51, G68, G16)";
     case Stays::rotary:
       return "an axis beyond X, Y and Z moves";
     case Stays::spline:

@@ -16,9 +16,12 @@ constexpr std::string_view kNew = "STEADYREST new";
 bool in_brackets(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::fanuc:
+    case Dialect::haas:
       return true;
     case Dialect::linuxcnc:
     case Dialect::sinumerik:
+    case Dialect::grbl:
+    case Dialect::mach3:
       break;
   }
   return false;
@@ -29,7 +32,11 @@ std::size_t longest_block(Dialect dialect) noexcept {
   switch (dialect) {
     case Dialect::linuxcnc:
     case Dialect::fanuc:
+    case Dialect::haas:
+    case Dialect::mach3:
       return 250;
+    case Dialect::grbl:
+      return 70;
     case Dialect::sinumerik:
       return 500;
   }

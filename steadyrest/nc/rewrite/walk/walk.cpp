@@ -305,7 +305,8 @@ bool Walk::may_write_alone(std::size_t index) const noexcept {
   const bool turned = before_.rotation_deg != 0.0 || now.rotation_in_force_deg != 0.0;
   return run_->at_top() && run_->executed() && !run_->block().deleted() &&
          !survey_.is_repeated(run_->line()) && !before_.cutter && now.cutter_side == 0 &&
-         (!turned || index > 1) && (index != 0 || (!before_.diameter && !now.diameter));
+         (!turned || index > 1) && (index != 0 || (!before_.diameter && !now.diameter)) &&
+         !now.text_frame.on && now.active_offset < interpret::kWorkOffsets;
 }
 
 // No mode before or after the line in which a shift would distort the path.

@@ -103,7 +103,7 @@ std::optional<nc::plan::Warning> beyond_any_offset(const SourceProgram& program)
 
 /// Fanuc counts whole numbers in mm or in the least increment, as its parameter says.
 std::string_view travel_advice(nc::read::Dialect dialect) {
-  return dialect == nc::read::Dialect::fanuc
+  return dialect == nc::read::Dialect::fanuc || dialect == nc::read::Dialect::haas
              ? "look for a coordinate in the wrong unit (numbers without a point count in the "
                "least increment with --least-increment), or mend the travel in the machine file"
              : "look for a coordinate in the wrong unit, or mend the travel in the machine file";

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <string>
+#include <span>
 
 #include <steadyrest/nc/interpret/decode/fanuc/fanuc.hpp>
-#include <steadyrest/nc/interpret/decode/step_writer.hpp>
+#include <steadyrest/nc/interpret/decode/fanuc/fanuc_decoder.hpp>
 
 namespace steadyrest::nc::interpret {
 namespace {
@@ -12,76 +12,19 @@ namespace {
 using read::Block;
 using read::Word;
 
-struct Note {
-  int code;  // G times ten
-  std::string_view reason;
-  std::string_view text;
-};
+template <typename Table>
+auto* within(const Table& table, double code) noexcept {
+  const auto found = std::ranges::find_if(
+      table, [code](const auto& entry) { return code >= entry.first && code <= entry.last; });
+  return found == table.end() ? nullptr : &*found;
+}
 
-// The texts name FANUC's function of a code where it differs from LinuxCNC's.
-constexpr std::array kNotes = {
-    Note{g::kCubicSpline, "g_code_not_interpreted", "G5 (high-speed machining) is not interpreted"},
-    Note{g::kQuadraticSpline, "g_code_not_interpreted",
-         "G5.1 (contour control, Q1) is not interpreted"},
-    Note{g::kSplinePoint, "g_code_not_interpreted", "G5.2 is not interpreted"},
-    Note{g::kSplineEnd, "g_code_not_interpreted", "G5.3 is not interpreted"},
-    Note{g::kRigidTap, "ambiguous_code", "G33.1 is no code of this dialect"},
-    Note{g::kProbeOrFail, "g_code_not_interpreted",
-         "in this dialect probing is a macro of the control (G31)"},
-    Note{g::kProbe, "g_code_not_interpreted",
-         "in this dialect probing is a macro of the control (G31)"},
-    Note{g::kProbeAwayOrFail, "g_code_not_interpreted",
-         "in this dialect probing is a macro of the control (G31)"},
-    Note{g::kProbeAway, "g_code_not_interpreted",
-         "in this dialect probing is a macro of the control (G31)"},
-    Note{g::kDiameter, "g_code_not_interpreted",
-         "G7/G07 means something different on every control"},
-    Note{71, "g_code_not_interpreted",
-         "cylindrical interpolation (G7.1) is not interpreted; G0 to G3 in X, Y and Z are"},
-    Note{g::kRadius, "g_code_not_interpreted", "G8/G08 (look-ahead control) is not interpreted"},
-    Note{150, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
-    Note{160, "g_code_not_interpreted", "polar coordinates (G15, G16) are not interpreted"},
-    Note{270, "g_code_not_interpreted", "the reference check (G27) is not interpreted"},
-    Note{290, "g_code_not_interpreted",
-         "the return from the reference point (G29) is not interpreted"},
-    Note{310, "g_code_not_interpreted", "a skip move (G31) ends where the machine decides"},
-    Note{320, "lathe_code", "G32 threads on a lathe; lathe programs are not interpreted"},
-    Note{g::kThread, "ambiguous_code",
-         "G33 takes F as pitch here; its rounding differs between controls"},
-    Note{500, "lathe_code",
-         "G50 sets the spindle limit or the origin on a lathe and ends scaling "
-         "on a mill; write G92 for an origin"},
-    Note{510, "g_code_not_interpreted", "scaling (G51) is not interpreted"},
-    Note{650, "macro_call", "a macro call (G65) is not interpreted"},
-    Note{660, "macro_call", "a modal macro call (G66) is not interpreted"},
-    Note{670, "macro_call", "the end of a modal macro call (G67) is not interpreted"},
-    Note{680, "g_code_not_interpreted", "coordinate rotation (G68) is not interpreted"},
-    Note{690, "g_code_not_interpreted", "coordinate rotation (G69) is not interpreted"},
-    Note{g::kThreadCycle, "g_code_not_interpreted",
-         "fine boring (G76) shifts by a machine parameter"},
-    Note{g::kBackBore, "g_code_not_interpreted", "back boring (G87) shifts by a machine parameter"},
-    Note{g::kBoreHandOut, "g_code_not_interpreted", "G88 stops for the operator's hand"},
-    Note{g::kInverseTime, "g_code_not_interpreted",
-         "inverse-time feed (G93) is not interpreted here"},
-};
+const FanucQuietG* quiet_word(std::span<const FanucQuietG> table, int code) noexcept {
+  const auto found = std::ranges::find(table, code, &FanucQuietG::code);
+  return found == table.end() ? nullptr : &*found;
+}
 
-constexpr std::string_view kLengthLetters = "XYZIJKRQ";
-constexpr std::string_view kAngleLetters = "ABC";
-
-class FanucDecoder final : public StepWriter {
- public:
-  FanucDecoder(const Decoding& in, Step& step) noexcept
-      : StepWriter(in, {.numbered_programs = true}, step) {}
-  bool block(const Block& block);
-
- private:
-  bool g_word(const Word& word);
-  bool m_word(const Word& word);
-  bool letter_word(const Word& word);
-  bool word_of_another_kind(const Word& word, int motion, bool& taken);
-  bool finish();
-  bool program_call();
-};
+}  // namespace
 
 bool FanucDecoder::block(const Block& block) {
   if (block.words().empty()) {
@@ -101,49 +44,122 @@ bool FanucDecoder::block(const Block& block) {
   return finish();
 }
 
-// FANUC's G61 is an exact stop and G64 cutting mode. Decimal codes of LinuxCNC are refused:
-// controls of this family disagree on them.
+// FANUC's G61 is an exact stop, G62 and G64 cutting modes.
 bool FanucDecoder::g_word(const Word& word) {
   const int code = g::code_of(word.value);
-  for (const Note& note : kNotes) {
-    if (note.code == code) {
-      return refuse(word, note.reason, note.text);
-    }
+  const FanucNote* note = within(variant_.g_notes, code);
+  note = note == nullptr ? within(family_notes(), code) : note;
+  if (note != nullptr) {
+    return refuse(word, note->reason, note->text);
   }
+  const FanucQuietG* quiet = quiet_word(variant_.quiet_g, code);
+  quiet = quiet == nullptr ? quiet_word(family_quiet(), code) : quiet;
+  if (quiet != nullptr) {
+    for (const char letter : quiet->letters) {
+      quiet_letters_ |= Step::bit(letter);
+    }
+    step_.others = true;
+    return true;
+  }
+  bool taken = false;
+  if (!frame_word(word, code, taken) || taken || !haas_word(word, code, taken) || taken) {
+    return taken;
+  }
+  constexpr int kTapRightRigid = 842;
+  constexpr int kTapLeftRigid = 843;
   switch (code) {
     case 90:  // G9 exact stop, this block
       step_.exact_stop = true;
       return true;
-    case 541:  // G54.1
-      return refuse(word, "g_code_not_interpreted",
-                    "additional work offsets (G54.1 P) are not interpreted");
-    case g::kContinuous:  // G64 cutting mode, G61 exact stop mode: stops at every end point
+    case g::kMoreOffsets:
+      own();
+      return put_in(word, code, GGroup::work_offset);
+    case g::kToolLengthNegative:
+      own().negative_length = true;
+      return put_in(word, g::kToolLength, GGroup::tool_length);
+    case 620:
+    case g::kContinuous:
       return put_g(word, g::kContinuous);
     case g::kExactPath:
       return put_g(word, g::kExactStop);
-    case g::kStoreHome:
-    case g::kStoreSecondHome:
-    case g::kToolLengthByWords:
-    case g::kAddToolLength:
-    case 521:  // G52.1
-    case g::kWorkOffset7:
-    case g::kWorkOffset8:
-    case g::kWorkOffset9:
-    case g::kExactStop:
-    case g::kCentreAbsolute:
-    case g::kCentreIncremental:
-    case g::kForgetOrigin:
-    case g::kOriginOff:
-    case g::kOriginOn:
-      return refuse(word, "ambiguous_code",
-                    "this decimal G word means something different, or nothing, on each control");
+    case g::kThreadCycle:
+      return put_in(word, g::kFineBore, GGroup::motion);
+    case g::kBackBore:
+      return put_in(word, g::kBackBoreByShift, GGroup::motion);
+    case kTapRightRigid:
+    case kTapLeftRigid:
+      step_.rigid_tap = step_.others = true;
+      return put_g(word, code == kTapRightRigid ? g::kTapRight : g::kTapLeft);
     default:
       return put_g(word, code);
   }
 }
 
-// M50 to M53, M60 and M61 are the machine builder's on these controls, though LinuxCNC defines
-// them.
+// Programmable mirror image, scaling, rotation, polar coordinates. Several may end in one block, as
+// in the first one of many programs; one may begin.
+bool FanucDecoder::frame_word(const Word& word, int code, bool& taken) {
+  taken = true;
+  switch (code) {
+    case g::kScalingOff:
+      own().scaling_off = true;
+      return true;
+    case g::kRotationOff:
+      own().rotation_off = true;
+      return true;
+    case g::kPolarOn:
+    case g::kPolarOff:
+      if (own().polar >= 0) {
+        break;
+      }
+      own().polar = code == g::kPolarOn ? 1 : 0;
+      return true;
+    case g::kMirrorOff:
+    case g::kScaling:
+    case g::kMirror:
+    case g::kRotation:
+      if (own().frame != kNoCode) {
+        break;
+      }
+      own().frame = static_cast<std::int16_t>(code);
+      return true;
+    default:
+      taken = false;
+      return true;
+  }
+  taken = false;
+  return refuse(word, "same_modal_group", "a second G word of the same modal group in one block");
+}
+
+// Haas: G100 and G101 are a mirror image, G110 to G129 are G154 P1 to P20.
+bool FanucDecoder::haas_word(const Word& word, int code, bool& taken) {
+  constexpr int kMirrorOffHaas = 1000;
+  constexpr int kMirrorHaas = 1010;
+  constexpr int kFirstOffset = 1100;
+  constexpr int kLastOffset = 1290;
+  constexpr int kOffsetsHaas = 1540;
+  if (!variant_.haas_words) {
+    return true;
+  }
+  if (code == kMirrorOffHaas || code == kMirrorHaas) {
+    taken = true;
+    return frame_word(word, code == kMirrorHaas ? g::kMirror : g::kMirrorOff, taken);
+  }
+  if (code >= g::kHolesOnCircle && code <= g::kHolesOnLine && code % 10 == 0) {
+    taken = own().pattern == kNoCode;
+    own().pattern = static_cast<std::int16_t>(code);
+    return taken ||
+           refuse(word, "same_modal_group", "a second G word of the same modal group in one block");
+  }
+  const bool numbered = code >= kFirstOffset && code <= kLastOffset && code % 10 == 0;
+  if (numbered || code == kOffsetsHaas) {
+    own();
+    offset_ = numbered ? (code - kFirstOffset) / 10.0 + 1.0 : offset_;
+    taken = put_in(word, g::kMoreOffsets, GGroup::work_offset);
+    return taken;
+  }
+  return true;
+}
+
 bool FanucDecoder::m_word(const Word& word) {
   // First, since the words of [chatter] often use the machine builder's numbers.
   if (is_modulation(word)) {
@@ -154,100 +170,17 @@ bool FanucDecoder::m_word(const Word& word) {
     step_.others = true;
     return true;
   }
-  if (word.value == 60.0 || word.value == 61.0 || (word.value >= 50.0 && word.value <= 53.0)) {
-    return refuse(word, "machine_builders_code",
-                  "an M word whose meaning depends on the machine builder");
+  if (word.value != std::floor(word.value)) {
+    return take_m(word);
+  }
+  if (const FanucNote* const note = within(variant_.m_notes, word.value)) {
+    return refuse(word, note->reason, note->text);
+  }
+  if (within(variant_.quiet_m, word.value) != nullptr) {
+    step_.others = true;
+    return true;
   }
   return take_m(word);
-}
-
-// Letters that are no values of a common word: M99 P, G92 S, G30 P. False when refused.
-bool FanucDecoder::word_of_another_kind(const Word& word, int motion, bool& taken) {
-  if (word.letter == 'P' && step_.code(MGroup::program) == m::kReturn) {
-    return refuse(word, "flow_control",
-                  "M99 with a block number (P) is a jump, which is not interpreted");
-  }
-  if (word.letter == 'Q' && (motion == g::kTapLeft || motion == g::kTapRight)) {
-    return refuse(word, "g_code_not_interpreted",
-                  "Q makes a tapping cycle one of pecks, which is not interpreted");
-  }
-  if (word.letter == 'S' && step_.code(GGroup::non_modal) == g::kSetOrigin) {
-    if (!(word.value > 0.0)) {
-      return refuse(word, "out_of_range", "the highest spindle speed (G92 S) must be above zero");
-    }
-    step_.speed_limit_rpm = word.value;
-    step_.others = taken = true;
-  }
-  if (word.letter == 'P' && step_.code(GGroup::non_modal) == g::kSecondHome) {
-    if (word.value != 2.0 && word.value != 3.0 && word.value != 4.0) {
-      return refuse(word, "out_of_range", "G30 goes to the reference points P2, P3 and P4");
-    }
-    step_.reference_point = static_cast<std::int8_t>(word.value);
-    step_.others = taken = true;
-  }
-  return true;
-}
-
-// Where a letter differs from LinuxCNC's: U V W, D, P as milliseconds, K as repeats, and numbers
-// without a decimal point.
-bool FanucDecoder::letter_word(const Word& word) {
-  const bool dwell = step_.code(GGroup::non_modal) == g::kDwell;
-  char letter = word.letter;
-  double value = word.value;
-  // On a mill U V W are increments only at a reference point; otherwise it is a lathe program.
-  if (letter == 'U' || letter == 'V' || letter == 'W') {
-    if (step_.code(GGroup::non_modal) != g::kHome &&
-        step_.code(GGroup::non_modal) != g::kSecondHome) {
-      return refuse(word, "lathe_word",
-                    "U, V and W are increments on a lathe; lathe programs are not interpreted");
-    }
-    letter = letter == 'U' ? 'X' : letter == 'V' ? 'Y' : 'Z';
-    step_.incremental |= Step::bit(letter);
-  }
-  if (letter == 'D') {
-    // A radius or length number without G41/G42/G43 only prepares and moves nothing.
-    return refuse(word, "unused_word",
-                  "a D word, but cutter radius compensation is not interpreted");
-  }
-  const int motion =
-      step_.code(GGroup::motion) == kNoCode ? in_.state.motion : step_.code(GGroup::motion);
-  bool taken = false;
-  if (!word_of_another_kind(word, motion, taken) || taken) {
-    return taken;
-  }
-  if (dwell && letter == 'X') {  // G4 X: seconds, with or without point as the rule says
-    const bool increments =
-        !word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment;
-    return put_letter(word, 'P', increments ? value * 1e-3 : value);
-  }
-  if (step_.code(MGroup::program) == m::kCall && (letter == 'P' || letter == 'L')) {
-    return put_letter(word, letter, value);
-  }
-  if (letter == 'P') {
-    if (step_.code(GGroup::non_modal) == g::kSetData) {
-      return put_letter(word, 'P', value);  // selects the work offset
-    }
-    // P is a time only where a dwell or a cycle takes one.
-    if (!dwell && !is_cycle(motion)) {
-      return refuse(word, "unused_word", "a P word, but no word of the block uses it");
-    }
-    return put_letter(word, 'P', value * 1e-3);  // milliseconds
-  }
-  // IS-B: 0.001 mm, 0.0001 in, 0.001°. The units of this same block count: on FANUC they act first.
-  if (!word.decimal_point && in_.config.decimal_rule == DecimalRule::least_increment) {
-    const int units = step_.code(GGroup::units);
-    const bool inch = units == kNoCode ? in_.state.unit_mm != 1.0 : units == g::kInch;
-    if (kLengthLetters.find(letter) != std::string_view::npos) {
-      value *= inch ? 1e-4 : 1e-3;
-    } else if (kAngleLetters.find(letter) != std::string_view::npos) {
-      value *= 1e-3;
-    }
-  }
-  if (letter == 'K' && is_cycle(motion)) {
-    letter = 'L';  // the number of repeats is K on these controls
-    value = word.value;
-  }
-  return put_letter(word, letter, value);
 }
 
 // M98 P…: eight digits are four of repeats and four of the program's number; or P and L.
@@ -258,6 +191,11 @@ bool FanucDecoder::program_call() {
     return true;
   }
   const double p = step_['P'];
+  // Haas has program numbers of five digits, and repeats in L alone.
+  if (variant_.haas_words && p < 10.0 * kNumbers) {
+    return !step_.has('L') || step_['L'] >= 1.0 ||
+           in_.refusals.letter(step_, 'L', "bad_value", "too few repeats (L); allowed: 1 or more");
+  }
   if (step_.has('L') && (!(step_['L'] >= 1.0) || p >= kNumbers)) {
     return in_.refusals.letter(step_, 'L', "bad_value",
                                p >= kNumbers ? "repeats both in L and in the digits of P"
@@ -267,6 +205,42 @@ bool FanucDecoder::program_call() {
     step_.set('L', std::floor(p / kNumbers));
     step_.set('P', std::fmod(p, kNumbers));
   }
+  return true;
+}
+
+// G28, G30 and G53, with what may be beside them.
+bool FanucDecoder::machine_points() {
+  const int non_modal = step_.code(GGroup::non_modal);
+  const bool home = non_modal == g::kHome || non_modal == g::kSecondHome;
+  step_.machine_frame = non_modal == g::kMachineFrame;
+  // G28 or G53 in a block with G0/G1: the motion word only sets the mode, the axis words belong to
+  // the other. G80 ends a cycle in any block.
+  const std::int16_t motion = step_.code(GGroup::motion);
+  const bool mode_alone = home || (step_.machine_frame && variant_.machine_frame_is_rapid);
+  if (mode_alone && motion != kNoCode && motion != g::kCycleEnd) {
+    if (motion != g::kRapid && motion != g::kLinear) {
+      return in_.refusals.g_word(step_, motion, "two_users_of_axis_words",
+                                 "two G words in one block that both use the axis words");
+    }
+    step_.motion_mode = motion;
+    step_.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
+  }
+  return !home || (step_.mask & kAxisMask) != 0 ||
+         (variant_.homes_all_axes && non_modal == g::kHome) ||
+         in_.refusals.g_word(step_, non_modal, "axis_words_missing",
+                             "a reference point without axes; write G91 G28 Z0");
+}
+
+// G54.1 P, G154 P.
+bool FanucDecoder::offset_number() {
+  if (step_.code(GGroup::work_offset) != g::kMoreOffsets) {
+    return true;
+  }
+  if (offset_ != std::floor(offset_) || offset_ < 1.0 || offset_ > variant_.most_offsets) {
+    return in_.refusals.letter(step_, 'P', "out_of_range",
+                               "an additional work offset without its number (P)");
+  }
+  step_.fanuc.offset = static_cast<std::int16_t>(offset_);
   return true;
 }
 
@@ -282,29 +256,15 @@ bool FanucDecoder::finish() {
       }
     }
   }
-  if (!program_call()) {
+  if (!program_call() || !offset_number() || !machine_points()) {
     return false;
   }
+  if (step_.has_fanuc && step_.fanuc.scaling_off && step_.has('S')) {
+    return in_.refusals.g_word(step_, g::kScalingOff, "lathe_code",
+                               "G50 with S limits the spindle of a lathe; lathe programs are not "
+                               "interpreted");
+  }
   const int non_modal = step_.code(GGroup::non_modal);
-  if (non_modal == g::kMachineFrame) {
-    step_.machine_frame = true;
-  }
-  // G28 or G53 in a block with G0/G1: the motion word only sets the mode, the axis words belong to
-  // the other. G80 ends a cycle in any block.
-  if (std::int16_t motion = step_.code(GGroup::motion);
-      (non_modal == g::kHome || non_modal == g::kSecondHome || step_.machine_frame) &&
-      motion != kNoCode && motion != g::kCycleEnd) {
-    if (motion != g::kRapid && motion != g::kLinear) {
-      return in_.refusals.g_word(step_, motion, "two_users_of_axis_words",
-                                 "two G words in one block that both use the axis words");
-    }
-    step_.motion_mode = motion;
-    step_.g[static_cast<std::size_t>(GGroup::motion)] = kNoCode;
-  }
-  if ((non_modal == g::kHome || non_modal == g::kSecondHome) && (step_.mask & kAxisMask) == 0) {
-    return in_.refusals.g_word(step_, non_modal, "axis_words_missing",
-                               "a reference point without axes; write G91 G28 Z0");
-  }
   if (step_.code(GGroup::tool_length) == g::kToolLength && !step_.has('H')) {
     return in_.refusals.g_word(step_, g::kToolLength, "tool_missing",
                                "G43 without its offset number (H)");
@@ -317,30 +277,6 @@ bool FanucDecoder::finish() {
         "G52 and G92 in one program: controls differ in which acts first; use only one");
   }
   return true;
-}
-
-bool decode_fanuc(const Decoding& in, const Block& block, Step& step) {
-  return FanucDecoder(in, step).block(block);
-}
-
-}  // namespace
-
-const DialectRules& fanuc_rules() noexcept {
-  // Differences from LinuxCNC: G98 at the start, G10 adds in G91, cycle words stay until G80, P may
-  // be omitted, no lift before moving across; G53 is a one-shot rapid.
-  static constexpr DialectRules kRules{.decode = decode_fanuc,
-                                       .starts_with_g98 = true,
-                                       .machine_frame_alone = true,
-                                       .machine_frame_is_rapid = true,
-                                       .g10_adds = true,
-                                       .cycle_words_stay = true,
-                                       .cycle_needs_dwell = false,
-                                       .cycle_keeps_all_words = true,
-                                       .cycles_are_a_group = true,
-                                       .cycle_lifts_first = false,
-                                       .variables = Variables::macros,
-                                       .numbered_programs = true};
-  return kRules;
 }
 
 }  // namespace steadyrest::nc::interpret

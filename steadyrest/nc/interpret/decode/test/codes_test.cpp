@@ -27,8 +27,16 @@ const std::vector<double> kNotInterpreted = {17.1, 18.1, 19.1, 70, 71, 71.1, 71.
 
 // G code system of the machining centres, without what README.md of steadyrest/nc refuses.
 const std::vector<double> kOfFanuc = {
-    0,  1,  2,  3,  4,  9,  10, 17, 18, 19, 20, 21, 28, 30, 40, 43, 49, 52, 53, 54, 55, 56, 57,
-    58, 59, 61, 64, 73, 74, 80, 81, 82, 83, 84, 85, 86, 89, 90, 91, 92, 94, 95, 96, 97, 98, 99};
+    0,    1,    2,    3,  4,  5,  5.1, 8,  9,  10, 13.1, 15,   16,   17, 18,   19, 20, 21,
+    22,   23,   25,   26, 28, 30, 40,  43, 44, 49, 50,   50.1, 50.2, 51, 51.1, 52, 53, 54,
+    54.1, 55,   56,   57, 58, 59, 61,  62, 64, 68, 69,   73,   74,   76, 80,   81, 82, 83,
+    84,   84.2, 84.3, 85, 86, 87, 88,  89, 90, 91, 92,   93,   94,   95, 96,   97, 98, 99};
+// Haas: bolt patterns as well.
+const std::vector<double> kOfHaas = [] {
+  std::vector<double> codes = kOfFanuc;
+  codes.insert(codes.end(), {70, 71, 72});
+  return codes;
+}();
 // 840D sl programming manual, list of G functions, those below G100 that README.md names.
 const std::vector<double> kOfSinumerik = {0,  1,  2,  3,  4,  9,  17, 18, 19, 40, 53, 54, 55,
                                           56, 57, 60, 64, 70, 71, 90, 91, 93, 94, 95, 96, 97};
@@ -55,7 +63,7 @@ TEST(Dialects, AreNamedInTheOrderOfTheEnumerationAndFoundByTheirNames) {
     EXPECT_EQ(read::name(dialect), kernel::machine::kDialectNames[i]);
     EXPECT_EQ(read::dialect_from_name(read::name(dialect)), dialect);
   }
-  EXPECT_EQ(kernel::machine::kDialectNames.back(), "sinumerik");
+  EXPECT_EQ(kernel::machine::kDialectNames.back(), "mach3");
   EXPECT_FALSE(read::dialect_from_name(""));
 }
 
@@ -66,6 +74,7 @@ TEST(Codes, OfADialectAreThoseOfItsListToTheTenth) {
   });
   const std::pair<Dialect, std::vector<double>> lists[] = {{Dialect::linuxcnc, of_linuxcnc},
                                                            {Dialect::fanuc, kOfFanuc},
+                                                           {Dialect::haas, kOfHaas},
                                                            {Dialect::sinumerik, kOfSinumerik}};
   for (const auto& [dialect, list] : lists) {
     for (int code = 0; code < 1000; ++code) {
@@ -78,7 +87,8 @@ TEST(Codes, OfADialectAreThoseOfItsListToTheTenth) {
 
 // Hundredths are not codes either; RS274/NGC tolerates 0.0001.
 TEST(Codes, HaveNothingBelowTheTenth) {
-  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik}) {
+  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik,
+                                Dialect::haas, Dialect::grbl, Dialect::mach3}) {
     for (const char* word : {"G0.05", "G1.01", "G7.95", "G17.999", "G53.98", "G54.04", "G59.14",
                              "G90.06", "G92.001"}) {
       EXPECT_FALSE(is_word(word, dialect)) << word;
@@ -87,7 +97,8 @@ TEST(Codes, HaveNothingBelowTheTenth) {
 }
 
 TEST(Codes, OfMWordsHaveNoTenths) {
-  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik}) {
+  for (const Dialect dialect : {Dialect::linuxcnc, Dialect::fanuc, Dialect::sinumerik,
+                                Dialect::haas, Dialect::grbl, Dialect::mach3}) {
     for (int code = 0; code < 1000; ++code) {
       if (code % 10 != 0) {
         EXPECT_FALSE(is_word(fmt::format("M{}.{}", code / 10, code % 10), dialect)) << code;

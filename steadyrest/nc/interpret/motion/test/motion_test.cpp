@@ -42,7 +42,8 @@ class MotionStage : public ::testing::Test {
   Parameters parameters_;
   MoveOutput out_{control_.state};
   CutterStage cutter_{control_, out_};
-  Motion motion_{control_, out_, cutter_, parameters_};
+  Corners corners_{control_, out_};
+  Motion motion_{control_, out_, cutter_, corners_, parameters_};
   read::Block block_;
   Kept kept_;
 };

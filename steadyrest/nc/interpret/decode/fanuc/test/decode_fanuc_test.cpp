@@ -77,12 +77,12 @@ TEST(DecodeFanuc, GoesToTheReferencePointByAnIncrement) {
 
 TEST(DecodeFanuc, RefusesWordsThatWouldDoNothingOrAnythingElse) {
   const std::pair<const char*, const char*> cases[] = {
-      {"G1 X1. D1 F100", "unused_word"},      {"G0 X1. P500", "unused_word"},
-      {"G0 X1. V2.", "lathe_word"},           {"G43 Z1.", "tool_missing"},
-      {"G28", "axis_words_missing"},          {"G28 G2 X1. Y1. R1.", "two_users_of_axis_words"},
-      {"G54.1 P3", "g_code_not_interpreted"}, {"G52 X1.\nG92 X0", "ambiguous_code"},
-      {"G92 X0\nG52 X1.", "ambiguous_code"},  {"M60", "machine_builders_code"},
-      {"M62 P1", "m_code_not_interpreted"},   {"M98 P2 L0", "bad_value"},
+      {"G1 X1. E1 F100", "unused_word"},     {"G0 X1. P500", "unused_word"},
+      {"G0 X1. V2.", "lathe_word"},          {"G43 Z1.", "tool_missing"},
+      {"G28", "axis_words_missing"},         {"G28 G2 X1. Y1. R1.", "two_users_of_axis_words"},
+      {"G54.1 P301", "out_of_range"},        {"G52 X1.\nG92 X0", "ambiguous_code"},
+      {"G92 X0\nG52 X1.", "ambiguous_code"}, {"M60", "machine_builders_code"},
+      {"M62 P1", "m_code_not_interpreted"},  {"M98 P2 L0", "bad_value"},
       {"M98 P20002 L3", "bad_value"}};
   for (const auto& [text, expected] : cases) {
     EXPECT_EQ(fanuc_reason(text), expected) << text;
