@@ -109,7 +109,7 @@ export interface ChatterNow {
   better_spindle_percent?: Maybe;
   events?: number;
   chatter_s?: number;
-  /** The strongest line and the spindle order nearest to it; null if there is no clear line. */
+  /** The strongest line and the spindle order nearest to it; null while no line stands out. */
   line?: { frequency_hz: number; nearest_order: Maybe; order_folded: boolean; from_order_hz: number; from_order_sd_hz: number; forced: boolean } | null;
   nearest_mode?: { frequency_hz: number; off_hz: number } | null;
   /** That this chatter is not forced vibration, 0 … 1. */

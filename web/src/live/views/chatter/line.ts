@@ -23,7 +23,7 @@ function placeWords({ line, kind, chatter }: ChatterNow): string {
   return line.forced ? t('line_forced', { hz, order }) : t(beside(line.from_order_hz, 'line_above', 'line_below'), { hz, order, off: off(line.from_order_hz), sd: fixed(line.from_order_sd_hz, 1) });
 }
 
-/** Empty if there is no clear line. */
+/** Empty while no line stands out. */
 export function lineWords(now: ChatterNow): string {
   const { confidence, nearest_mode: mode } = now;
   const words = [
